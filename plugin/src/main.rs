@@ -1,0 +1,2 @@
+//! The command line of Low Action.
+fn main() {}
