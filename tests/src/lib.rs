@@ -1,1 +1,3 @@
 //! Helpers shared by the promise tests.
+
+pub mod dense;
