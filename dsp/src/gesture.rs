@@ -96,3 +96,12 @@ pub struct TimedGesture {
     /// What happens.
     pub gesture: Gesture,
 }
+
+/// (1 − cos(πt/t_p))/2 for 0 ≤ t ≤ t_p: the push of a pluck, equation \[4\], which grows to 1 and ends
+/// there at once.
+pub fn raised_cosine(since: f64, duration: f64) -> f64 {
+    if duration <= 0.0 {
+        return 1.0;
+    }
+    0.5 * (1.0 - libm::cos(std::f64::consts::PI * (since / duration)))
+}

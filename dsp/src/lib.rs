@@ -1,1 +1,31 @@
 //! The physics of Low Action.
+//!
+//! Scene → [`Model`] (coefficients) → [`State`] stepped by a [`Drive`] → strings → samples.
+
+pub mod contact;
+pub mod curve;
+pub mod drive;
+pub mod energy;
+pub mod error;
+pub mod gesture;
+pub mod grid;
+mod kernel;
+pub mod model;
+pub mod pickup;
+mod response;
+pub mod scene;
+pub mod simulation;
+mod solver;
+pub mod state;
+pub mod string;
+
+pub use drive::Drive;
+pub use energy::{Energies, Entry, Ledger};
+pub use error::Error;
+pub use gesture::{Gesture, TimedGesture, Touch};
+pub use model::{Barrier, Model, StringParameters};
+pub use scene::{Scene, SolverSettings, Stencil};
+pub use simulation::Simulation;
+pub use solver::Convergence;
+pub use state::State;
+pub use string::Scratch;

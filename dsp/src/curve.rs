@@ -1,0 +1,163 @@
+//! A quantity given as a number or as points joined by straight lines.
+
+use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
+
+use crate::error::Error;
+
+/// A number, or `[[where, value], …]` joined by straight lines and constant outside.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Curve {
+    /// The same everywhere.
+    Constant(f64),
+    /// Points in increasing order of the first number.
+    Points(Vec<[f64; 2]>),
+}
+
+impl Curve {
+    /// The value at `place` (a time or a position).
+    pub fn at(&self, place: f64) -> f64 {
+        let points = match self {
+            Curve::Constant(value) => return *value,
+            Curve::Points(points) => points,
+        };
+        let after = points.partition_point(|p| p[0] <= place);
+        match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
+            (None, Some(first)) => first[1],
+            (Some(last), None) => last[1],
+            (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * ((place - a[0]) / (b[0] - a[0])),
+            (None, None) => 0.0,
+        }
+    }
+
+    /// Whether the value is the same everywhere.
+    pub fn is_constant(&self) -> bool {
+        matches!(self, Curve::Constant(_))
+    }
+
+    /// The largest value taken.
+    pub fn largest(&self) -> f64 {
+        match self {
+            Curve::Constant(value) => *value,
+            Curve::Points(points) => points.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+
+    /// Refuses an empty or unordered list and every value outside `[low, high]`.
+    pub(crate) fn check(&self, name: &str, low: f64, high: f64, unit: &str) -> Result<(), Error> {
+        match self {
+            Curve::Constant(value) => crate::error::within(name, *value, low, high, unit).map(drop),
+            Curve::Points(points) => {
+                if points.is_empty() {
+                    return Err(Error::range(name, "[]", "it needs at least one point"));
+                }
+                for (i, pair) in points.windows(2).enumerate() {
+                    if pair[1][0].partial_cmp(&pair[0][0]) != Some(std::cmp::Ordering::Greater) {
+                        let message = format!("it must be above the one before, {:e}", pair[0][0]);
+                        return Err(Error::range(format!("{name}[{}][0]", i + 1), pair[1][0], message));
+                    }
+                }
+                for (i, point) in points.iter().enumerate() {
+                    crate::error::within(&format!("{name}[{i}][0]"), point[0], -1e9, 1e9, "")?;
+                    crate::error::within(&format!("{name}[{i}][1]"), point[1], low, high, unit)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Curve {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct CurveVisitor;
+        impl<'de> Visitor<'de> for CurveVisitor {
+            type Value = Curve;
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("a number or a list of pairs [[where, value], ...]")
+            }
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Curve, E> {
+                Ok(Curve::Constant(value))
+            }
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Curve, E> {
+                Ok(Curve::Constant(value as f64))
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Curve, A::Error> {
+                let mut points = Vec::new();
+                while let Some(point) = seq.next_element::<[f64; 2]>()? {
+                    points.push(point);
+                }
+                Ok(Curve::Points(points))
+            }
+        }
+        deserializer.deserialize_any(CurveVisitor)
+    }
+}
+
+/// A whole number of equal things, or the place (or value) of each.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CountOrList {
+    /// So many.
+    Count(usize),
+    /// Each.
+    List(Vec<f64>),
+}
+
+impl<'de> Deserialize<'de> for CountOrList {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct CountVisitor;
+        impl<'de> Visitor<'de> for CountVisitor {
+            type Value = CountOrList;
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("a count from 0 to 1000 or a list of places in m")
+            }
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<CountOrList, E> {
+                match usize::try_from(value) {
+                    Ok(count) if count <= 1000 => Ok(CountOrList::Count(count)),
+                    _ => Err(E::invalid_value(de::Unexpected::Signed(value), &self)),
+                }
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<CountOrList, A::Error> {
+                let mut places = Vec::new();
+                while let Some(place) = seq.next_element::<f64>()? {
+                    places.push(place);
+                }
+                Ok(CountOrList::List(places))
+            }
+        }
+        deserializer.deserialize_any(CountVisitor)
+    }
+}
+
+/// One number for all, or one each.
+#[derive(Debug, Clone, PartialEq)]
+pub enum OneOrEach {
+    /// The same for all.
+    One(f64),
+    /// Each its own.
+    Each(Vec<f64>),
+}
+
+impl<'de> Deserialize<'de> for OneOrEach {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct EachVisitor;
+        impl<'de> Visitor<'de> for EachVisitor {
+            type Value = OneOrEach;
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("a number or a list of numbers")
+            }
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<OneOrEach, E> {
+                Ok(OneOrEach::One(value))
+            }
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<OneOrEach, E> {
+                Ok(OneOrEach::One(value as f64))
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<OneOrEach, A::Error> {
+                let mut values = Vec::new();
+                while let Some(value) = seq.next_element::<f64>()? {
+                    values.push(value);
+                }
+                Ok(OneOrEach::Each(values))
+            }
+        }
+        deserializer.deserialize_any(EachVisitor)
+    }
+}

@@ -1,0 +1,50 @@
+//! What acts on one string in one sample.
+
+use crate::grid::Reading;
+use crate::model::Model;
+
+/// How many pushes may act on a string of an instrument at once.
+pub const PUSHES: usize = 8;
+
+/// A force on a point of the string.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Push {
+    /// The point.
+    pub reading: Reading,
+    /// Force at n, N, up is positive.
+    pub force: f64,
+}
+
+/// What a hand does to one finger in one sample.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Hand {
+    /// Place at n + 1, m from the nut.
+    pub position: f64,
+    /// Force at n, N, positive towards the board.
+    pub force: f64,
+}
+
+/// Everything that acts on one string in step n, which leads from n to n + 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drive {
+    /// Tension at n, N.
+    pub tension: f64,
+    /// Forces on points of the string.
+    pub pushes: Vec<Push>,
+    /// What the hand does to the finger in each slot; ignored where there is no finger.
+    pub hands: Vec<Hand>,
+    /// Heights of the fixed contacts at n + 1, m, in the model's order; empty while they rest.
+    pub heights: Vec<f64>,
+}
+
+impl Drive {
+    /// Nothing acts; room for [`PUSHES`] pushes and for moving every contact.
+    pub fn new(model: &Model) -> Drive {
+        Drive {
+            tension: model.string.tension,
+            pushes: Vec::with_capacity(PUSHES),
+            hands: vec![Hand::default(); model.finger_slots],
+            heights: Vec::with_capacity(model.contacts.len()),
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! The energy ledger: what is stored, lost and put in, term by term, and whether it adds up.
+//!
+//! The ledger only reads the state after a step and the record the step left in its scratch; it never
+//! touches what it measures. Stored energy lives half way between samples, at n + ½; power at n. The
+//! balance 𝔥ⁿ⁺½ − 𝔥ⁿ⁻½ + k(𝔮 − 𝔭) = 0 holds exactly in exact arithmetic, whatever the solver's cap.
+
+use crate::drive::Drive;
+use crate::grid::NUT;
+use crate::model::{Model, Stiffness};
+use crate::state::{Finger, State};
+use crate::string::Scratch;
+
+/// Stored energies at n + ½, J.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Energies {
+    /// Of the string as a linear one: motion, tension, bending, less the loss term of the scheme.
+    pub string: f64,
+    /// Of tension modulation.
+    pub tension: f64,
+    /// Of all contacts: board, frets and fingers' pads.
+    pub contact: f64,
+    /// Of the fingers' motion.
+    pub finger: f64,
+}
+
+impl Energies {
+    /// All of it, J.
+    pub fn total(&self) -> f64 {
+        self.string + self.tension + self.contact + self.finger
+    }
+}
+
+/// One sample of the ledger.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Entry {
+    /// Stored energies at n + ½.
+    pub energies: Energies,
+    /// Power lost at n: string losses, hands, pads, W.
+    pub power_loss: f64,
+    /// Power lost to inexact contact forces (negative when they put energy in), W.
+    pub power_solver: f64,
+    /// Power put in at n: pushes, hands, slides, moving tension and frets, fingers placed or removed, W.
+    pub power_in: f64,
+    /// Energy that the balance does not explain, J.
+    pub residual: f64,
+}
+
+impl std::ops::AddAssign for Entry {
+    fn add_assign(&mut self, other: Entry) {
+        self.energies.string += other.energies.string;
+        self.energies.tension += other.energies.tension;
+        self.energies.contact += other.energies.contact;
+        self.energies.finger += other.energies.finger;
+        self.power_loss += other.power_loss;
+        self.power_solver += other.power_solver;
+        self.power_in += other.power_in;
+        self.residual += other.residual;
+    }
+}
+
+/// The running ledger of one string.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ledger {
+    energies: Energies,
+    /// The part of the contact energy that is board and frets, J.
+    board: f64,
+    /// Tension in the last step, N.
+    tension: f64,
+    finger_changes: u64,
+    /// Energy there was when the ledger was opened, J.
+    pub initial: f64,
+    /// The largest total energy so far, J.
+    pub largest: f64,
+    /// Energy put in so far, J, the initial energy included.
+    pub put_in: f64,
+    /// Sum of the residuals, J.
+    pub residual_sum: f64,
+    /// The largest |residual| over the largest energy up to its sample.
+    pub worst_residual: f64,
+}
+
+impl Ledger {
+    /// Opens the ledger of a string in its present state, at the model's own tension or the one given.
+    pub fn new(model: &Model, state: &State, tension: f64) -> Ledger {
+        let past: Vec<f64> = state.displacement.iter().zip(&state.motion).map(|(u, d)| u - d).collect();
+        let stiffness = model.stiffness(tension);
+        let (string, stretched) = string_energy(model, &stiffness, &past, state);
+        let board = board_energy(model, &state.heights, &state.displacement, &past, state);
+        let contact = board + fingers_energy(&state.fingers, &state.displacement, &past);
+        let energies =
+            Energies { string, tension: stretched, contact, finger: fingers_motion(model, &state.fingers) };
+        let initial = energies.total();
+        Ledger {
+            energies,
+            board,
+            tension,
+            finger_changes: state.finger_changes,
+            initial,
+            largest: initial,
+            put_in: initial,
+            residual_sum: 0.0,
+            worst_residual: 0.0,
+        }
+    }
+
+    /// Books the step that has just been taken under `drive`.
+    pub fn record(&mut self, model: &Model, state: &State, scratch: &Scratch, drive: &Drive) -> Entry {
+        let k = model.grid.time_step;
+        let two_k = 2.0 * k;
+        // After the step the scratch holds uⁿ and dⁿ, and the fingers as they were at n.
+        let (now, motion_now) = (&scratch.displacement, &scratch.motion);
+        let mut entered = 0.0;
+        if state.finger_changes != self.finger_changes {
+            self.finger_changes = state.finger_changes;
+            let past: Vec<f64> = now.iter().zip(motion_now).map(|(u, d)| u - d).collect();
+            let before = self.energies.total();
+            self.energies.contact = self.board + fingers_energy(&scratch.fingers, now, &past);
+            self.energies.finger = fingers_motion(model, &scratch.fingers);
+            entered = self.energies.total() - before;
+        }
+        let stiffness = model.stiffness(drive.tension);
+        let (string, stretched) = string_energy(model, &stiffness, now, state);
+        self.board = board_energy(model, &state.heights, &state.displacement, now, state);
+        let contact = self.board + fingers_energy(&state.fingers, &state.displacement, now);
+        let finger = fingers_motion(model, &state.fingers);
+        let energies = Energies { string, tension: stretched, contact, finger };
+
+        let mut loss = string_loss(model, motion_now, &state.motion);
+        let mut input = entered / k;
+        for push in &drive.pushes {
+            let motion = push.reading.of(&state.motion) + push.reading.of(motion_now);
+            input += push.force * motion / two_k;
+        }
+        for (slot, finger) in state.fingers.iter().enumerate() {
+            let (Some(finger), Some(old)) = (finger, &scratch.fingers[slot]) else { continue };
+            let velocity = (finger.motion + old.motion) / two_k;
+            loss += finger.touch.hand_damping * velocity * velocity;
+            input -= drive.hands[slot].force * velocity;
+        }
+        let mut solver = 0.0;
+        for active in &scratch.active {
+            loss += (active.required - active.lambda) * active.change / two_k;
+            solver += (active.force - active.required) * active.change / two_k;
+            input += active.force * active.raised / two_k;
+            if let Some(slot) = active.slot.checked_sub(model.contacts.len())
+                && let Some(old) = &scratch.fingers[slot]
+                && old.reading_before != active.reading
+            {
+                let past = |r: &crate::grid::Reading| r.of(now) - r.of(motion_now);
+                input += active.force * (past(&active.reading) - past(&old.reading_before)) / two_k;
+            }
+        }
+        if drive.tension != self.tension {
+            let old = model.stiffness(self.tension);
+            input += stiffness_change(model, &stiffness, &old, now, motion_now) / k;
+            self.tension = drive.tension;
+        }
+        let residual = energies.total() - (self.energies.total() - entered) + k * (loss + solver - input);
+        self.energies = energies;
+        self.largest = self.largest.max(energies.total());
+        self.put_in += k * input;
+        self.residual_sum += residual;
+        self.worst_residual = self.worst_residual.max(residual.abs() / self.largest.max(f64::MIN_POSITIVE));
+        Entry { energies, power_loss: loss, power_solver: solver, power_in: input, residual }
+    }
+
+    /// Stored energies at the last sample booked.
+    pub fn energies(&self) -> Energies {
+        self.energies
+    }
+}
+
+/// Σ of products of neighbours' differences, (δa)ᵀδb over all intervals.
+fn slopes(model: &Model, a: &[f64], b: &[f64]) -> f64 {
+    (NUT..NUT + model.grid.intervals).map(|i| (a[i + 1] - a[i]) * (b[i + 1] - b[i])).sum()
+}
+
+/// The undivided second difference at an interior index.
+#[inline(always)]
+fn second(u: &[f64], i: usize) -> f64 {
+    (u[i + 1] - u[i]) - (u[i] - u[i - 1])
+}
+
+/// Σ(δ²a)(δ²b) over the unknowns, and Σ(δ³a)(δ³b) over the intervals, δ²u vanishing at both ends.
+fn curvatures(model: &Model, a: &[f64], b: &[f64]) -> (f64, f64) {
+    let (mut second_sum, mut third_sum) = (0.0, 0.0);
+    let (mut a_before, mut b_before) = (0.0, 0.0);
+    for i in NUT + 1..NUT + model.grid.intervals {
+        let (va, vb) = (second(a, i), second(b, i));
+        second_sum += va * vb;
+        third_sum += (va - a_before) * (vb - b_before);
+        (a_before, b_before) = (va, vb);
+    }
+    (second_sum, third_sum + a_before * b_before)
+}
+
+/// Energy of tension, bending and the stencil's correction between two displacements, J.
+fn stiffness_energy(model: &Model, stiffness: &Stiffness, a: &[f64], b: &[f64], slope: f64) -> f64 {
+    let h = model.grid.spacing;
+    let rho = model.string.linear_density;
+    let (second, third) = curvatures(model, a, b);
+    let h3 = h * h * h;
+    0.5 * stiffness.tension / h * slope
+        + 0.5 * rho * stiffness.kappa_2 / h3 * second
+        + 0.5 * rho * stiffness.kappa_6 / (h3 * h * h) * third
+}
+
+/// Energies of the string and of tension modulation between uⁿ and the state's uⁿ⁺¹, J.
+fn string_energy(model: &Model, stiffness: &Stiffness, now: &[f64], state: &State) -> (f64, f64) {
+    let (k, h) = (model.grid.time_step, model.grid.spacing);
+    let string = &model.string;
+    let (next, motion) = (&state.displacement, &state.motion);
+    let slope = slopes(model, now, next);
+    let kinetic: f64 = motion.iter().map(|d| d * d).sum();
+    let mut energy = 0.5 * string.linear_density * h / (k * k) * kinetic
+        + stiffness_energy(model, stiffness, now, next, slope);
+    if string.loss_1 > 0.0 {
+        let shear = slopes(model, motion, motion);
+        energy -= 0.5 * string.linear_density * string.loss_1 / (h * k) * shear;
+    }
+    let stretched = if string.tension_modulation {
+        string.axial_stiffness() / (8.0 * string.length * h * h) * slope * slope
+    } else {
+        0.0
+    };
+    (energy, stretched)
+}
+
+/// Energy that a change of stiffness puts into the string between uⁿ⁻¹ and uⁿ, J.
+fn stiffness_change(model: &Model, new: &Stiffness, old: &Stiffness, now: &[f64], motion: &[f64]) -> f64 {
+    let past: Vec<f64> = now.iter().zip(motion).map(|(u, d)| u - d).collect();
+    let slope = slopes(model, now, &past);
+    let change = Stiffness {
+        tension: new.tension - old.tension,
+        kappa_2: new.kappa_2 - old.kappa_2,
+        kappa_6: new.kappa_6 - old.kappa_6,
+    };
+    stiffness_energy(model, &change, now, &past, slope)
+}
+
+/// Power lost in the string, W, from its motions dⁿ and dⁿ⁺¹.
+fn string_loss(model: &Model, now: &[f64], next: &[f64]) -> f64 {
+    let (k, h) = (model.grid.time_step, model.grid.spacing);
+    let string = &model.string;
+    let mut loss = 0.0;
+    if string.loss_0 > 0.0 {
+        let sum: f64 = now.iter().zip(next).map(|(a, b)| (a + b) * (a + b)).sum();
+        loss += 2.0 * string.linear_density * string.loss_0 * h * sum / (4.0 * k * k);
+    }
+    if string.loss_1 > 0.0 {
+        let sum: f64 = (NUT..NUT + model.grid.intervals)
+            .map(|i| {
+                let shear = (now[i + 1] - now[i]) + (next[i + 1] - next[i]);
+                shear * shear
+            })
+            .sum();
+        loss += 2.0 * string.linear_density * string.loss_1 * sum / (4.0 * k * k * h);
+    }
+    loss
+}
+
+/// Σ½(Φⁿ + Φⁿ⁺¹) over board and frets, J.
+fn board_energy(model: &Model, heights: &[f64], next: &[f64], now: &[f64], state: &State) -> f64 {
+    // Heights at n are only apart from those at n + 1 while the barrier moves.
+    model
+        .contacts
+        .iter()
+        .enumerate()
+        .map(|(i, contact)| {
+            let after = contact.law.energy(heights[i] - contact.reading.of(next));
+            let before = contact.law.energy(state.heights_before[i] - contact.reading.of(now));
+            0.5 * (before + after)
+        })
+        .sum()
+}
+
+/// Σ½(Φⁿ + Φⁿ⁺¹) over fingers' pads, J; fingers as they are at n + 1.
+fn fingers_energy(fingers: &[Option<Finger>], next: &[f64], now: &[f64]) -> f64 {
+    fingers
+        .iter()
+        .flatten()
+        .map(|finger| {
+            let after = finger.law.energy(finger.reading.of(next) - finger.height);
+            let height_now = finger.height - finger.motion;
+            let before = finger.law.energy(finger.reading_before.of(now) - height_now);
+            0.5 * (before + after)
+        })
+        .sum()
+}
+
+/// ΣM/2(δu_f)², J.
+fn fingers_motion(model: &Model, fingers: &[Option<Finger>]) -> f64 {
+    let k = model.grid.time_step;
+    let square = |finger: &Finger| finger.touch.mass * (finger.motion / k) * (finger.motion / k);
+    fingers.iter().flatten().map(|finger| 0.5 * square(finger)).sum()
+}

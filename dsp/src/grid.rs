@@ -1,0 +1,165 @@
+//! The grid of one string, and how a point between grid points is read and driven.
+
+use crate::error::Error;
+
+/// Where node 0 (the nut) stands in an array over the grid, so that node 1, the first unknown, is at
+/// index 4 and there is room for the two odd ghost points beyond each end.
+pub const NUT: usize = 3;
+
+/// Lanes of the widest vector the kernels are written for; loops run over whole groups of lanes.
+pub const LANES: usize = 8;
+
+/// A string of `intervals` equal spacings in space and a step in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Number of intervals N; the unknowns are the N − 1 interior points.
+    pub intervals: usize,
+    /// Length of the string, m.
+    pub length: f64,
+    /// Spacing h = L/N, m.
+    pub spacing: f64,
+    /// Time step k, s.
+    pub time_step: f64,
+}
+
+impl Grid {
+    /// A grid of the given number of intervals.
+    pub fn new(length: f64, intervals: usize, time_step: f64) -> Self {
+        Grid { intervals, length, spacing: length / intervals as f64, time_step }
+    }
+
+    /// Number of unknowns, N − 1.
+    pub fn unknowns(&self) -> usize {
+        self.intervals - 1
+    }
+
+    /// Length of a padded array over the grid: ghosts at both ends, whole groups of lanes.
+    pub fn padded_len(&self) -> usize {
+        NUT + 1 + self.unknowns().next_multiple_of(LANES) + LANES
+    }
+
+    /// The place of grid point `node`, m from the nut.
+    pub fn place(&self, node: usize) -> f64 {
+        self.length * node as f64 / self.intervals as f64
+    }
+
+    /// The reading of the point `position` (m from the nut), which must lie on the string.
+    pub fn reading(&self, position: f64) -> Reading {
+        Reading::new(self, position)
+    }
+
+    /// Refuses a point that is not strictly between the ends of the string.
+    pub fn check_place(&self, name: &str, position: f64) -> Result<f64, Error> {
+        if position.is_finite() && position > 0.0 && position < self.length {
+            Ok(position)
+        } else {
+            Err(Error::range(
+                name,
+                position,
+                format!("it must lie on the string, above 0 and below {} m", self.length),
+            ))
+        }
+    }
+}
+
+/// Four-point cubic Lagrange interpolation: `weights` is hg on the nodes `first` to `first + 3`.
+///
+/// The same weights read a value, hgᵀu, and spread a force, g f = weights·f/h, so that the power given
+/// to the string is exactly force times the velocity that is read. Beyond the ends the string
+/// continues oddly (u₋₁ = −u₁), which is folded into the weights; the fixed end points weigh nothing.
+/// At a grid point all but one weight vanish.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Reading {
+    /// Array index (see [`NUT`]) of the first of the four nodes.
+    pub first: usize,
+    /// hg on the four nodes.
+    pub weights: [f64; 4],
+}
+
+/// The largest Σ|hg| of any reading: cubic interpolation half way between nodes weighs
+/// (−1, 9, 9, −1)/16.
+pub const READING_NORM: f64 = 1.25;
+
+/// Closer to a node than this fraction of the spacing is at the node.
+const AT_NODE: f64 = 1e-9;
+
+impl Reading {
+    fn new(grid: &Grid, position: f64) -> Self {
+        let nodes = grid.intervals;
+        let place = (position / grid.spacing).clamp(0.0, nodes as f64);
+        let nearest = place.round();
+        if (place - nearest).abs() < AT_NODE {
+            return Reading::at_node(grid, nearest as usize);
+        }
+        let cell = (place.floor() as usize).min(nodes - 1);
+        let p = place - cell as f64;
+        // Cubic Lagrange weights of the nodes cell − 1 … cell + 2 at fraction p of the cell.
+        let lagrange = [
+            -p * (p - 1.0) * (p - 2.0) / 6.0,
+            (p + 1.0) * (p - 1.0) * (p - 2.0) / 2.0,
+            -(p + 1.0) * p * (p - 2.0) / 2.0,
+            (p + 1.0) * p * (p - 1.0) / 6.0,
+        ];
+        // The window of four nodes, kept inside 0 … N where the grid is long enough for that.
+        let window = cell.saturating_sub(1).min((nodes + 1).saturating_sub(4)) as isize;
+        let mut weights = [0.0; 4];
+        for (offset, &weight) in lagrange.iter().enumerate() {
+            let node = cell as isize - 1 + offset as isize;
+            let (node, sign) = match node {
+                n if n < 0 => (-n, -1.0),
+                n if n > nodes as isize => (2 * nodes as isize - n, -1.0),
+                n => (n, 1.0),
+            };
+            if node != 0 && node != nodes as isize {
+                weights[(node - window) as usize] += sign * weight;
+            }
+        }
+        Reading { first: NUT + window as usize, weights }
+    }
+
+    /// The reading of a grid point; the ends of the string read nothing.
+    pub fn at_node(grid: &Grid, node: usize) -> Self {
+        let mut weights = [0.0; 4];
+        // Node 0 or N is fixed; every other node is the last of its window or, near the nut, earlier.
+        let window = node.saturating_sub(3);
+        if node != 0 && node != grid.intervals {
+            weights[node - window] = 1.0;
+        }
+        Reading { first: NUT + window, weights }
+    }
+
+    /// The place read, in nodes from the start of the array (exact away from the ends of the string).
+    pub(crate) fn centre(&self) -> f64 {
+        let w = &self.weights;
+        self.first as f64 + (w[1] + 2.0 * w[2] + 3.0 * w[3])
+    }
+
+    /// The value hgᵀv of an array over the grid.
+    #[inline(always)]
+    pub fn of(&self, v: &[f64]) -> f64 {
+        let w = &self.weights;
+        let v = &v[self.first..self.first + 4];
+        (w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3])
+    }
+
+    /// Adds `amount` times the weights to an array over the grid.
+    #[inline(always)]
+    pub fn spread(&self, v: &mut [f64], amount: f64) {
+        let v = &mut v[self.first..self.first + 4];
+        for (value, weight) in v.iter_mut().zip(self.weights) {
+            *value += weight * amount;
+        }
+    }
+
+    /// Σ over nodes of the product of two readings' weights, h²gᵀg′: how strongly they couple.
+    #[inline]
+    pub fn overlap(&self, other: &Reading) -> f64 {
+        let (near, far) = if self.first <= other.first { (self, other) } else { (other, self) };
+        let shift = far.first - near.first;
+        let mut sum = 0.0;
+        for i in shift..4 {
+            sum += near.weights[i] * far.weights[i - shift];
+        }
+        sum
+    }
+}

@@ -1,0 +1,408 @@
+//! A scene: everything there is to simulate, in SI units, as read from a TOML file.
+
+use serde::Deserialize;
+
+use crate::curve::{CountOrList, Curve, OneOrEach};
+use crate::error::{Error, within};
+
+/// A whole simulation: strings, what they may hit, what acts on them, what is listened to.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Internal sample rate, Hz, 1e3 to 1e7.
+    pub sample_rate: f64,
+    /// Length of the simulation, s, 0 to 1e5.
+    pub duration: f64,
+    /// How the scheme is solved.
+    #[serde(default)]
+    pub solver: SolverSettings,
+    /// The strings, in order.
+    pub string: Vec<StringSpec>,
+    /// What the strings may hit; without it no contact is modelled.
+    pub fretboard: Option<FretboardSpec>,
+    /// Pushes on strings.
+    #[serde(default)]
+    pub pluck: Vec<PluckSpec>,
+    /// Fingers above strings.
+    #[serde(default)]
+    pub finger: Vec<FingerSpec>,
+    /// What is listened to.
+    #[serde(default)]
+    pub output: OutputSpec,
+}
+
+/// Speed against accuracy.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SolverSettings {
+    /// Newton iterations at most in a sample, 0 to 1000. Passive at every cap, even 0.
+    pub max_iterations: usize,
+    /// Largest change of penetration at which the iteration may stop, m, 0 to 1e-3.
+    pub tolerance: f64,
+    /// Difference operator of the string.
+    pub stencil: Stencil,
+}
+
+impl Default for SolverSettings {
+    fn default() -> Self {
+        SolverSettings { max_iterations: 50, tolerance: 1e-15, stencil: Stencil::Paper }
+    }
+}
+
+/// Difference operators of the string; the same energy argument holds for all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stencil {
+    /// Five points, as published: second-order accurate.
+    Paper,
+    /// Five points with the leading dispersion error taken out of the stiffness, at no cost.
+    Corrected,
+    /// Seven points with the two leading dispersion errors taken out.
+    Wide,
+}
+
+/// One string.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StringSpec {
+    /// Length, m.
+    pub length: f64,
+    /// Mass per length, kg/m.
+    pub linear_density: f64,
+    /// Tension at rest, N, or its course in time `[[t, T], …]`.
+    pub tension: Curve,
+    /// Young's modulus of the core, Pa; 0 for an ideal string.
+    #[serde(default)]
+    pub youngs_modulus: f64,
+    /// Radius of the core, m.
+    #[serde(default)]
+    pub core_radius: f64,
+    /// Loss of all frequencies alike, 1/s.
+    #[serde(default)]
+    pub loss_0: f64,
+    /// Loss that grows with frequency, m²/s.
+    #[serde(default)]
+    pub loss_1: f64,
+    /// Whether stretching raises the tension.
+    #[serde(default)]
+    pub tension_modulation: bool,
+    /// Initial displacement `[[x, u], …]`, m, released from rest.
+    pub shape: Option<Vec<[f64; 2]>>,
+}
+
+/// Board and frets under all strings.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FretboardSpec {
+    /// Contact stiffness of a point, N/m^exponent.
+    pub stiffness: f64,
+    /// Exponent of the contact law, 1 to 5.
+    pub exponent: f64,
+    /// Height of the board, m, or its profile `[[x, height], …]` (no board beyond its ends); without
+    /// it there is no back board.
+    pub board: Option<Curve>,
+    /// Number of frets in equal temperament, or their places, m from the nut.
+    #[serde(default = "no_frets")]
+    pub frets: CountOrList,
+    /// Height of the crowns, m, or one per fret.
+    pub fret_top: Option<OneOrEach>,
+    /// Where frets act on the grid.
+    #[serde(default)]
+    pub fret_placement: FretPlacement,
+    /// Spacing for which `stiffness` holds, m: board points of another spacing h get stiffness·h/this.
+    pub board_reference_spacing: Option<f64>,
+}
+
+fn no_frets() -> CountOrList {
+    CountOrList::Count(0)
+}
+
+/// Where frets act on the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FretPlacement {
+    /// At their places, by interpolation.
+    #[default]
+    Exact,
+    /// At the nearest grid points.
+    Nearest,
+}
+
+/// A raised-cosine push, equation \[4\] of the paper.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PluckSpec {
+    /// Which string, 1 for the first.
+    #[serde(default = "first")]
+    pub string: usize,
+    /// When it begins, s.
+    #[serde(default)]
+    pub start: f64,
+    /// How long it lasts, s.
+    pub duration: f64,
+    /// Where, m from the nut.
+    pub position: f64,
+    /// Largest force, N, up is positive.
+    pub force: f64,
+}
+
+fn first() -> usize {
+    1
+}
+
+/// A finger above a string.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FingerSpec {
+    /// Which string, 1 for the first.
+    #[serde(default = "first")]
+    pub string: usize,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Stiffness of the pad, N/m^exponent.
+    pub stiffness: f64,
+    /// Exponent of the pad's law, 1 to 5.
+    pub exponent: f64,
+    /// Hunt–Crossley damping, s/m.
+    #[serde(default)]
+    pub damping: f64,
+    /// The hand's own damping, N s/m.
+    #[serde(default)]
+    pub hand_damping: f64,
+    /// Place, m from the nut, or its course in time.
+    pub position: Curve,
+    /// Initial height of the pad, m.
+    #[serde(default)]
+    pub height: f64,
+    /// Initial velocity, m/s, up is positive.
+    #[serde(default)]
+    pub velocity: f64,
+    /// Force, N downward, or its course in time.
+    #[serde(default = "no_force")]
+    pub force: Curve,
+}
+
+fn no_force() -> Curve {
+    Curve::Constant(0.0)
+}
+
+/// What is listened to.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OutputSpec {
+    /// A point whose velocity is heard, m from the nut, or `"bridge"` for the force on the bridge.
+    #[serde(default)]
+    pub position: ListeningPoint,
+}
+
+/// A point of the string, or the bridge.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum ListeningPoint {
+    /// The transverse force of the string on the bridge, N.
+    #[default]
+    Bridge,
+    /// The velocity of the string at a place, m from the nut, in m/s.
+    At(f64),
+}
+
+impl<'de> Deserialize<'de> for ListeningPoint {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PointVisitor;
+        impl serde::de::Visitor<'_> for PointVisitor {
+            type Value = ListeningPoint;
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("a place in m from the nut or \"bridge\"")
+            }
+            fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<ListeningPoint, E> {
+                Ok(ListeningPoint::At(value))
+            }
+            fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<ListeningPoint, E> {
+                Ok(ListeningPoint::At(value as f64))
+            }
+            fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<ListeningPoint, E> {
+                match value {
+                    "bridge" => Ok(ListeningPoint::Bridge),
+                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(value), &self)),
+                }
+            }
+        }
+        deserializer.deserialize_any(PointVisitor)
+    }
+}
+
+impl Scene {
+    /// Reads and checks a scene.
+    ///
+    /// # Errors
+    /// When the text is not TOML, has an unknown key, or a value is outside its range. What depends on
+    /// the grid (a string too short for it, a stiffness too high for it) is refused when the scene is
+    /// built.
+    pub fn from_toml(text: &str) -> Result<Scene, Error> {
+        let scene: Scene = toml::from_str(text).map_err(|error| Error::syntax(&error, text))?;
+        scene.check()?;
+        Ok(scene)
+    }
+
+    /// Number of samples the scene lasts.
+    pub fn samples(&self) -> u64 {
+        (self.duration * self.sample_rate).round() as u64
+    }
+
+    /// Refuses every value outside its range, naming it as in the file.
+    pub fn check(&self) -> Result<(), Error> {
+        within("sample_rate", self.sample_rate, 1e3, 1e7, "Hz")?;
+        within("duration", self.duration, 0.0, 1e5, "s")?;
+        self.solver.check()?;
+        if self.string.is_empty() || self.string.len() > 1000 {
+            return Err(Error::range("[[string]]", self.string.len(), "there must be 1 to 1000 strings"));
+        }
+        for (i, string) in self.string.iter().enumerate() {
+            string.check(&format!("string[{}]", i + 1))?;
+        }
+        if let Some(fretboard) = &self.fretboard {
+            fretboard.check()?;
+        }
+        for (i, pluck) in self.pluck.iter().enumerate() {
+            let name = format!("pluck[{}]", i + 1);
+            let length = self.length_of(&name, pluck.string)?;
+            within(&format!("{name}.start"), pluck.start, 0.0, 1e9, "s")?;
+            within(&format!("{name}.duration"), pluck.duration, 0.0, 1e9, "s")?;
+            within(&format!("{name}.force"), pluck.force, -1e6, 1e6, "N")?;
+            on_string(&format!("{name}.position"), pluck.position, length)?;
+        }
+        for (i, finger) in self.finger.iter().enumerate() {
+            let name = format!("finger[{}]", i + 1);
+            let length = self.length_of(&name, finger.string)?;
+            finger.check(&name, length)?;
+        }
+        if let ListeningPoint::At(place) = self.output.position {
+            for string in &self.string {
+                on_string("output.position", place, string.length)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn length_of(&self, name: &str, string: usize) -> Result<f64, Error> {
+        let spec = string.checked_sub(1).and_then(|i| self.string.get(i));
+        spec.map(|s| s.length).ok_or_else(|| {
+            Error::range(format!("{name}.string"), string, format!("it must be 1 to {}", self.string.len()))
+        })
+    }
+}
+
+impl SolverSettings {
+    /// Refuses values outside their range.
+    pub fn check(&self) -> Result<(), Error> {
+        within("solver.max_iterations", self.max_iterations as f64, 0.0, 1000.0, "")?;
+        within("solver.tolerance", self.tolerance, 0.0, 1e-3, "m").map(drop)
+    }
+}
+
+impl StringSpec {
+    /// Refuses values outside their range; `name` says which string this is.
+    pub fn check(&self, name: &str) -> Result<(), Error> {
+        within(&format!("{name}.length"), self.length, 1e-3, 1e3, "m")?;
+        within(&format!("{name}.linear_density"), self.linear_density, 1e-7, 1e2, "kg/m")?;
+        self.tension.check(&format!("{name}.tension"), 1e-3, 1e6, "N")?;
+        within(&format!("{name}.youngs_modulus"), self.youngs_modulus, 0.0, 1e13, "Pa")?;
+        within(&format!("{name}.core_radius"), self.core_radius, 0.0, 0.1, "m")?;
+        within(&format!("{name}.loss_0"), self.loss_0, 0.0, 1e4, "1/s")?;
+        within(&format!("{name}.loss_1"), self.loss_1, 0.0, 1e2, "m²/s")?;
+        for (i, point) in self.shape.iter().flatten().enumerate() {
+            within(&format!("{name}.shape[{i}][0]"), point[0], 0.0, self.length, "m")?;
+        }
+        if let Some(shape) = &self.shape {
+            Curve::Points(shape.clone()).check(&format!("{name}.shape"), -1.0, 1.0, "m")?;
+        }
+        Ok(())
+    }
+}
+
+impl FretboardSpec {
+    fn check(&self) -> Result<(), Error> {
+        crate::contact::ContactLaw::new("fretboard", self.stiffness, self.exponent)?;
+        if let Some(board) = &self.board {
+            board.check("fretboard.board", -10.0, 0.0, "m")?;
+        }
+        if let Some(spacing) = self.board_reference_spacing {
+            within("fretboard.board_reference_spacing", spacing, 1e-6, 1e3, "m")?;
+        }
+        let count = match &self.frets {
+            CountOrList::Count(count) => *count,
+            CountOrList::List(places) => {
+                for (i, &place) in places.iter().enumerate() {
+                    within(&format!("fretboard.frets[{i}]"), place, 0.0, 1e3, "m")?;
+                }
+                places.len()
+            }
+        };
+        match &self.fret_top {
+            None if count > 0 => {
+                Err(Error::range("fretboard.fret_top", "nothing", "frets need the height of their crowns, m"))
+            }
+            None => Ok(()),
+            Some(OneOrEach::One(height)) => within("fretboard.fret_top", *height, -10.0, 0.0, "m").map(drop),
+            Some(OneOrEach::Each(heights)) if heights.len() != count => Err(Error::range(
+                "fretboard.fret_top",
+                format!("{} heights", heights.len()),
+                format!("it must be one height, or one for each of the {count} frets"),
+            )),
+            Some(OneOrEach::Each(heights)) => {
+                for (i, &height) in heights.iter().enumerate() {
+                    within(&format!("fretboard.fret_top[{i}]"), height, -10.0, 0.0, "m")?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl FingerSpec {
+    fn check(&self, name: &str, length: f64) -> Result<(), Error> {
+        self.touch().check(name)?;
+        within(&format!("{name}.height"), self.height, -10.0, 10.0, "m")?;
+        within(&format!("{name}.velocity"), self.velocity, -1e3, 1e3, "m/s")?;
+        self.force.check(&format!("{name}.force"), -1e6, 1e6, "N")?;
+        match &self.position {
+            Curve::Constant(place) => on_string(&format!("{name}.position"), *place, length)?,
+            Curve::Points(points) => {
+                self.position.check(&format!("{name}.position"), 0.0, length, "m")?;
+                for (i, point) in points.iter().enumerate() {
+                    on_string(&format!("{name}.position[{i}][1]"), point[1], length)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The finger as a mass on a lossy spring.
+    pub fn touch(&self) -> crate::gesture::Touch {
+        crate::gesture::Touch {
+            mass: self.mass,
+            stiffness: self.stiffness,
+            exponent: self.exponent,
+            damping: self.damping,
+            hand_damping: self.hand_damping,
+        }
+    }
+}
+
+impl crate::gesture::Touch {
+    /// Refuses values outside their range; `name` says whose they are.
+    pub fn check(&self, name: &str) -> Result<(), Error> {
+        within(&format!("{name}.mass"), self.mass, 1e-7, 1e3, "kg")?;
+        crate::contact::ContactLaw::new(name, self.stiffness, self.exponent)?;
+        within(&format!("{name}.damping"), self.damping, 0.0, 1e5, "s/m")?;
+        within(&format!("{name}.hand_damping"), self.hand_damping, 0.0, 1e5, "N s/m").map(drop)
+    }
+}
+
+/// Refuses a place that is not strictly between the ends of a string.
+fn on_string(name: &str, place: f64, length: f64) -> Result<(), Error> {
+    if place.is_finite() && place > 0.0 && place < length {
+        return Ok(());
+    }
+    let accepted = format!("it must lie on the string, above 0 and below {length} m");
+    Err(Error::range(name, place, accepted))
+}

@@ -1,0 +1,243 @@
+//! A scene as it runs: strings stepped by the forces and positions of the scene, one sample at a time.
+
+use crate::curve::Curve;
+use crate::drive::{Drive, Push};
+use crate::energy::{Entry, Ledger};
+use crate::error::Error;
+use crate::gesture::raised_cosine;
+use crate::grid::Reading;
+use crate::model::{Barrier, ContactKind, Model, StringParameters};
+use crate::pickup::bridge_force;
+use crate::scene::{ListeningPoint, PluckSpec, Scene};
+use crate::solver::Convergence;
+use crate::state::State;
+use crate::string::Scratch;
+
+/// A running scene.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    strings: Vec<SceneString>,
+    sample_rate: f64,
+    samples: u64,
+    step: u64,
+    ledgers: Option<Vec<Ledger>>,
+}
+
+/// One string of a running scene.
+#[derive(Debug, Clone)]
+pub struct SceneString {
+    /// Coefficients.
+    pub model: Model,
+    /// State at the present sample.
+    pub state: State,
+    /// What the last step did.
+    pub scratch: Scratch,
+    /// What acted in the last step.
+    pub drive: Drive,
+    /// How the last step's contacts were solved.
+    pub convergence: Convergence,
+    plucks: Vec<(PluckSpec, Reading)>,
+    fingers: Vec<SceneFinger>,
+    tension: Curve,
+    listening: Option<Reading>,
+}
+
+#[derive(Debug, Clone)]
+struct SceneFinger {
+    /// Index in the scene's list.
+    number: usize,
+    position: Curve,
+    force: Curve,
+}
+
+impl Simulation {
+    /// Compiles a scene.
+    ///
+    /// # Errors
+    /// When a value is out of range, a string too short for its grid, a contact too stiff for the rate.
+    pub fn new(scene: &Scene) -> Result<Simulation, Error> {
+        scene.check()?;
+        let strings = (0..scene.string.len())
+            .map(|index| SceneString::new(scene, index))
+            .collect::<Result<_, Error>>()?;
+        Ok(Simulation {
+            strings,
+            sample_rate: scene.sample_rate,
+            samples: scene.samples(),
+            step: 0,
+            ledgers: None,
+        })
+    }
+
+    /// Opens the energy ledger; from now on [`Simulation::step`] returns its entries. The strings move
+    /// exactly as they would without.
+    pub fn open_ledger(&mut self) {
+        let open = |string: &SceneString| Ledger::new(&string.model, &string.state, string.tension.at(0.0));
+        self.ledgers = Some(self.strings.iter().map(open).collect());
+    }
+
+    /// The strings' ledgers, if they are open.
+    pub fn ledgers(&self) -> &[Ledger] {
+        self.ledgers.as_deref().unwrap_or_default()
+    }
+
+    /// Advances every string from sample n to n + 1. Returns the sum of the ledgers' entries.
+    pub fn step(&mut self) -> Option<Entry> {
+        let time = self.step as f64 / self.sample_rate;
+        let next = (self.step + 1) as f64 / self.sample_rate;
+        let mut sum = self.ledgers.as_ref().map(|_| Entry::default());
+        for (index, string) in self.strings.iter_mut().enumerate() {
+            string.step(time, next);
+            if let (Some(sum), Some(ledgers)) = (&mut sum, &mut self.ledgers) {
+                *sum += ledgers[index].record(&string.model, &string.state, &string.scratch, &string.drive);
+            }
+        }
+        self.step += 1;
+        sum
+    }
+
+    /// Number of steps taken.
+    pub fn steps(&self) -> u64 {
+        self.step
+    }
+
+    /// Number of steps the scene lasts.
+    pub fn samples(&self) -> u64 {
+        self.samples
+    }
+
+    /// Sample rate, Hz.
+    pub fn sample_rate(&self) -> f64 {
+        self.sample_rate
+    }
+
+    /// The strings.
+    pub fn strings(&self) -> &[SceneString] {
+        &self.strings
+    }
+
+    /// One string, 0 for the first.
+    pub fn string(&self, index: usize) -> &SceneString {
+        &self.strings[index]
+    }
+
+    /// What is heard after the last step: the sum over strings of the velocity at the listening point
+    /// (m/s) or of the force on the bridge (N).
+    pub fn output(&self) -> f64 {
+        self.strings.iter().map(SceneString::output).sum()
+    }
+}
+
+impl SceneString {
+    fn new(scene: &Scene, index: usize) -> Result<SceneString, Error> {
+        let spec = &scene.string[index];
+        let number = index + 1;
+        let fingers: Vec<_> =
+            scene.finger.iter().enumerate().filter(|(_, finger)| finger.string == number).collect();
+        let barrier = scene.fretboard.as_ref().map(|b| Barrier::from_spec(b, spec.length)).transpose()?;
+        let parameters = StringParameters::from_spec(spec);
+        let model = Model::new(parameters, barrier.as_ref(), fingers.len(), scene.solver, scene.sample_rate)
+            .map_err(|error| error.under(&format!("string[{number}]")))?;
+        let mut state = State::new(&model);
+        if let Some(shape) = &spec.shape {
+            state.set_shape(&model, &Curve::Points(shape.clone()));
+        }
+        for (slot, (finger_index, finger)) in fingers.iter().enumerate() {
+            let place = finger.position.at(0.0);
+            state
+                .place_finger(&model, slot, finger.touch(), place, finger.height, finger.velocity)
+                .map_err(|error| error.under(&format!("finger[{}]", finger_index + 1)))?;
+        }
+        let plucks = scene.pluck.iter().filter(|pluck| pluck.string == number);
+        let mut drive = Drive::new(&model);
+        drive.pushes.reserve(scene.pluck.len());
+        Ok(SceneString {
+            plucks: plucks.map(|p| (p.clone(), model.grid.reading(p.position))).collect(),
+            fingers: fingers
+                .iter()
+                .map(|(finger_index, finger)| SceneFinger {
+                    number: *finger_index,
+                    position: finger.position.clone(),
+                    force: finger.force.clone(),
+                })
+                .collect(),
+            tension: spec.tension.clone(),
+            listening: match scene.output.position {
+                ListeningPoint::Bridge => None,
+                ListeningPoint::At(place) => Some(model.grid.reading(place)),
+            },
+            scratch: Scratch::new(&model),
+            drive,
+            convergence: Convergence::default(),
+            state,
+            model,
+        })
+    }
+
+    fn step(&mut self, time: f64, next: f64) {
+        self.drive.tension = self.tension.at(time);
+        self.drive.pushes.clear();
+        for (pluck, reading) in &self.plucks {
+            let since = time - pluck.start;
+            if since >= 0.0 && since <= pluck.duration && pluck.force != 0.0 {
+                let force = pluck.force * raised_cosine(since, pluck.duration);
+                self.drive.pushes.push(Push { reading: *reading, force });
+            }
+        }
+        for (hand, finger) in self.drive.hands.iter_mut().zip(&self.fingers) {
+            hand.position = finger.position.at(next);
+            hand.force = finger.force.at(time);
+        }
+        self.convergence = self.state.step(&self.model, &self.drive, &mut self.scratch);
+    }
+
+    fn output(&self) -> f64 {
+        match &self.listening {
+            Some(reading) => self.state.velocity_at(&self.model, reading),
+            None => bridge_force(&self.model, &self.state, self.drive.tension),
+        }
+    }
+
+    /// Place of each interior point, m from the nut.
+    pub fn places(&self) -> impl Iterator<Item = f64> + '_ {
+        (1..self.model.grid.intervals).map(|node| self.model.grid.place(node))
+    }
+
+    /// For each finger of this string: its index in the scene's list, its height (m) and its force on
+    /// the string in the last step (N, downward).
+    pub fn fingers(&self) -> impl Iterator<Item = (usize, f64, f64)> + '_ {
+        let contacts = self.model.contacts.len();
+        self.fingers.iter().enumerate().map(move |(slot, finger)| {
+            let height = self.state.fingers()[slot].map_or(f64::NAN, |finger| finger.height);
+            let force = self.scratch.forces().find(|(index, _)| *index == contacts + slot);
+            (finger.number, height, force.map_or(0.0, |(_, force)| force))
+        })
+    }
+
+    /// Sum of the board's forces on the string in the last step, N.
+    pub fn board_force(&self) -> f64 {
+        let contact = |index: usize| self.model.contacts.get(index).map(|contact| contact.kind);
+        let board = |index| matches!(contact(index), Some(ContactKind::Board { .. }));
+        self.scratch.forces().filter(|(index, _)| board(*index)).map(|(_, force)| force).sum()
+    }
+
+    /// Force of each fret on the string in the last step, N: (fret of the barrier's list, force), for
+    /// those in contact.
+    pub fn fret_forces(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.scratch.forces().filter_map(|(index, force)| {
+            match self.model.contacts.get(index).map(|contact| contact.kind) {
+                Some(ContactKind::Fret { index: fret }) => Some((fret, force)),
+                _ => None,
+            }
+        })
+    }
+
+    /// Number of frets under the string, those that share a point with a higher one included.
+    pub fn fret_count(&self) -> usize {
+        let indices = self.model.contacts.iter().filter_map(|contact| match contact.kind {
+            ContactKind::Fret { index } => Some(index + 1),
+            ContactKind::Board { .. } => None,
+        });
+        indices.max().unwrap_or(0)
+    }
+}

@@ -1,0 +1,197 @@
+//! The state of one string: all that must be remembered from one sample to the next.
+
+use crate::contact::ContactLaw;
+use crate::curve::Curve;
+use crate::error::Error;
+use crate::gesture::Touch;
+use crate::grid::{NUT, Reading};
+use crate::model::Model;
+
+/// A finger near the string.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Finger {
+    /// Its parameters.
+    pub touch: Touch,
+    /// Contact law of its pad.
+    pub law: ContactLaw,
+    /// Height of the pad uⁿ, m.
+    pub height: f64,
+    /// Motion in the last step uⁿ − uⁿ⁻¹, m.
+    pub motion: f64,
+    /// Place at n, m from the nut.
+    pub position: f64,
+    /// Reading of the string under it at n.
+    pub reading: Reading,
+    /// Reading of the string under it at n − 1.
+    pub reading_before: Reading,
+}
+
+/// The last forces of a contact, from which the next solution starts.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ForceHistory {
+    /// Force in step `step`, N.
+    pub last: f64,
+    /// Force in the step before, N.
+    pub before: f64,
+    /// One more than the index of the last step in which the contact was active; 0 for never.
+    pub step: u64,
+}
+
+/// Which fixed contacts are near enough to be looked at in each sample, and how much the string may
+/// move before all must be looked at again.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Watch {
+    /// Indices into the model's contacts, in order.
+    pub near: Vec<u32>,
+    /// Motion that cannot yet close any gap of the contacts not in `near`, m.
+    pub budget: f64,
+}
+
+/// The state of one string, its fingers and its contacts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// uⁿ over the padded grid, m.
+    pub(crate) displacement: Vec<f64>,
+    /// uⁿ − uⁿ⁻¹ over the padded grid, m.
+    pub(crate) motion: Vec<f64>,
+    /// Fingers, by slot.
+    pub(crate) fingers: Vec<Option<Finger>>,
+    /// Heights bⁿ and bⁿ⁻¹ of the fixed contacts, m.
+    pub(crate) heights: Vec<f64>,
+    pub(crate) heights_before: Vec<f64>,
+    /// Heights bⁿ⁺¹ within a step; the same as bⁿ between steps, once the barrier rests.
+    pub(crate) heights_next: Vec<f64>,
+    /// Steps until all three heights are the same again.
+    pub(crate) settling: u8,
+    /// How often a finger has been placed or removed.
+    pub(crate) finger_changes: u64,
+    /// Last forces, by contact, then by finger.
+    pub(crate) forces: Vec<ForceHistory>,
+    pub(crate) watch: Watch,
+    /// Number of steps taken.
+    pub(crate) steps: u64,
+    /// Energy that inexact solutions have put in and not yet taken out again, J; kept tiny.
+    pub(crate) solver_balance: f64,
+    /// The largest energy (string at rest tension, and contacts) seen at a contact so far, J.
+    pub(crate) energy_scale: f64,
+    interior: usize,
+}
+
+impl State {
+    /// A string at rest with no finger near it.
+    pub fn new(model: &Model) -> State {
+        let heights: Vec<f64> = model.contacts.iter().map(|contact| contact.height).collect();
+        let contacts = heights.len();
+        let mut near = Vec::with_capacity(contacts);
+        near.extend(0..contacts as u32);
+        State {
+            displacement: vec![0.0; model.grid.padded_len()],
+            motion: vec![0.0; model.grid.padded_len()],
+            fingers: vec![None; model.finger_slots],
+            heights_before: heights.clone(),
+            heights_next: heights.clone(),
+            heights,
+            settling: 0,
+            finger_changes: 0,
+            forces: vec![ForceHistory::default(); contacts + model.finger_slots],
+            watch: Watch { near, budget: -1.0 },
+            steps: 0,
+            solver_balance: 0.0,
+            energy_scale: 0.0,
+            interior: model.grid.unknowns(),
+        }
+    }
+
+    /// Back to rest, without allocating.
+    pub fn reset(&mut self, model: &Model) {
+        self.displacement.fill(0.0);
+        self.motion.fill(0.0);
+        self.fingers.fill(None);
+        for (height, contact) in self.heights.iter_mut().zip(&model.contacts) {
+            *height = contact.height;
+        }
+        self.heights_before.copy_from_slice(&self.heights);
+        self.heights_next.copy_from_slice(&self.heights);
+        self.settling = 0;
+        self.finger_changes = 0;
+        self.forces.fill(ForceHistory::default());
+        self.watch.near.clear();
+        self.watch.near.extend(0..model.contacts.len() as u32);
+        self.watch.budget = -1.0;
+        self.steps = 0;
+        self.solver_balance = 0.0;
+        self.energy_scale = 0.0;
+    }
+
+    /// Gives the string a displacement over places (m over m from the nut), at rest.
+    pub fn set_shape(&mut self, model: &Model, shape: &Curve) {
+        for node in 1..model.grid.intervals {
+            self.displacement[NUT + node] = shape.at(model.grid.place(node));
+        }
+        self.motion.fill(0.0);
+        self.watch.near.clear();
+        self.watch.near.extend(0..model.contacts.len() as u32);
+        self.watch.budget = -1.0;
+    }
+
+    /// Displacement of the interior points u₁ … u_{N−1}, m.
+    pub fn displacement(&self) -> &[f64] {
+        &self.displacement[NUT + 1..NUT + 1 + self.interior]
+    }
+
+    /// Motion of the interior points in the last step, uⁿ − uⁿ⁻¹, m.
+    pub fn motion(&self) -> &[f64] {
+        &self.motion[NUT + 1..NUT + 1 + self.interior]
+    }
+
+    /// The fingers, by slot.
+    pub fn fingers(&self) -> &[Option<Finger>] {
+        &self.fingers
+    }
+
+    /// Present heights of the fixed contacts, m, in the model's order.
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
+    /// The string's displacement at a reading, m.
+    pub fn displacement_at(&self, reading: &Reading) -> f64 {
+        reading.of(&self.displacement)
+    }
+
+    /// The string's velocity at a reading, m/s, half a step ago.
+    pub fn velocity_at(&self, model: &Model, reading: &Reading) -> f64 {
+        reading.of(&self.motion) / model.grid.time_step
+    }
+
+    /// Puts a finger into a slot: at a place (m from the nut), a height (m) and a velocity (m/s). What
+    /// was in the slot is taken away.
+    ///
+    /// # Errors
+    /// When the place is off the string or the pad too stiff for this rate.
+    pub fn place_finger(
+        &mut self,
+        model: &Model,
+        slot: usize,
+        touch: Touch,
+        position: f64,
+        height: f64,
+        velocity: f64,
+    ) -> Result<(), Error> {
+        let position = model.grid.check_place("finger.position", position)?;
+        let law = model.finger_law(&touch)?;
+        let reading = model.grid.reading(position);
+        let motion = velocity * model.grid.time_step;
+        let finger = Finger { touch, law, height, motion, position, reading, reading_before: reading };
+        self.fingers[slot] = Some(finger);
+        self.finger_changes += 1;
+        self.forces[model.contacts.len() + slot] = ForceHistory::default();
+        Ok(())
+    }
+
+    /// Takes the finger in a slot away.
+    pub fn remove_finger(&mut self, slot: usize) {
+        self.finger_changes += u64::from(self.fingers[slot].is_some());
+        self.fingers[slot] = None;
+    }
+}
