@@ -1,0 +1,191 @@
+//! Intonation: strings that play in tune on their own grid, by geometry and tension alone.
+//!
+//! Pressing a string behind a fret stretches it, the stretch raises its tension, and the note comes
+//! out sharp; a coarse grid adds errors of its own. A luthier moves nut and saddle; here the place of
+//! every fret under every string is solved for, as on fingerboards with curved frets, and the tension
+//! for the open string. Nothing is corrected while a note sounds: a finger between frets, a slide and
+//! a bent note find the same neck.
+//!
+//! A note's pitch is found without playing it: the string's rest under the finger ([`equilibrium`]),
+//! then the frequency of the lowest oscillation about it ([`mode`]), both with the very matrices the
+//! scheme steps through.
+
+mod band;
+mod equilibrium;
+mod mode;
+
+use crate::curve::Curve;
+use crate::error::Error;
+use crate::grid::Reading;
+use crate::model::{Model, StringParameters};
+use crate::neck::Neck;
+use crate::scene::{SolverSettings, Stencil};
+use crate::setup::{Fretting, Intonation, Setup, SetupString, frequency};
+use equilibrium::Equilibrium;
+use mode::{Resting, open_frequency, stopped_oscillation};
+
+/// A string ready to be modelled.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Intonated {
+    /// The string with its tension, and the tension it may be bent to.
+    pub string: StringParameters,
+    /// Places of the frets under this string, m from the nut, fret 1 first.
+    pub frets: Vec<f64>,
+}
+
+/// One string over a neck on a grid of a stencil and a sample rate.
+struct Bench<'a> {
+    neck: &'a Neck,
+    fretting: &'a Fretting,
+    settings: SolverSettings,
+    sample_rate: f64,
+}
+
+/// Steps of a search for one number; each gains several digits.
+const MOST_STEPS: usize = 30;
+
+/// Pitch is met to this fraction, 2e-6 cents, below what tension modulation does to any audible note.
+const PITCH_TOLERANCE: f64 = 1e-6;
+
+/// Tunes one string of a set-up on its grid and, if the set-up asks for it, places its frets.
+///
+/// # Errors
+/// When the string is too short for its grid or a contact too stiff for the sample rate.
+pub fn intonate(
+    setup: &Setup,
+    string: &SetupString,
+    stencil: Stencil,
+    sample_rate: f64,
+) -> Result<Intonated, Error> {
+    let bench = Bench {
+        neck: &setup.neck,
+        fretting: &setup.player.fretting,
+        settings: SolverSettings { stencil, ..SolverSettings::default() },
+        sample_rate,
+    };
+    let target = std::f64::consts::TAU * frequency(string.pitch);
+    let tuned = bench.tuned(string, setup.highest_tension_ratio(), target)?;
+    let mut frets = setup.neck.equal_places();
+    if setup.intonation == Intonation::Compensated {
+        bench.place_frets(&tuned, target, &mut frets)?;
+    }
+    Ok(Intonated { string: tuned, frets })
+}
+
+impl Bench<'_> {
+    fn model(&self, string: &StringParameters, frets: &[f64]) -> Result<Model, Error> {
+        let barrier = self.neck.barrier(frets)?;
+        Model::new(*string, Some(&barrier), 1, self.settings, self.sample_rate)
+    }
+
+    /// The string with the tension that puts its first partial at `target` (1/s) on its own grid.
+    fn tuned(&self, string: &SetupString, ratio: f64, target: f64) -> Result<StringParameters, Error> {
+        let length = self.neck.scale_length;
+        let wave_speed = length * target / std::f64::consts::PI;
+        let mut tension = wave_speed * wave_speed * string.linear_density;
+        let mut tuned = StringParameters {
+            length,
+            linear_density: string.linear_density,
+            tension,
+            tension_limit: tension * ratio,
+            youngs_modulus: string.youngs_modulus,
+            core_radius: string.core_radius,
+            loss_0: string.loss_0,
+            loss_1: string.loss_1,
+            tension_modulation: true,
+        };
+        for _ in 0..MOST_STEPS {
+            let off = open_frequency(&self.model(&tuned, &[])?, 1) / target;
+            tension /= off * off;
+            tuned = StringParameters { tension, tension_limit: tension * ratio, ..tuned };
+            if (off - 1.0).abs() < PITCH_TOLERANCE {
+                break;
+            }
+        }
+        Ok(tuned)
+    }
+
+    /// Moves the frets, lowest first, until each stops the string at its pitch.
+    fn place_frets(&self, string: &StringParameters, open: f64, frets: &mut [f64]) -> Result<(), Error> {
+        let (mut rest, mut shift) = (None, 0.0);
+        for fret in 0..frets.len() {
+            let target = open * libm::exp2((fret + 1) as f64 / 12.0);
+            let sharpness = |place: f64, frets: &mut [f64], rest: &mut Option<Vec<f64>>| {
+                frets[fret] = place;
+                let found = self.stopped(string, frets, fret, target, rest.take())?;
+                *rest = Some(found.1);
+                Ok::<f64, Error>(found.0 / target - 1.0)
+            };
+            // The secant method, started where the fret before leads to, with the ideal string's law:
+            // pitch goes with 1/(L − x).
+            let (low, high) = self.limits(frets, fret, string.length);
+            let mut place = (frets[fret] + shift).clamp(low, high);
+            let mut off = sharpness(place, frets, &mut rest)?;
+            let mut slope = 1.0 / (string.length - place);
+            for _ in 0..MOST_STEPS {
+                if off.abs() < PITCH_TOLERANCE {
+                    break;
+                }
+                let next = (place - off / slope).clamp(low, high);
+                let next_off = sharpness(next, frets, &mut rest)?;
+                let secant = (next_off - off) / (next - place);
+                if secant.is_finite() && secant > 0.0 {
+                    slope = secant;
+                }
+                (place, off) = (next, next_off);
+            }
+            frets[fret] = place;
+            shift = place - self.neck.equal_place((fret + 1) as f64);
+            rest = None;
+        }
+        Ok(())
+    }
+
+    /// How far a fret may move: frets keep their order.
+    fn limits(&self, frets: &[f64], fret: usize, length: f64) -> (f64, f64) {
+        let below = if fret == 0 { 0.0 } else { frets[fret - 1] };
+        let above = frets.get(fret + 1).copied().unwrap_or(length);
+        let here = self.neck.equal_place((fret + 1) as f64);
+        (below + 0.1 * (here - below), here + 0.9 * (above - here))
+    }
+
+    /// Angular frequency (1/s) of the string stopped at a fret, near `target`, and its shape at rest.
+    fn stopped(
+        &self,
+        string: &StringParameters,
+        frets: &[f64],
+        fret: usize,
+        target: f64,
+        guess: Option<Vec<f64>>,
+    ) -> Result<(f64, Vec<f64>), Error> {
+        let model = self.model(string, frets)?;
+        let law = model.finger_law(&self.fretting.touch)?;
+        let place = finger_place(frets, fret, self.fretting.behind);
+        let at: Reading = model.grid.reading(place);
+        let guess = guess.unwrap_or_else(|| self.folded(&model, place, frets[fret]));
+        let rest = Equilibrium::new(&model, &at, self.fretting.force, guess);
+        let finger = Resting { at, law, fretting: self.fretting };
+        let sound = stopped_oscillation(&model, &rest, &finger, frets[fret], target);
+        Ok((sound.frequency, rest.displacement))
+    }
+
+    /// The string as straight pieces from nut to finger, crown and saddle, bent as far under the
+    /// finger as tension and board let it: nearly its shape at rest.
+    fn folded(&self, model: &Model, finger: f64, crown: f64) -> Vec<f64> {
+        let (length, height) = (model.string.length, self.neck.crown_height(crown));
+        let behind = crown - finger;
+        // T(y/finger + (y − height)/behind) = −force.
+        let free =
+            (height / behind - self.fretting.force / model.string.tension) / (1.0 / finger + 1.0 / behind);
+        let pressed = free.max(self.neck.board_height(finger).unwrap_or(free));
+        let corners = Curve::Points(vec![[0.0, 0.0], [finger, pressed], [crown, height], [length, 0.0]]);
+        (1..model.grid.intervals).map(|node| corners.at(model.grid.place(node))).collect()
+    }
+}
+
+/// Where a finger presses to stop the fret of index `fret`, m from the nut: the fraction `behind` of the
+/// fret's own space, from the crown towards the nut.
+pub fn finger_place(frets: &[f64], fret: usize, behind: f64) -> f64 {
+    let below = if fret == 0 { 0.0 } else { frets[fret - 1] };
+    frets[fret] - behind * (frets[fret] - below)
+}

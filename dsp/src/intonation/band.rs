@@ -1,0 +1,182 @@
+//! Symmetric matrices of seven diagonals, real or complex, and linear systems with them.
+
+use std::ops::{Add, Div, Mul, Sub};
+
+use crate::grid::{Grid, NUT, Reading};
+use crate::model::Stiffness;
+
+/// What the entries may be: real, or complex with plain (not conjugate) symmetry.
+pub(super) trait Number:
+    Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+}
+
+impl Number for f64 {}
+impl Number for nalgebra::Complex<f64> {}
+
+/// Diagonals kept: the main one and three above.
+const DIAGONALS: usize = 4;
+
+/// Undivided −δ², δ⁴ and −δ⁶ as coefficients of the neighbours at distance 0 to 3.
+const DIFFERENCES: [[f64; DIAGONALS]; 3] =
+    [[2.0, -1.0, 0.0, 0.0], [6.0, -4.0, 1.0, 0.0], [20.0, -15.0, 6.0, -1.0]];
+
+/// A symmetric matrix over the unknowns of a grid; row i holds entries (i, i) to (i, i + 3).
+#[derive(Debug, Clone)]
+pub(super) struct Band<T> {
+    rows: Vec<[T; DIAGONALS]>,
+}
+
+impl<T: Number> Band<T> {
+    /// The stiffness of a string on a grid, N/m: force at a grid point per displacement of another.
+    /// The string goes on oddly beyond its fixed ends.
+    pub fn of_string(grid: &Grid, linear_density: f64, stiffness: &Stiffness) -> Self {
+        let h = grid.spacing;
+        let parts = [
+            stiffness.tension / h,
+            linear_density * stiffness.kappa_2 / (h * h * h),
+            linear_density * stiffness.kappa_6 / (h * h * h * h * h),
+        ];
+        let near: [f64; DIAGONALS] =
+            std::array::from_fn(|d| (0..3).map(|part| parts[part] * DIFFERENCES[part][d]).sum());
+        let mut matrix = Band { rows: vec![[T::from(0.0); DIAGONALS]; grid.unknowns()] };
+        let (last, count) = (grid.intervals as isize, DIAGONALS as isize);
+        for row in 1..last {
+            for offset in 1 - count..count {
+                let (column, sign) = match row + offset {
+                    column if column < 0 => (-column, -1.0),
+                    column if column > last => (2 * last - column, -1.0),
+                    column => (column, 1.0),
+                };
+                // The lower half is not stored, the ends do not move.
+                if column >= row && column < last {
+                    let entry = &mut matrix.rows[row as usize - 1][(column - row) as usize];
+                    *entry = *entry + T::from(sign * near[offset.unsigned_abs()]);
+                }
+            }
+        }
+        matrix
+    }
+
+    /// Adds `amount` times the product of a point's weights with themselves: a spring at that point.
+    pub fn add_spring(&mut self, at: &Reading, amount: T) {
+        for i in 0..4 {
+            for j in i..4 {
+                let weight = at.weights[i] * at.weights[j];
+                if weight != 0.0 {
+                    let entry = &mut self.rows[at.first + i - NUT - 1][j - i];
+                    *entry = *entry + T::from(weight) * amount;
+                }
+            }
+        }
+    }
+
+    /// Adds `amount` to the main diagonal.
+    pub fn shift(&mut self, amount: T) {
+        for row in &mut self.rows {
+            row[0] = row[0] + amount;
+        }
+    }
+
+    /// The product with a vector.
+    pub fn times(&self, v: &[T]) -> Vec<T> {
+        let mut product = vec![T::from(0.0); v.len()];
+        for (i, row) in self.rows.iter().enumerate() {
+            product[i] = product[i] + row[0] * v[i];
+            for (d, &entry) in row.iter().enumerate().skip(1) {
+                if i + d < v.len() {
+                    product[i] = product[i] + entry * v[i + d];
+                    product[i + d] = product[i + d] + entry * v[i];
+                }
+            }
+        }
+        product
+    }
+
+    /// LDLᵀ in place of the matrix: D on the main diagonal, L beside it.
+    pub fn factor(mut self) -> Factored<T> {
+        let count = self.rows.len();
+        for i in 0..count {
+            let row = self.rows[i];
+            for d in 1..DIAGONALS.min(count - i) {
+                let ratio = row[d] / row[0];
+                for (entry, &above) in self.rows[i + d].iter_mut().zip(&row[d..]) {
+                    *entry = *entry - ratio * above;
+                }
+                self.rows[i][d] = ratio;
+            }
+        }
+        Factored { rows: self.rows }
+    }
+}
+
+/// A factored [`Band`].
+#[derive(Debug, Clone)]
+pub(super) struct Factored<T> {
+    rows: Vec<[T; DIAGONALS]>,
+}
+
+impl<T: Number> Factored<T> {
+    /// Solves for the right-hand side `b`.
+    pub fn solve(&self, b: &[T]) -> Vec<T> {
+        let mut x = b.to_vec();
+        let count = x.len();
+        for (i, row) in self.rows.iter().enumerate() {
+            for d in 1..DIAGONALS.min(count - i) {
+                x[i + d] = x[i + d] - row[d] * x[i];
+            }
+        }
+        for (i, row) in self.rows.iter().enumerate().rev() {
+            x[i] = x[i] / row[0];
+            for d in 1..DIAGONALS.min(count - i) {
+                x[i] = x[i] - row[d] * x[i + d];
+            }
+        }
+        x
+    }
+}
+
+/// aᵀb, without conjugation.
+pub(super) fn dot<T: Number>(a: &[T], b: &[T]) -> T {
+    a.iter().zip(b).fold(T::from(0.0), |sum, (&x, &y)| sum + x * y)
+}
+
+/// A factored matrix plus `strength`·v vᵀ.
+#[derive(Debug, Clone)]
+pub(super) struct RankOne<T> {
+    base: Factored<T>,
+    vector: Vec<T>,
+    solved: Vec<T>,
+    /// strength/(1 + strength·vᵀA⁻¹v).
+    gain: T,
+}
+
+impl<T: Number> RankOne<T> {
+    /// Sherman and Morrison's update of a factored matrix.
+    pub fn new(base: Factored<T>, vector: Vec<T>, strength: T) -> Self {
+        let solved = base.solve(&vector);
+        let gain = strength / (T::from(1.0) + strength * dot(&vector, &solved));
+        RankOne { base, vector, solved, gain }
+    }
+
+    /// Solves for the right-hand side `b`.
+    pub fn solve(&self, b: &[T]) -> Vec<T> {
+        let mut x = self.base.solve(b);
+        let amount = self.gain * dot(&self.vector, &x);
+        for (value, &solved) in x.iter_mut().zip(&self.solved) {
+            *value = *value - amount * solved;
+        }
+        x
+    }
+}
+
+/// The value of a point of the string, from the unknowns.
+pub(super) fn read(at: &Reading, v: &[f64]) -> f64 {
+    weights(at).map(|(i, weight)| weight * v[i]).sum()
+}
+
+/// The weights of a point that are not zero, with the unknowns they belong to.
+pub(super) fn weights(at: &Reading) -> impl Iterator<Item = (usize, f64)> + '_ {
+    let present = at.weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
+    present.map(|(i, &weight)| (at.first + i - NUT - 1, weight))
+}

@@ -1,0 +1,111 @@
+//! The sounding mode of a string: open, in closed form; stopped, by inverse iteration.
+
+use nalgebra::Complex;
+
+use super::band::{Band, RankOne, dot};
+use super::equilibrium::{Equilibrium, axial_spring, stiffness_at};
+use crate::contact::ContactLaw;
+use crate::grid::Reading;
+use crate::model::{Model, Stiffness};
+use crate::setup::Fretting;
+
+/// A decaying oscillation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Oscillation {
+    /// Angular frequency, 1/s.
+    pub frequency: f64,
+    /// Decay rate of the amplitude that the finger causes, 1/s.
+    pub decay: f64,
+}
+
+/// Angular frequency of a partial of the open string on its grid, 1/s: the scheme turns a stiffness Λ
+/// (1/s²) into the frequency with 4/k² sin²(ωk/2) = Λ.
+pub(super) fn open_frequency(model: &Model, partial: usize) -> f64 {
+    let grid = &model.grid;
+    let own = model.stiffness(model.string.tension);
+    let half = libm::sin(0.5 * std::f64::consts::PI * partial as f64 / grid.intervals as f64);
+    let s = 4.0 * half * half / (grid.spacing * grid.spacing);
+    let stiffness = s * (own.tension / model.string.linear_density + s * (own.kappa_2 + s * own.kappa_6));
+    realised(stiffness, grid.time_step)
+}
+
+/// The frequency that the scheme gives a stiffness, both angular.
+fn realised(stiffness: f64, time_step: f64) -> f64 {
+    2.0 / time_step * libm::asin((0.5 * time_step * stiffness.max(0.0).sqrt()).min(1.0))
+}
+
+/// A finger that rests on a string.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Resting<'a> {
+    /// The point it rests on.
+    pub at: Reading,
+    /// The law of its pad.
+    pub law: ContactLaw,
+    /// The rest of it.
+    pub fretting: &'a Fretting,
+}
+
+impl Resting<'_> {
+    /// Force per displacement of the string at an angular frequency, N/m: a pad (spring and resistance
+    /// side by side) with the finger's mass and the hand's damping behind it. Centred differences in
+    /// time turn 1 into cos ωk where a mean of n + 1 and n − 1 acts, iω into i sin(ωk)/k.
+    fn stiffness(&self, frequency: f64, time_step: f64) -> Complex<f64> {
+        let Fretting { touch, force, .. } = self.fretting;
+        let angle = frequency * time_step;
+        let rate = libm::sin(angle) / time_step;
+        let chord = 2.0 / time_step * libm::sin(0.5 * angle);
+        let spring = self.law.slope(self.law.penetration_at(*force));
+        let pad = Complex::new(spring * libm::cos(angle), touch.damping * force * rate);
+        let hand = Complex::new(-touch.mass * chord * chord, touch.hand_damping * rate);
+        pad * hand / (pad + hand)
+    }
+}
+
+/// The oscillation about `rest` that is nearest to `near` (1/s) and lives beyond `stop` (m from the nut).
+pub(super) fn stopped_oscillation(
+    model: &Model,
+    rest: &Equilibrium,
+    finger: &Resting,
+    stop: f64,
+    near: f64,
+) -> Oscillation {
+    let (grid, k) = (&model.grid, model.grid.time_step);
+    let node_mass = model.string.linear_density * grid.spacing;
+    let mean = libm::cos(near * k);
+    let chord = 2.0 / k * libm::sin(0.5 * near * k);
+    let mut matrix: Band<Complex<f64>> = stiffness_at(model, rest.tension);
+    for (contact, &spring) in model.contacts.iter().zip(&rest.contact_stiffness) {
+        if spring > 0.0 {
+            matrix.add_spring(&contact.reading, Complex::from(spring * mean));
+        }
+    }
+    matrix.add_spring(&finger.at, finger.stiffness(near, k));
+    let shift = node_mass * chord * chord;
+    matrix.shift(Complex::from(-shift));
+    let unit = Stiffness { tension: 1.0, kappa_2: 0.0, kappa_6: 0.0 };
+    let curvature = Band::of_string(grid, 0.0, &unit).times(&rest.displacement);
+    let curvature = curvature.into_iter().map(Complex::from).collect();
+    // The stretch acts half at n and half as the mean of n + 1 and n − 1.
+    let strength = Complex::from(axial_spring(model) * 0.5 * (1.0 + mean));
+    let system = RankOne::new(matrix.factor(), curvature, strength);
+    let mut shape: Vec<Complex<f64>> = (1..grid.intervals)
+        .map(|node| {
+            let x = (grid.place(node) - stop) / (model.string.length - stop);
+            Complex::from(if x > 0.0 { libm::sin(std::f64::consts::PI * x) } else { 0.0 })
+        })
+        .collect();
+    let mut offset = Complex::from(0.0);
+    for _ in 0..ITERATIONS {
+        let next = system.solve(&shape);
+        offset = dot(&shape, &shape) / dot(&shape, &next);
+        let scale = Complex::from(dot(&next, &next).norm().sqrt().recip());
+        shape = next.into_iter().map(|x| x * scale).collect();
+    }
+    let stiffness = (offset + shift) / node_mass;
+    let frequency = realised(stiffness.re, k);
+    Oscillation { frequency, decay: stiffness.im / (2.0 * frequency) }
+}
+
+/// The shift is within a few per cent of the mode sought and its neighbours a factor of two away, so
+/// each iteration gains one to two digits in the shape and twice that in the frequency.
+const ITERATIONS: usize = 6;

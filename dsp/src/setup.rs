@@ -1,0 +1,317 @@
+//! A set-up: one instrument as a luthier and a player would describe it, read from a TOML file.
+//!
+//! It says nothing about grids or sample rates; [`intonate`](crate::intonation::intonate) and
+//! [`Neck::barrier`] turn it into numbers for the model.
+
+use serde::Deserialize;
+
+use crate::error::{Error, within};
+use crate::gesture::Touch;
+use crate::neck::Neck;
+
+/// A whole instrument.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Setup {
+    /// Short name, one word.
+    pub name: String,
+    /// What it is, one line.
+    #[serde(default)]
+    pub description: String,
+    /// Whether it is made to play in tune.
+    #[serde(default)]
+    pub intonation: Intonation,
+    /// Largest bend by tension, semitones, 0 to 12; the grids leave room for it.
+    pub max_bend: f64,
+    /// Output per unit of pickup signal, above 0.
+    pub gain: f64,
+    /// Frets and board.
+    pub neck: Neck,
+    /// The player's hands.
+    pub player: Player,
+    /// What is heard.
+    pub pickup: Pickup,
+    /// The strings, highest first.
+    pub string: Vec<SetupString>,
+}
+
+/// Whether an instrument is made to play in tune.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Intonation {
+    /// Tension and fret places are solved so that open and fretted strings are in tune.
+    #[default]
+    Compensated,
+    /// Frets stand in equal temperament and only the open string is tuned: stopped notes are as sharp
+    /// as pressing makes them.
+    Physical,
+}
+
+/// One string of an instrument.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SetupString {
+    /// Name, such as `E4`.
+    pub name: String,
+    /// Pitch of the open string as a MIDI note number, 0 to 127, fractions allowed; 69 is 440 Hz.
+    pub pitch: f64,
+    /// Mass per length, kg/m.
+    pub linear_density: f64,
+    /// Young's modulus of the core, Pa.
+    pub youngs_modulus: f64,
+    /// Radius of the core, m.
+    pub core_radius: f64,
+    /// Loss of all frequencies alike, 1/s: the amplitude of a partial of wavenumber γ decays as
+    /// exp(−(loss_0 + loss_1 γ²)t), to a thousandth in T60 = ln(1000)/(loss_0 + loss_1 γ²).
+    pub loss_0: f64,
+    /// Loss that grows with frequency, m²/s.
+    pub loss_1: f64,
+    /// Place in the stereo picture, −1 (left) to 1 (right).
+    #[serde(default)]
+    pub pan: f64,
+}
+
+/// How the hands act.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Player {
+    /// Where strings are plucked, m from the saddle.
+    pub pluck_position: f64,
+    /// How long a pluck pushes, s.
+    pub pluck_duration: f64,
+    /// Largest force of a pluck at velocity 127, N.
+    pub pluck_force: f64,
+    /// The finger that stops a string.
+    pub fretting: Fretting,
+    /// The finger or palm that silences a string.
+    pub damper: Damper,
+}
+
+/// A finger that presses a string behind a fret.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(from = "FrettingFile")]
+pub struct Fretting {
+    /// The finger.
+    pub touch: Touch,
+    /// Force at rest on the string, N.
+    pub force: f64,
+    /// Height above the string from which it comes, m.
+    pub hover: f64,
+    /// Time over which its force rises, s.
+    pub landing: f64,
+    /// Where it presses: this fraction of the fret's own space behind the crown, 0.05 to 0.95.
+    pub behind: f64,
+}
+
+/// A finger or palm that rests on a string to silence it.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(from = "DamperFile")]
+pub struct Damper {
+    /// The finger or palm.
+    pub touch: Touch,
+    /// Force at rest on the string, N.
+    pub force: f64,
+    /// Time over which its force rises, s.
+    pub landing: f64,
+    /// Place, m from the saddle.
+    pub position: f64,
+}
+
+/// What is heard of the strings.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum Pickup {
+    /// A coil over the strings: their velocity at a place, through the coil's own resonance.
+    Magnetic {
+        /// Middle of the coil, m from the saddle.
+        position: f64,
+        /// Width of its field along the string, m, 0 for a point.
+        aperture: f64,
+        /// Resonance of coil and cable, Hz.
+        resonance: f64,
+        /// Height of that resonance over low frequencies, as a factor.
+        quality: f64,
+    },
+    /// The force of the strings on the bridge.
+    Bridge,
+}
+
+/// `[player.fretting]` as it stands in the file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FrettingFile {
+    mass: f64,
+    stiffness: f64,
+    exponent: f64,
+    damping: f64,
+    hand_damping: f64,
+    force: f64,
+    hover: f64,
+    landing: f64,
+    behind: f64,
+}
+
+impl From<FrettingFile> for Fretting {
+    fn from(file: FrettingFile) -> Self {
+        let FrettingFile { mass, stiffness, exponent, damping, hand_damping, .. } = file;
+        Fretting {
+            touch: Touch { mass, stiffness, exponent, damping, hand_damping },
+            force: file.force,
+            hover: file.hover,
+            landing: file.landing,
+            behind: file.behind,
+        }
+    }
+}
+
+/// `[player.damper]` as it stands in the file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DamperFile {
+    mass: f64,
+    stiffness: f64,
+    exponent: f64,
+    damping: f64,
+    hand_damping: f64,
+    force: f64,
+    landing: f64,
+    position: f64,
+}
+
+impl From<DamperFile> for Damper {
+    fn from(file: DamperFile) -> Self {
+        let DamperFile { mass, stiffness, exponent, damping, hand_damping, .. } = file;
+        Damper {
+            touch: Touch { mass, stiffness, exponent, damping, hand_damping },
+            force: file.force,
+            landing: file.landing,
+            position: file.position,
+        }
+    }
+}
+
+/// The built-in set-ups: name and file.
+const FILES: [(&str, &str); 4] = [
+    ("electric", include_str!("../instruments/electric.toml")),
+    ("classical", include_str!("../instruments/classical.toml")),
+    ("steel", include_str!("../instruments/steel.toml")),
+    ("bass", include_str!("../instruments/bass.toml")),
+];
+
+/// The most strings an instrument may have.
+const MOST_STRINGS: usize = 32;
+
+impl Setup {
+    /// Names of the built-in set-ups; the first is the default.
+    pub const BUILTIN: [&'static str; 4] = [FILES[0].0, FILES[1].0, FILES[2].0, FILES[3].0];
+
+    /// A built-in set-up by its name.
+    pub fn builtin(name: &str) -> Option<Setup> {
+        let (_, text) = FILES.iter().find(|(known, _)| *known == name)?;
+        Some(Setup::from_toml(text).expect("the files in instruments/ are read by the tests"))
+    }
+
+    /// Reads and checks a set-up.
+    ///
+    /// # Errors
+    /// When the text is not TOML, has an unknown key, lacks one, or a value is outside its range. What
+    /// depends on the grid is refused when the instrument is built.
+    pub fn from_toml(text: &str) -> Result<Setup, Error> {
+        let setup: Setup = toml::from_str(text).map_err(|error| Error::syntax(&error, text))?;
+        setup.check()?;
+        Ok(setup)
+    }
+
+    /// Refuses every value outside its range, naming it as in the file.
+    pub fn check(&self) -> Result<(), Error> {
+        if self.name.trim().is_empty() {
+            return Err(Error::range("name", "\"\"", "it must not be empty"));
+        }
+        within("max_bend", self.max_bend, 0.0, 12.0, "semitones")?;
+        within("gain", self.gain, 1e-9, 1e9, "")?;
+        self.neck.check()?;
+        self.player.check(self.neck.scale_length)?;
+        self.pickup.check(self.neck.scale_length)?;
+        if self.string.is_empty() || self.string.len() > MOST_STRINGS {
+            let accepted = format!("there must be 1 to {MOST_STRINGS} strings");
+            return Err(Error::range("[[string]]", self.string.len(), accepted));
+        }
+        for (i, string) in self.string.iter().enumerate() {
+            string.check(&format!("string[{}]", i + 1))?;
+        }
+        Ok(())
+    }
+
+    /// The largest factor by which a bend may raise the tension of a string.
+    pub fn highest_tension_ratio(&self) -> f64 {
+        tension_ratio(self.max_bend)
+    }
+}
+
+/// The factor of tension that raises a string by so many semitones: pitch goes with its root.
+pub fn tension_ratio(semitones: f64) -> f64 {
+    libm::exp2(semitones / 6.0)
+}
+
+/// The frequency of a MIDI note number, Hz: 69 is 440 Hz.
+pub fn frequency(pitch: f64) -> f64 {
+    440.0 * libm::exp2((pitch - 69.0) / 12.0)
+}
+
+impl SetupString {
+    fn check(&self, name: &str) -> Result<(), Error> {
+        within(&format!("{name}.pitch"), self.pitch, 0.0, 127.0, "as a MIDI note number")?;
+        within(&format!("{name}.linear_density"), self.linear_density, 1e-7, 1e2, "kg/m")?;
+        within(&format!("{name}.youngs_modulus"), self.youngs_modulus, 0.0, 1e13, "Pa")?;
+        within(&format!("{name}.core_radius"), self.core_radius, 0.0, 0.1, "m")?;
+        within(&format!("{name}.loss_0"), self.loss_0, 0.0, 1e4, "1/s")?;
+        within(&format!("{name}.loss_1"), self.loss_1, 0.0, 1e2, "m²/s")?;
+        within(&format!("{name}.pan"), self.pan, -1.0, 1.0, "").map(drop)
+    }
+}
+
+impl Player {
+    fn check(&self, scale: f64) -> Result<(), Error> {
+        on_scale("player.pluck_position", self.pluck_position, scale)?;
+        within("player.pluck_duration", self.pluck_duration, 1e-4, 0.1, "s")?;
+        within("player.pluck_force", self.pluck_force, 1e-3, 1e3, "N")?;
+        let Fretting { touch, force, hover, landing, behind } = &self.fretting;
+        touch.check("player.fretting")?;
+        within("player.fretting.force", *force, 0.1, 100.0, "N")?;
+        within("player.fretting.hover", *hover, 0.0, 0.1, "m")?;
+        within("player.fretting.landing", *landing, 0.0, 1.0, "s")?;
+        within("player.fretting.behind", *behind, 0.05, 0.95, "of the fret's space")?;
+        let Damper { touch, force, landing, position } = &self.damper;
+        touch.check("player.damper")?;
+        within("player.damper.force", *force, 1e-3, 100.0, "N")?;
+        within("player.damper.landing", *landing, 0.0, 1.0, "s")?;
+        on_scale("player.damper.position", *position, scale)
+    }
+}
+
+impl Pickup {
+    fn check(&self, scale: f64) -> Result<(), Error> {
+        match *self {
+            Pickup::Bridge => Ok(()),
+            Pickup::Magnetic { position, aperture, resonance, quality } => {
+                within("pickup.resonance", resonance, 100.0, 1e6, "Hz")?;
+                within("pickup.quality", quality, 0.1, 100.0, "")?;
+                within("pickup.aperture", aperture, 0.0, scale, "m")?;
+                on_scale("pickup.position", position, scale)?;
+                if aperture / 2.0 < position.min(scale - position) {
+                    return Ok(());
+                }
+                let accepted = format!("half of it must stay on the string around {position} m");
+                Err(Error::range("pickup.aperture", aperture, accepted))
+            }
+        }
+    }
+}
+
+/// Refuses a place, m from the saddle, that is not strictly between the ends of the scale.
+fn on_scale(name: &str, place: f64, scale: f64) -> Result<(), Error> {
+    if place.is_finite() && place > 0.0 && place < scale {
+        return Ok(());
+    }
+    Err(Error::range(name, place, format!("it must lie above 0 and below {scale} m from the saddle")))
+}

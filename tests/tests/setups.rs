@@ -1,0 +1,187 @@
+//! Set-ups: the built-in ones read, say what they should and are strung in tune on paper; wrong ones are
+//! refused in one line that names the key, its value and what is accepted.
+
+use low_action_dsp::intonation::{finger_place, intonate};
+use low_action_dsp::setup::{Intonation, Pickup, frequency};
+use low_action_dsp::{Model, Setup, SolverSettings, Stencil};
+
+const RATE: f64 = 48_000.0;
+
+fn builtin(name: &str) -> Setup {
+    Setup::builtin(name).unwrap()
+}
+
+/// The built-in electric set-up with some text replaced.
+fn changed(from: &str, to: &str) -> String {
+    let text = include_str!("../../dsp/instruments/electric.toml");
+    assert!(text.contains(from), "`{from}` is not in the file");
+    text.replacen(from, to, 1)
+}
+
+#[test]
+fn built_in_setups_read() {
+    for name in Setup::BUILTIN {
+        let setup = builtin(name);
+        assert_eq!(setup.name, name);
+        assert_eq!(setup.intonation, Intonation::Compensated);
+        assert!(!setup.description.is_empty() && !setup.description.contains('\n'));
+    }
+    assert_eq!(Setup::BUILTIN[0], "electric");
+    assert_eq!(builtin("electric").neck.frets, 22);
+    assert!(matches!(builtin("electric").pickup, Pickup::Magnetic { .. }));
+    assert!(matches!(builtin("steel").pickup, Pickup::Bridge));
+    assert!(Setup::builtin("banjo").is_none());
+}
+
+#[test]
+fn built_in_setups_are_in_standard_tuning() {
+    let guitar = [64.0, 59.0, 55.0, 50.0, 45.0, 40.0];
+    for name in ["electric", "classical", "steel"] {
+        let pitches: Vec<f64> = builtin(name).string.iter().map(|string| string.pitch).collect();
+        assert_eq!(pitches, guitar, "{name}");
+    }
+    let bass: Vec<f64> = builtin("bass").string.iter().map(|string| string.pitch).collect();
+    assert_eq!(bass, [43.0, 38.0, 33.0, 28.0]);
+}
+
+/// Tensions within 2 % of the manufacturer's chart (or of the paper the strings come from), N.
+#[test]
+fn tensions_match_their_sources() {
+    const POUND: f64 = 4.4482;
+    let sources: [(&str, &[f64]); 4] = [
+        // D'Addario EXL110, 25.5 in.
+        ("electric", &[16.2, 15.4, 16.6, 18.4, 19.5, 17.5].map(|pounds| pounds * POUND)),
+        // Woodhouse 2004.
+        ("classical", &[70.3, 53.4, 58.3, 71.2, 73.9, 71.6]),
+        // D'Addario EJ17, 25.5 in.
+        ("steel", &[27.4, 26.3, 35.3, 36.8, 34.0, 29.0].map(|pounds| pounds * POUND)),
+        // D'Addario EXL170, 34 in.
+        ("bass", &[42.8, 51.3, 42.0, 36.5].map(|pounds| pounds * POUND)),
+    ];
+    for (name, tensions) in sources {
+        let setup = builtin(name);
+        for (string, tension) in setup.string.iter().zip(tensions) {
+            let found = intonate(&setup, string, Stencil::Wide, RATE).unwrap().string.tension;
+            assert!(
+                (found / tension - 1.0).abs() < 0.02,
+                "{name} {}: {found} N instead of {tension} N",
+                string.name
+            );
+        }
+    }
+}
+
+#[test]
+fn frets_stay_in_order_and_near_equal_temperament() {
+    for name in Setup::BUILTIN {
+        let setup = builtin(name);
+        let equal = setup.neck.equal_places();
+        for string in &setup.string {
+            let found = intonate(&setup, string, Stencil::Wide, RATE).unwrap();
+            assert_eq!(found.frets.len(), setup.neck.frets);
+            assert!(found.frets.windows(2).all(|pair| pair[0] < pair[1]), "{name} {}", string.name);
+            for (fret, (place, equal)) in found.frets.iter().zip(&equal).enumerate() {
+                let moved = place - equal;
+                // A luthier moves a saddle by as much.
+                assert!(moved.abs() < 5.5e-3, "{name} {} fret {}: {moved} m", string.name, fret + 1);
+                let finger = finger_place(&found.frets, fret, setup.player.fretting.behind);
+                assert!(finger > 0.0 && finger < *place);
+            }
+        }
+    }
+}
+
+/// Grids of every rate and stencil take the built-in instruments, and the same twice.
+#[test]
+fn every_rate_can_be_intonated() {
+    for name in Setup::BUILTIN {
+        let setup = builtin(name);
+        for rate in [22_050.0, 44_100.0, 96_000.0, 192_000.0] {
+            for stencil in [Stencil::Paper, Stencil::Corrected, Stencil::Wide] {
+                let string = &setup.string[0];
+                let found = intonate(&setup, string, stencil, rate).unwrap();
+                assert_eq!(found, intonate(&setup, string, stencil, rate).unwrap());
+                let barrier = setup.neck.barrier(&found.frets).unwrap();
+                let settings = SolverSettings { stencil, ..Default::default() };
+                Model::new(found.string, Some(&barrier), 4, settings, rate).unwrap();
+            }
+        }
+    }
+}
+
+#[test]
+fn raw_intonation_keeps_equal_temperament() {
+    let setup = Setup::from_toml(&changed("\"compensated\"", "\"physical\"")).unwrap();
+    let found = intonate(&setup, &setup.string[0], Stencil::Wide, RATE).unwrap();
+    assert_eq!(found.frets, setup.neck.equal_places());
+}
+
+#[test]
+fn the_neck_has_the_clearances_it_names() {
+    for name in Setup::BUILTIN {
+        let neck = builtin(name).neck;
+        let first = neck.crown_height(neck.equal_place(1.0));
+        let twelfth = neck.crown_height(neck.equal_place(12.0));
+        assert!((first + neck.nut_clearance).abs() < 1e-12);
+        assert!((twelfth + neck.action).abs() < 1e-12);
+        // Relief: the crowns dip below the chord from the first to the last by no more than it.
+        let (from, to) = (neck.equal_place(1.0), neck.equal_place(neck.frets as f64));
+        let middle = 0.5 * (from + to);
+        let chord = 0.5 * (neck.crown_height(from) + neck.crown_height(to));
+        assert!((chord - neck.crown_height(middle) - neck.relief).abs() < 1e-12);
+        assert!(neck.board_height(neck.board_end()).is_some());
+        assert!(neck.board_height(neck.board_end() + 1e-6).is_none());
+    }
+}
+
+#[test]
+fn frequencies_follow_the_midi_tuning_standard() {
+    assert!((frequency(69.0) - 440.0).abs() < 1e-12);
+    assert!((frequency(57.0) - 220.0).abs() < 1e-12);
+    assert!((frequency(40.0) - 82.406_889_228_217).abs() < 1e-9);
+}
+
+#[test]
+fn wrong_setups_are_refused_in_one_line() {
+    let cases: [(&str, &str, &[&str]); 16] = [
+        ("frets = 22", "frets = 99", &["neck.frets", "99"]),
+        ("frets = 22", "fretz = 22", &["fretz"]),
+        ("action = 0.0016", "action = 0.0001", &["neck.action", "0.0001"]),
+        ("action = 0.0016", "action = nan", &["neck.action", "NaN"]),
+        ("scale_length = 0.6477", "scale_length = -1.0", &["neck.scale_length", "-1"]),
+        ("max_bend = 3.0", "max_bend = 13", &["max_bend", "13", "semitones"]),
+        ("gain = 1.0", "gain = 0.0", &["gain", "0"]),
+        ("pitch = 64.0", "pitch = 640.0", &["string[1].pitch", "640"]),
+        ("linear_density = 3.956e-4", "linear_density = 0.0", &["string[1].linear_density"]),
+        ("loss_0 = 0.757", "loss_0 = -1.0", &["string[1].loss_0", "-1"]),
+        ("pan = 0.25", "pan = 2", &["string[1].pan", "2"]),
+        ("behind = 0.3", "behind = 1.5", &["player.fretting.behind", "1.5"]),
+        ("pluck_position = 0.12", "pluck_position = 0.7", &["player.pluck_position", "0.7", "0.6477"]),
+        ("position = 0.162", "position = 0.001", &["pickup.aperture", "0.02"]),
+        ("kind = \"magnetic\"", "kind = \"laser\"", &["laser"]),
+        ("\"compensated\"", "\"just\"", &["just", "physical"]),
+    ];
+    for (from, to, mentioned) in cases {
+        let error = Setup::from_toml(&changed(from, to)).unwrap_err().to_string();
+        assert!(!error.contains('\n'), "{to}: {error}");
+        for word in mentioned {
+            assert!(error.contains(word), "{to}: `{word}` is missing in `{error}`");
+        }
+    }
+}
+
+#[test]
+fn a_setup_without_strings_is_refused() {
+    let text = include_str!("../../dsp/instruments/electric.toml");
+    let (head, _) = text.split_once("[[string]]").unwrap();
+    assert!(Setup::from_toml(head).is_err());
+    assert!(Setup::from_toml("").is_err());
+    assert!(Setup::from_toml("name = ").is_err());
+}
+
+#[test]
+fn a_string_too_short_for_its_grid_is_refused() {
+    let setup = Setup::from_toml(&changed("pitch = 64.0", "pitch = 127.0")).unwrap();
+    let error = intonate(&setup, &setup.string[0], Stencil::Wide, 22_050.0).unwrap_err();
+    assert!(error.to_string().contains("length"), "{error}");
+}
