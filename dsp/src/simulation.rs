@@ -194,7 +194,7 @@ impl SceneString {
     fn output(&self) -> f64 {
         match &self.listening {
             Some(reading) => self.state.velocity_at(&self.model, reading),
-            None => bridge_force(&self.model, &self.state, self.drive.tension),
+            None => bridge_force(&self.model, &self.scratch),
         }
     }
 

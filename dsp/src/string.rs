@@ -4,7 +4,7 @@ use crate::contact::Before;
 use crate::drive::Drive;
 use crate::grid::{READING_NORM, Reading};
 use crate::kernel::{Kernel, Products, Weights};
-use crate::model::Model;
+use crate::model::{Model, Stiffness};
 use crate::solver::{Active, Convergence, EnergyScale, Solver};
 use crate::state::{Finger, ForceHistory, State};
 
@@ -12,8 +12,9 @@ use crate::state::{Finger, ForceHistory, State};
 #[derive(Debug, Clone)]
 pub struct Scratch {
     kernel: Kernel,
+    stiffness: Stiffness,
     weights: Weights,
-    weights_tension: f64,
+    products: Products,
     /// Undivided second differences of uⁿ.
     curvature: Vec<f64>,
     /// The motion to n + 1 without contacts and tension modulation, then with contacts.
@@ -36,11 +37,12 @@ impl Scratch {
     pub fn new(model: &Model) -> Scratch {
         let contacts = model.contacts.len() + model.finger_slots;
         let grid = || vec![0.0; model.grid.padded_len()];
-        let tension = model.string.tension;
+        let stiffness = model.stiffness(model.string.tension);
         Scratch {
             kernel: Kernel::new(model),
-            weights: Weights::new(model, &model.stiffness(tension)),
-            weights_tension: tension,
+            weights: Weights::new(model, &stiffness),
+            stiffness,
+            products: Products::default(),
             curvature: grid(),
             prediction: grid(),
             motion: grid(),
@@ -57,9 +59,28 @@ impl Scratch {
     pub fn reset(&mut self) {
         self.active.clear();
         self.held.fill(0);
+        self.products = Products::default();
         self.fingers.fill(None);
         self.motion.fill(0.0);
         self.displacement.fill(0.0);
+    }
+
+    /// The stiffness of the last step.
+    pub fn stiffness(&self) -> &Stiffness {
+        &self.stiffness
+    }
+
+    /// Sum of squared differences between neighbours at the sample the last step led from, m².
+    pub fn steepness(&self) -> f64 {
+        self.products.steepness
+    }
+
+    /// Energy of the string as a linear one without bending at the sample the last step led from, J:
+    /// what the step knew anyway.
+    pub(crate) fn string_energy(&self, model: &Model) -> f64 {
+        let (k, h) = (model.grid.time_step, model.grid.spacing);
+        0.5 * model.string.linear_density * h / (k * k) * self.products.motion
+            + 0.5 * self.stiffness.tension / h * self.products.steepness
     }
 
     /// Force of each active contact in the last step, N, by index: the model's contacts, then fingers.
@@ -74,10 +95,9 @@ impl State {
     /// Never allocates, never fails: whatever the numbers, the energy cannot exceed what was put in.
     pub fn step(&mut self, model: &Model, drive: &Drive, scratch: &mut Scratch) -> Convergence {
         let unknowns = model.grid.unknowns();
-        let tension = drive.tension;
-        if tension != scratch.weights_tension {
-            scratch.weights = Weights::new(model, &model.stiffness(tension));
-            scratch.weights_tension = tension;
+        if drive.tension != scratch.stiffness.tension {
+            scratch.stiffness = model.stiffness(drive.tension);
+            scratch.weights = Weights::new(model, &scratch.stiffness);
         }
         let mut products = scratch.kernel.predict(
             unknowns,
@@ -86,6 +106,7 @@ impl State {
             &mut scratch.curvature,
             &mut scratch.prediction,
         );
+        scratch.products = products;
         for push in &drive.pushes {
             let motion = model.mobility * push.force;
             push.reading.spread(&mut scratch.prediction, motion);
@@ -136,7 +157,7 @@ impl State {
             if !scratch.active.is_empty() {
                 // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
                 let factor = model.mobility * model.stretch / (1.0 + model.stretch * products.curvature);
-                let scale = self.energy_scale(model, drive, products, scratch);
+                let scale = self.energy_scale(model, scratch);
                 created =
                     scratch.solver.solve(&mut scratch.active, factor, &model.settings, scale, convergence);
                 let mut along = 0.0;
@@ -379,16 +400,8 @@ impl State {
 
     /// The energy against which this sample's errors are judged: of the string as a linear one, of the
     /// contacts, of the fingers.
-    fn energy_scale(
-        &mut self,
-        model: &Model,
-        drive: &Drive,
-        products: &Products,
-        scratch: &Scratch,
-    ) -> EnergyScale {
-        let (k, h) = (model.grid.time_step, model.grid.spacing);
-        let string = 0.5 * model.string.linear_density * h / (k * k) * products.motion
-            + 0.5 * drive.tension / h * products.steepness;
+    fn energy_scale(&mut self, model: &Model, scratch: &Scratch) -> EnergyScale {
+        let k = model.grid.time_step;
         let contacts: f64 = scratch.active.iter().map(|active| active.before.energy).sum();
         let fingers: f64 = scratch
             .fingers
@@ -396,7 +409,7 @@ impl State {
             .flatten()
             .map(|finger| 0.5 * finger.touch.mass * (finger.motion / k) * (finger.motion / k))
             .sum();
-        let present = string + contacts + fingers;
+        let present = scratch.string_energy(model) + contacts + fingers;
         self.energy_scale = self.energy_scale.max(present);
         let credit = CREATED_AT_MOST * self.energy_scale - self.solver_balance;
         EnergyScale { present, credit }

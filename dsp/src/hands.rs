@@ -1,0 +1,173 @@
+//! The hands on one string: gestures become the forces, places and tension of a [`Drive`].
+
+use crate::drive::{Drive, PUSHES, Push};
+use crate::gesture::{FINGERS_PER_STRING, Gesture, raised_cosine};
+use crate::grid::Reading;
+use crate::model::Model;
+use crate::ramp::Ramp;
+use crate::state::State;
+
+/// How far from the string a lifted finger must be before it is taken away, m.
+const CLEAR: f64 = 1e-3;
+
+/// Fastest slide of a finger, m/s: a hand crosses a neck in a tenth of a second. Dragging a pressed
+/// string sideways puts in work without bound, so the gesture is limited and not the scheme.
+const FASTEST_SLIDE: f64 = 10.0;
+
+/// Least tension a bend may leave, as a part of the string's own.
+const LEAST_TENSION: f64 = 0.05;
+
+/// A pluck under way.
+#[derive(Debug, Clone, Copy)]
+struct Pluck {
+    reading: Reading,
+    force: f64,
+    done: u64,
+    duration: f64,
+}
+
+/// A finger of the hands, as far as it is not in the string's state.
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    force: Ramp,
+    position: Ramp,
+    leaving: bool,
+}
+
+/// The hands on one string.
+#[derive(Debug, Clone)]
+pub(crate) struct Hands {
+    sample_rate: f64,
+    plucks: Vec<Pluck>,
+    fingers: [Option<Held>; FINGERS_PER_STRING],
+    tension: Ramp,
+}
+
+impl Hands {
+    /// No hand near the string.
+    pub fn new(model: &Model, sample_rate: f64) -> Self {
+        Hands {
+            sample_rate,
+            plucks: Vec::with_capacity(PUSHES),
+            fingers: [None; FINGERS_PER_STRING],
+            tension: Ramp::at(model.string.tension),
+        }
+    }
+
+    /// Takes all hands away.
+    pub fn reset(&mut self, model: &Model) {
+        self.plucks.clear();
+        self.fingers = [None; FINGERS_PER_STRING];
+        self.tension = Ramp::at(model.string.tension);
+    }
+
+    /// Whether nothing touches or bends the string.
+    pub fn idle(&self) -> bool {
+        self.plucks.is_empty() && self.tension.rests() && self.fingers.iter().all(Option::is_none)
+    }
+
+    fn samples(&self, seconds: f64) -> u64 {
+        // A hostile duration counts as at once; `as` saturates at the other end.
+        (seconds * self.sample_rate).round().max(0.0) as u64
+    }
+
+    /// Begins a gesture. What it cannot do (a finger that is not there, a ninth pluck) it leaves out.
+    pub fn begin(&mut self, gesture: Gesture, model: &Model, state: &mut State) {
+        let inside = |place: f64| {
+            let end = 0.01 * model.grid.spacing;
+            if place.is_finite() {
+                place.clamp(end, model.grid.length - end)
+            } else {
+                0.5 * model.grid.length
+            }
+        };
+        match gesture {
+            Gesture::Pluck { position, force, duration } => {
+                if self.plucks.len() < PUSHES && force.is_finite() && duration.is_finite() {
+                    let reading = model.grid.reading(inside(position));
+                    self.plucks.push(Pluck { reading, force, done: 0, duration: duration.max(0.0) });
+                }
+            }
+            Gesture::Place { finger, touch, position, clearance } => {
+                if finger < FINGERS_PER_STRING {
+                    let place = inside(position);
+                    let height = state.displacement_at(&model.grid.reading(place)) + clearance.max(0.0);
+                    self.take_away(finger, state);
+                    if state.place_finger(model, finger, touch, place, height, 0.0).is_ok() {
+                        let held = Held { force: Ramp::at(0.0), position: Ramp::at(place), leaving: false };
+                        self.fingers[finger] = Some(held);
+                    }
+                }
+            }
+            Gesture::Press { finger, force, duration } => {
+                let samples = self.samples(duration);
+                if let Some(held) = self.finger(finger) {
+                    held.force.go(force, samples);
+                    held.leaving = false;
+                }
+            }
+            Gesture::Slide { finger, position, duration } => {
+                let place = inside(position);
+                let from = self.finger(finger).map(|held| held.position.value());
+                let least = from.map_or(0.0, |from| (place - from).abs() / FASTEST_SLIDE);
+                let samples = self.samples(duration.max(least));
+                if let Some(held) = self.finger(finger) {
+                    held.position.go_straight(place, samples);
+                }
+            }
+            Gesture::Lift { finger, force, duration } => {
+                let samples = self.samples(duration);
+                if let Some(held) = self.finger(finger) {
+                    held.force.go(-force.abs(), samples);
+                    held.leaving = true;
+                }
+            }
+            Gesture::Bend { tension_ratio, duration } => {
+                let most = model.string.tension_limit / model.string.tension;
+                let ratio = if tension_ratio.is_finite() { tension_ratio } else { 1.0 };
+                let samples = self.samples(duration);
+                self.tension.go(model.string.tension * ratio.clamp(LEAST_TENSION, most), samples);
+            }
+        }
+    }
+
+    fn finger(&mut self, finger: usize) -> Option<&mut Held> {
+        self.fingers.get_mut(finger)?.as_mut()
+    }
+
+    fn take_away(&mut self, finger: usize, state: &mut State) {
+        self.fingers[finger] = None;
+        state.remove_finger(finger);
+    }
+
+    /// Fills the drive of the next step, and takes lifted fingers away.
+    pub fn drive(&mut self, state: &mut State, drive: &mut Drive) {
+        drive.tension = self.tension.value();
+        self.tension.step();
+        drive.pushes.clear();
+        let rate = self.sample_rate;
+        self.plucks.retain_mut(|pluck| {
+            let since = pluck.done as f64 / rate;
+            pluck.done += 1;
+            let pushes = since <= pluck.duration;
+            if pushes {
+                let force = pluck.force * raised_cosine(since, pluck.duration);
+                drive.pushes.push(Push { reading: pluck.reading, force });
+            }
+            pushes
+        });
+        for slot in 0..FINGERS_PER_STRING {
+            let Some(held) = &mut self.fingers[slot] else { continue };
+            let force = held.force.value();
+            held.force.step();
+            drive.hands[slot].force = force;
+            drive.hands[slot].position = held.position.step();
+            if held.leaving
+                && let Some(finger) = &state.fingers()[slot]
+                && finger.height - state.displacement_at(&finger.reading) > CLEAR
+            {
+                self.take_away(slot, state);
+            }
+        }
+    }
+}

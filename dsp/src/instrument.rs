@@ -1,0 +1,319 @@
+//! An instrument: strings over a neck under two hands, heard through a pickup.
+//!
+//! Everything is allocated when it is built. Strings do not hear each other, so each is stepped through
+//! a whole run of samples at a time; gestures cut runs at their exact samples, and so the samples are the
+//! same however they are asked for.
+
+use crate::drive::Drive;
+use crate::error::Error;
+use crate::gesture::{FINGERS_PER_STRING, TimedGesture};
+use crate::hands::Hands;
+use crate::intonation::{finger_place, intonate};
+use crate::model::Model;
+use crate::pickup::Listener;
+use crate::queue::Queue;
+pub use crate::queue::QueueFull;
+use crate::scene::{SolverSettings, Stencil};
+use crate::setup::{Setup, tension_ratio};
+use crate::state::State;
+use crate::string::Scratch;
+
+/// How an instrument is computed: speed against accuracy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EngineSettings {
+    /// Sample rate, Hz, 8e3 to 1e6.
+    pub sample_rate: f64,
+    /// Difference operator of the strings.
+    pub stencil: Stencil,
+    /// Newton iterations at most in a sample.
+    pub max_iterations: usize,
+    /// Largest change of penetration at which the iteration may stop, m.
+    pub tolerance: f64,
+}
+
+/// What a player needs to know of one string.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StringGeometry {
+    /// Pitch of the open string as a MIDI note number.
+    pub open_pitch: f64,
+    /// Length from nut to saddle, m.
+    pub length: f64,
+    /// Places of the frets, m from the nut, fret 1 first.
+    pub frets: Vec<f64>,
+    /// The largest tension a bend may reach, as a multiple of the string's own.
+    pub highest_ratio: f64,
+    /// Wave impedance √(Tρ), kg/s.
+    pub wave_impedance: f64,
+    behind: f64,
+}
+
+impl StringGeometry {
+    /// Where a finger presses to stop a fret (1 for the first), m from the nut.
+    pub fn finger_position(&self, fret: usize) -> f64 {
+        match fret.min(self.frets.len()).checked_sub(1) {
+            Some(index) => finger_place(&self.frets, index, self.behind),
+            None => 0.0,
+        }
+    }
+
+    /// The tension that raises the string by so many semitones, as a multiple of its own.
+    pub fn tension_ratio(&self, semitones: f64) -> f64 {
+        tension_ratio(semitones)
+    }
+}
+
+/// A playable instrument.
+#[derive(Debug, Clone)]
+pub struct Instrument {
+    voices: Vec<Voice>,
+    queue: Queue,
+    now: u64,
+    level: Level,
+}
+
+/// One string with all that belongs to it.
+#[derive(Debug, Clone)]
+struct Voice {
+    model: Model,
+    state: State,
+    scratch: Scratch,
+    drive: Drive,
+    hands: Hands,
+    listener: Listener,
+    geometry: StringGeometry,
+    gain: f64,
+    pan: [f64; 2],
+    asleep: bool,
+    run: [f64; RUN],
+}
+
+/// Samples a string is stepped through at a time, at most.
+const RUN: usize = 64;
+
+/// A string nobody touches sleeps once its energy is below this, J: a soft pluck holds 1e-6 J, so this
+/// is 140 dB under it.
+const SILENCE: f64 = 1e-20;
+
+/// The time over which [`Instrument::level`] looks back, s.
+const LEVEL_TIME: f64 = 0.05;
+
+impl Instrument {
+    /// Builds an instrument: tunes strings, places frets, compiles models, allocates.
+    ///
+    /// # Errors
+    /// When a value is out of range, or a string is too short for its grid at this sample rate.
+    pub fn new(setup: &Setup, settings: &EngineSettings) -> Result<Instrument, Error> {
+        setup.check()?;
+        crate::error::within("sample_rate", settings.sample_rate, 8e3, 1e6, "Hz")?;
+        let solver = SolverSettings {
+            max_iterations: settings.max_iterations,
+            tolerance: settings.tolerance,
+            stencil: settings.stencil,
+        };
+        solver.check()?;
+        let voices = (0..setup.string.len())
+            .map(|index| Voice::new(setup, index, solver, settings.sample_rate))
+            .collect::<Result<Vec<_>, Error>>()?;
+        Ok(Instrument { voices, queue: Queue::new(), now: 0, level: Level::new(settings.sample_rate) })
+    }
+
+    /// Number of strings.
+    pub fn string_count(&self) -> usize {
+        self.voices.len()
+    }
+
+    /// What a player needs to know of a string.
+    pub fn geometry(&self, string: usize) -> &StringGeometry {
+        &self.voices[string].geometry
+    }
+
+    /// The model of a string.
+    pub fn model(&self, string: usize) -> &Model {
+        &self.voices[string].model
+    }
+
+    /// The state of a string.
+    pub fn state(&self, string: usize) -> &State {
+        &self.voices[string].state
+    }
+
+    /// Index of the next sample.
+    pub fn now(&self) -> u64 {
+        self.now
+    }
+
+    /// Puts a gesture into the queue; one whose time is past happens at the next sample. Never allocates.
+    ///
+    /// # Errors
+    /// When too many gestures wait; this one is then left out.
+    pub fn schedule(&mut self, gesture: TimedGesture) -> Result<(), QueueFull> {
+        self.queue.push(gesture)
+    }
+
+    /// Renders the next samples in stereo. Both slices have the same length.
+    pub fn process(&mut self, left: &mut [f32], right: &mut [f32]) {
+        self.process_stems(&mut [], left, right);
+    }
+
+    /// The same samples, and each string's own, before pan, into as many of `stems` as there are.
+    pub fn process_stems(&mut self, stems: &mut [&mut [f32]], left: &mut [f32], right: &mut [f32]) {
+        let count = left.len().min(right.len());
+        let mut done = 0;
+        while done < count {
+            while let Some(due) = self.queue.pop_due(self.now) {
+                if let Some(voice) = self.voices.get_mut(due.string) {
+                    voice.begin(due.gesture);
+                }
+            }
+            let until_gesture = self.queue.next_time().map_or(RUN as u64, |time| time - self.now);
+            let run = (count - done).min(RUN).min(usize::try_from(until_gesture).unwrap_or(RUN));
+            for (index, voice) in self.voices.iter_mut().enumerate() {
+                voice.run(run);
+                if let Some(stem) = stems.get_mut(index) {
+                    for (out, sample) in stem[done..done + run].iter_mut().zip(&voice.run) {
+                        *out = *sample as f32;
+                    }
+                }
+            }
+            for i in 0..run {
+                let (mut l, mut r) = (0.0, 0.0);
+                for voice in &self.voices {
+                    l += voice.pan[0] * voice.run[i];
+                    r += voice.pan[1] * voice.run[i];
+                }
+                self.level.see(l, r);
+                left[done + i] = l as f32;
+                right[done + i] = r as f32;
+            }
+            self.now += run as u64;
+            done += run;
+        }
+    }
+
+    /// The largest |output| of the last 50 to 100 ms.
+    pub fn level(&self) -> f64 {
+        self.level.value()
+    }
+
+    /// Silence, all hands away, the queue emptied, time 0.
+    pub fn reset(&mut self) {
+        self.voices.iter_mut().for_each(Voice::reset);
+        self.queue.clear();
+        self.level.reset();
+        self.now = 0;
+    }
+}
+
+impl Voice {
+    fn new(setup: &Setup, index: usize, solver: SolverSettings, rate: f64) -> Result<Voice, Error> {
+        let spec = &setup.string[index];
+        let name = format!("string[{}]", index + 1);
+        let placed = intonate(setup, spec, solver.stencil, rate).map_err(|error| error.under(&name))?;
+        let barrier = setup.neck.barrier(&placed.frets)?;
+        let model = Model::new(placed.string, Some(&barrier), FINGERS_PER_STRING, solver, rate)
+            .map_err(|error| error.under(&name))?;
+        for (name, touch) in
+            [("player.fretting", setup.player.fretting.touch), ("player.damper", setup.player.damper.touch)]
+        {
+            model.finger_law(&touch).map_err(|error| error.under(name))?;
+        }
+        let angle = 0.25 * std::f64::consts::PI * (spec.pan + 1.0);
+        Ok(Voice {
+            geometry: StringGeometry {
+                open_pitch: spec.pitch,
+                length: placed.string.length,
+                frets: placed.frets,
+                highest_ratio: placed.string.tension_limit / placed.string.tension,
+                wave_impedance: (placed.string.tension * placed.string.linear_density).sqrt(),
+                behind: setup.player.fretting.behind,
+            },
+            state: State::new(&model),
+            scratch: Scratch::new(&model),
+            drive: Drive::new(&model),
+            hands: Hands::new(&model, rate),
+            listener: Listener::new(&setup.pickup, &model, rate),
+            gain: setup.gain,
+            pan: [libm::cos(angle), libm::sin(angle)],
+            asleep: true,
+            run: [0.0; RUN],
+            model,
+        })
+    }
+
+    fn begin(&mut self, gesture: crate::gesture::Gesture) {
+        self.asleep = false;
+        self.hands.begin(gesture, &self.model, &mut self.state);
+    }
+
+    /// Steps the string through so many samples into `run`.
+    fn run(&mut self, samples: usize) {
+        for i in 0..samples {
+            self.run[i] = self.gain * self.next();
+        }
+    }
+
+    #[inline]
+    fn next(&mut self) -> f64 {
+        if self.asleep {
+            return self.listener.hear_nothing();
+        }
+        self.hands.drive(&mut self.state, &mut self.drive);
+        self.state.step(&self.model, &self.drive, &mut self.scratch);
+        let signal = self.listener.hear(&self.model, &self.state, &self.scratch);
+        if self.hands.idle() && self.scratch.string_energy(&self.model) < SILENCE {
+            self.fall_asleep();
+        }
+        signal
+    }
+
+    /// Brings the string to rest; nobody could hear what is left of its motion.
+    #[cold]
+    fn fall_asleep(&mut self) {
+        self.state.reset(&self.model);
+        self.scratch.reset();
+        self.asleep = true;
+    }
+
+    fn reset(&mut self) {
+        self.state.reset(&self.model);
+        self.scratch.reset();
+        self.hands.reset(&self.model);
+        self.listener.reset();
+        self.asleep = true;
+    }
+}
+
+/// The largest output of the last while.
+#[derive(Debug, Clone)]
+struct Level {
+    window: u64,
+    left: u64,
+    present: f64,
+    before: f64,
+}
+
+impl Level {
+    fn new(sample_rate: f64) -> Self {
+        let window = (LEVEL_TIME * sample_rate) as u64;
+        Level { window, left: window, present: 0.0, before: 0.0 }
+    }
+
+    #[inline]
+    fn see(&mut self, left: f64, right: f64) {
+        if self.left == 0 {
+            self.before = self.present;
+            self.present = 0.0;
+            self.left = self.window;
+        }
+        self.left -= 1;
+        self.present = self.present.max(left.abs()).max(right.abs());
+    }
+
+    fn value(&self) -> f64 {
+        self.present.max(self.before)
+    }
+
+    fn reset(&mut self) {
+        *self = Level { left: self.window, present: 0.0, before: 0.0, ..*self };
+    }
+}
