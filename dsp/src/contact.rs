@@ -33,8 +33,11 @@ impl ContactLaw {
     /// # Errors
     /// When either is out of range; `name` says whose they are.
     pub fn new(name: &str, stiffness: f64, exponent: f64) -> Result<Self, Error> {
-        crate::error::within(&format!("{name}.stiffness"), stiffness, 1e-3, 1e30, "N/m^exponent")?;
-        crate::error::within(&format!("{name}.exponent"), exponent, 1.0, 5.0, "")?;
+        // The full name is put together only for a refusal: fingers are placed while processing, where
+        // nothing may be allocated.
+        crate::error::within("stiffness", stiffness, 1e-3, 1e30, "N/m^exponent")
+            .and_then(|_| crate::error::within("exponent", exponent, 1.0, 5.0, ""))
+            .map_err(|error| error.under(name))?;
         Ok(Self::known(stiffness, exponent))
     }
 
