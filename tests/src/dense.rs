@@ -1,9 +1,8 @@
 //! A slow, plain second implementation of the fretted string, to check the fast one against.
 //!
-//! It shares no code with the physics package and is written the other way round wherever there is a
-//! choice: positions at three instants instead of position and change, full matrices multiplied and
-//! factorised afresh each sample instead of stencils, every contact of the scene in one dense system
-//! instead of an active set. One sample solves
+//! It shares no code with the physics package: full matrices multiplied and factorised afresh each sample
+//! instead of stencils and closed-form inverses, every contact of the scene in one dense system instead of
+//! an active set. One sample solves
 //!
 //! ```text
 //! A u⁺ = B u + C u⁻ + (k²/ρ) (Σ g_e f_e + G f)      f = max(0, λ(r) + P r)      r = η⁺ − η⁻
@@ -16,6 +15,13 @@
 //! stiffness; κ₂² and κ₆ depend on the stencil. A column g of G spreads a force over the points, and h gᵀu
 //! reads the height there. Bilbao and Torin, "Numerical simulation of string/barrier collisions: the
 //! fretboard", DAFx-14, equations 16 to 21.
+//!
+//! Kept are u and the change d = u − u⁻, because the last digits lost in B u + C u⁻ add up from sample to
+//! sample. With u⁻ = u − d and B + C − A = k² S − 2 a aᵀ the same equation reads
+//!
+//! ```text
+//! A d⁺ = (k² S − 2 a aᵀ) u − C d + (k²/ρ) (Σ g_e f_e + G f)
+//! ```
 
 mod contact;
 mod setup;
@@ -39,7 +45,7 @@ pub struct Barrier {
     pub law: Law,
 }
 
-/// The simulation itself: three instants, moved on one sample at a time.
+/// The simulation itself, moved on one sample at a time.
 #[derive(Clone, Debug)]
 pub struct Reference {
     setup: Setup,
@@ -50,18 +56,18 @@ pub struct Reference {
     pub time_step: f64,
     /// Board and fret points.
     pub barriers: Vec<Barrier>,
-    /// D_xx and its second and third power, 1/m², 1/m⁴, 1/m⁶.
-    differences: [DMatrix<f64>; 3],
+    /// D_x, 1/m: a row for each interval, the slope there.
+    slope: DMatrix<f64>,
     /// Samples taken so far, n.
     pub sample: usize,
     /// uⁿ, m.
     pub now: DVector<f64>,
-    /// uⁿ⁻¹, m.
-    pub before: DVector<f64>,
+    /// dⁿ = uⁿ − uⁿ⁻¹, m.
+    pub change: DVector<f64>,
     /// Heights of the fingers at n, m.
     pub finger_now: DVector<f64>,
-    /// Heights of the fingers at n − 1, m.
-    pub finger_before: DVector<f64>,
+    /// How far the fingers moved up since n − 1, m.
+    pub finger_change: DVector<f64>,
     /// Contact forces of the last sample, barriers first, then fingers, N.
     pub forces: DVector<f64>,
     /// Power dissipated minus power supplied in the last sample, W.
@@ -76,40 +82,44 @@ impl Reference {
         let points = intervals - 1;
         let spacing = setup.length / intervals as f64;
         let time_step = 1.0 / setup.sample_rate;
-        // D_x: one row per interval, the difference between its right and its left node.
-        let first = DMatrix::from_fn(intervals, points, |row, point| {
+        let slope = DMatrix::from_fn(intervals, points, |row, point| {
             (f64::from(row == point) - f64::from(row == point + 1)) / spacing
         });
         let start = DVector::from_fn(points, |i, _| at(&setup.shape, (i + 1) as f64 * spacing));
         let heights = DVector::from_iterator(setup.fingers.len(), setup.fingers.iter().map(|f| f.height));
         let travel = setup.fingers.iter().map(|f| f.velocity * time_step);
-        let finger_before = &heights - DVector::from_iterator(heights.len(), travel);
+        let finger_change = DVector::from_iterator(heights.len(), travel);
         let barriers = barriers(setup, spacing, intervals);
-        let second = -first.transpose() * &first;
-        let fourth = &second * &second;
-        let sixth = &fourth * &second;
         Self {
             setup: setup.clone(),
             intervals,
             spacing,
             time_step,
-            differences: [second, fourth, sixth],
+            slope,
             sample: 0,
-            now: start.clone(),
-            before: start,
+            now: start,
+            change: DVector::zeros(points),
             finger_now: heights,
-            finger_before,
+            finger_change,
             forces: DVector::zeros(barriers.len() + setup.fingers.len()),
             barriers,
             net_loss: 0.0,
         }
     }
 
-    /// S at time t, 1/s².
-    fn stiffness(&self, time: f64) -> DMatrix<f64> {
-        let [second, fourth, sixth] = &self.differences;
+    /// D_xx v = −D_xᵀ D_x v. Taken one difference after the other, as here, it loses no digits of a smooth v;
+    /// the ready-made product of the matrices would.
+    fn curvature(&self, v: &DVector<f64>) -> DVector<f64> {
+        -self.slope.transpose() * (&self.slope * v)
+    }
+
+    /// S v with the S of time t.
+    fn acceleration(&self, time: f64, v: &DVector<f64>) -> DVector<f64> {
         let tension = at(&self.setup.tension, time);
         let (kappa2, kappa6) = self.setup.stencil_stiffness(self.spacing, tension);
+        let second = self.curvature(v);
+        let fourth = self.curvature(&second);
+        let sixth = self.curvature(&fourth);
         second * (tension / self.setup.linear_density) - fourth * kappa2 + sixth * kappa6
     }
 
@@ -152,117 +162,119 @@ impl Reference {
         let (h, k) = (self.spacing, self.time_step);
         let setup = &self.setup;
         let time = self.sample as f64 * k;
-        let (u, u_before) = (&self.now, &self.before);
-        let fingers = setup.fingers.len();
-        let d2 = &self.differences[0];
+        let (u, d) = (&self.now, &self.change);
+        let u_before = &(u - d);
+        let (fingers, fixed) = (setup.fingers.len(), self.barriers.len());
 
-        let a = d2 * u * (k / 2.0 * (self.stretch_stiffness() * h).sqrt());
-        let one = DMatrix::<f64>::identity(u.len(), u.len());
+        let a = self.curvature(u) * (k / 2.0 * (self.stretch_stiffness() * h).sqrt());
         let stretch = &a * a.transpose();
+        let one = DMatrix::<f64>::identity(u.len(), u.len());
+        let second = -self.slope.transpose() * &self.slope;
         let matrix_a = (&one * (1.0 + setup.loss_0 * k) + &stretch).lu();
-        let matrix_b = &one * 2.0 + self.stiffness(time) * (k * k) + d2 * (2.0 * setup.loss_1 * k);
-        let matrix_c = &one * (setup.loss_0 * k - 1.0) - &stretch - d2 * (2.0 * setup.loss_1 * k);
+        let matrix_c = &one * (setup.loss_0 * k - 1.0) - &stretch - second * (2.0 * setup.loss_1 * k);
         let invert = |right: &DMatrix<f64>| matrix_a.solve(right).expect("A has eigenvalues above 1");
 
-        // Without contacts: the string, then the fingers.
+        // Without contacts: the string, then the fingers, (M + R k/2) e⁺ = (M − R k/2) e − k² f₀ with e = u_f − u_f⁻.
         let mobility = k * k / setup.linear_density;
-        let mut plucks = DVector::zeros(u.len());
-        for pluck in &setup.plucks {
-            let phase = (time - pluck.start) / pluck.duration;
-            if (0.0..=1.0).contains(&phase) {
-                let force = pluck.force / 2.0 * (1.0 - (PI * phase).cos());
-                plucks += weights(pluck.position, h, self.intervals) * (force / h);
-            }
-        }
-        let right = matrix_b * u + matrix_c * u_before + &plucks * mobility;
-        let free = matrix_a.solve(&right).expect("A has eigenvalues above 1");
+        let pluck = self.plucks(time);
+        let right =
+            self.acceleration(time, u) * (k * k) - &stretch * u * 2.0 - matrix_c * d + &pluck * mobility;
+        let d_free = matrix_a.solve(&right).expect("A has eigenvalues above 1");
+        let mass = |i: usize| setup.fingers[i].mass;
         let hand = |i: usize| setup.fingers[i].hand_damping * k / 2.0;
-        let finger_mobility = |i: usize| k * k / (setup.fingers[i].mass + hand(i));
-        let finger_free = DVector::from_fn(fingers, |i, _| {
-            let mass = setup.fingers[i].mass;
-            let push = at(&setup.fingers[i].force, time);
-            (2.0 * mass * self.finger_now[i] - (mass - hand(i)) * self.finger_before[i] - k * k * push)
-                / (mass + hand(i))
+        let push = |i: usize| at(&setup.fingers[i].force, time);
+        let e = &self.finger_change;
+        let e_free = DVector::from_fn(fingers, |i, _| {
+            ((mass(i) - hand(i)) * e[i] - k * k * push(i)) / (mass(i) + hand(i))
         });
 
         // The contacts: a moving finger acts where it will be, and its way so far began where it was.
-        let (g_before, g, g_after) =
-            (self.columns((time - k).max(0.0)), self.columns(time), self.columns(time + k));
-        let eta_before = self.penetrations(&g_before, u_before, &self.finger_before);
-        let eta = self.penetrations(&g, u, &self.finger_now);
-        let eta_free = self.penetrations(&g_after, &free, &finger_free);
+        let g_before = self.columns((time - k).max(0.0));
+        let g_after = self.columns(time + k);
+        let eta_before = self.penetrations(&g_before, u_before, &(&self.finger_now - e));
+        let eta = self.penetrations(&self.columns(time), u, &self.finger_now);
         let spread = invert(&(&g_after * mobility));
+        // r = −c − M f: c is how far the contacts would open by themselves.
+        let slide = (&g_after - &g_before).transpose() * u_before * h;
+        let mut c = g_after.transpose() * (d + &d_free) * h + &slide;
         let mut m = g_after.transpose() * &spread * h;
+        for i in 0..fingers {
+            c[fixed + i] += e[i] + e_free[i];
+            m[(fixed + i, fixed + i)] += k * k / (mass(i) + hand(i));
+        }
         let contacts: Vec<Contact> = (0..eta.len())
             .map(|i| {
                 let law = self.law(i);
-                let damping = i.checked_sub(self.barriers.len()).map_or(0.0, |finger| {
-                    m[(i, i)] += finger_mobility(finger);
-                    setup.fingers[finger].damping * law.force(eta[i]) / (2.0 * k)
-                });
-                Contact { law, before: eta_before[i], damping }
+                let beta = i.checked_sub(fixed).map_or(0.0, |finger| setup.fingers[finger].damping);
+                Contact { law, before: eta_before[i], damping: beta * law.force(eta[i]) / (2.0 * k) }
             })
             .collect();
-        let forces = if contacts.is_empty() {
-            DVector::zeros(0)
-        } else {
-            contact::solve(&contacts, &(&eta_before - &eta_free), &m)
-        };
-
-        let next = &free + &spread * &forces;
-        let finger_next = DVector::from_fn(fingers, |i, _| {
-            finger_free[i] + finger_mobility(i) * forces[self.barriers.len() + i]
-        });
-        let eta_after = self.penetrations(&g_after, &next, &finger_next);
+        let forces = contact::solve(&contacts, &c, &m);
+        let d_next = &d_free + &spread * &forces;
+        let e_next =
+            DVector::from_fn(fingers, |i, _| e_free[i] + k * k / (mass(i) + hand(i)) * forces[fixed + i]);
 
         // Dissipated and supplied power, with centred velocities.
-        let velocity = (&next - u_before) / (2.0 * k);
-        let finger_velocity = (&finger_next - &self.finger_before) / (2.0 * k);
+        let velocity = (d + &d_next) / (2.0 * k);
+        let r = -c - m * &forces;
         let rho = setup.linear_density;
+        let retuned = self.acceleration(time, u_before) - self.acceleration((time - k).max(0.0), u_before);
         let mut net = 2.0 * rho * h * setup.loss_0 * velocity.norm_squared()
-            - 2.0 * rho * h * setup.loss_1 * velocity.dot(&(d2 * &velocity))
-            - h * plucks.dot(&velocity)
-            // Work done by whoever turns the peg.
-            + rho * h / (2.0 * k) * u.dot(&((self.stiffness(time) - self.stiffness((time - k).max(0.0))) * u_before));
+            - 2.0 * rho * h * setup.loss_1 * velocity.dot(&self.curvature(&velocity))
+            - h * pluck.dot(&velocity)
+            // Whoever turns the peg, and whoever moves a finger along the string, works as well.
+            + rho * h / (2.0 * k) * u.dot(&retuned)
+            + forces.dot(&slide) / (2.0 * k);
         for (i, contact) in contacts.iter().enumerate() {
-            let r = eta_after[i] - eta_before[i];
-            net += (forces[i] - contact.law.quotient(contact.before, r)) * r / (2.0 * k);
+            net += (forces[i] - contact.law.quotient(contact.before, r[i])) * r[i] / (2.0 * k);
         }
-        // Work done by whoever moves a finger along the string.
-        let slide = (&g_after - &g_before) / (2.0 * k);
-        net += h * forces.dot(&(slide.transpose() * u_before));
         for i in 0..fingers {
-            let force = at(&setup.fingers[i].force, time);
-            net += setup.fingers[i].hand_damping * finger_velocity[i].powi(2) + force * finger_velocity[i];
+            let velocity = (e[i] + e_next[i]) / (2.0 * k);
+            net += setup.fingers[i].hand_damping * velocity * velocity + push(i) * velocity;
         }
 
         self.net_loss = net;
         self.forces = forces;
-        self.before = std::mem::replace(&mut self.now, next);
-        self.finger_before = std::mem::replace(&mut self.finger_now, finger_next);
+        self.now += &d_next;
+        self.change = d_next;
+        self.finger_now += &e_next;
+        self.finger_change = e_next;
         self.sample += 1;
+    }
+
+    /// Σ g_e f_e, N/m.
+    fn plucks(&self, time: f64) -> DVector<f64> {
+        let mut sum = DVector::zeros(self.now.len());
+        for pluck in &self.setup.plucks {
+            let phase = (time - pluck.start) / pluck.duration;
+            if (0.0..=1.0).contains(&phase) {
+                let force = pluck.force / 2.0 * (1.0 - (PI * phase).cos());
+                sum += weights(pluck.position, self.spacing, self.intervals) * (force / self.spacing);
+            }
+        }
+        sum
     }
 
     /// Energy stored between the last two instants, J.
     pub fn energy(&self) -> f64 {
         let (h, k, rho) = (self.spacing, self.time_step, self.setup.linear_density);
-        let (u, u_before) = (&self.now, &self.before);
+        let (u, u_before) = (&self.now, &(&self.now - &self.change));
         let time = (self.sample as f64 - 1.0).max(0.0) * k;
-        let velocity = (u - u_before) / k;
+        let velocity = &self.change / k;
         // (D_x u)ᵀ D_x v = −uᵀ D_xx v.
-        let d2 = &self.differences[0];
-        let stretch = -u.dot(&(d2 * u_before)) * h;
+        let stretch = -u.dot(&self.curvature(u_before)) * h;
         let mut energy = rho * h / 2.0 * velocity.norm_squared()
-            - rho * h / 2.0 * u.dot(&(self.stiffness(time) * u_before))
-            + rho * self.setup.loss_1 * h * k / 2.0 * velocity.dot(&(d2 * &velocity))
+            - rho * h / 2.0 * u.dot(&self.acceleration(time, u_before))
+            + rho * self.setup.loss_1 * h * k / 2.0 * velocity.dot(&self.curvature(&velocity))
             + rho * self.stretch_stiffness() / 8.0 * stretch * stretch;
         let eta = self.penetrations(&self.columns(self.sample as f64 * k), u, &self.finger_now);
-        let eta_before = self.penetrations(&self.columns(time), u_before, &self.finger_before);
+        let fingers_before = &self.finger_now - &self.finger_change;
+        let eta_before = self.penetrations(&self.columns(time), u_before, &fingers_before);
         for i in 0..eta.len() {
             energy += (self.law(i).energy(eta[i]) + self.law(i).energy(eta_before[i])) / 2.0;
         }
-        for (i, finger) in self.setup.fingers.iter().enumerate() {
-            energy += finger.mass / 2.0 * ((self.finger_now[i] - self.finger_before[i]) / k).powi(2);
+        for (finger, change) in self.setup.fingers.iter().zip(&self.finger_change) {
+            energy += finger.mass / 2.0 * (change / k).powi(2);
         }
         energy
     }

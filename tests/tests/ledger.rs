@@ -28,7 +28,8 @@ fn balance(text: &str) -> Balance {
         ledger.residual_sum / ledger.largest,
         (last - first.unwrap()) / first.unwrap(),
         iterations as f64 / simulation.samples() as f64,
-        ledger.largest, last
+        ledger.largest,
+        last
     );
     Balance {
         worst: ledger.worst_residual,

@@ -74,6 +74,9 @@ impl Contact {
 /// halved until the mismatch shrinks, and the search ends when rounding no longer lets it.
 pub(super) fn solve(contacts: &[Contact], c: &DVector<f64>, m: &DMatrix<f64>) -> DVector<f64> {
     let count = contacts.len();
+    if count == 0 {
+        return DVector::zeros(0);
+    }
     let map = |r: &DVector<f64>, value: fn(&Contact, f64) -> f64| {
         DVector::from_fn(count, |i, _| value(&contacts[i], r[i]))
     };
