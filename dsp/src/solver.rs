@@ -279,9 +279,9 @@ impl Solver {
             convergence.fallbacks += 1;
             // y = (1 + √S M √S)⁻¹ √S(−c − Mλ(0)), f = λ(0) + √S y.
             self.response.product(&self.start, &mut self.motion);
-            for i in 0..count {
+            for (i, row) in rows.iter().enumerate() {
                 self.roots[i] = self.residual[i].sqrt();
-                self.unknown[i] = self.roots[i] * (-rows[i].opening - self.motion[i]);
+                self.unknown[i] = self.roots[i] * (-row.opening - self.motion[i]);
             }
             self.response.solve(&self.roots, &mut self.unknown);
             for i in 0..count {
