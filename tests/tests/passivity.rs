@@ -54,7 +54,10 @@ fn passive_everywhere(scene: &str, duration: f64) {
                     outcome.excess
                 );
             }
-            println!("{rate:6} Hz, cap {cap:2}: excess at most {worst:.1e}, solver took {:.1} %", 100.0 * lost);
+            println!(
+                "{rate:6} Hz, cap {cap:2}: excess at most {worst:.1e}, solver took {:.1} %",
+                100.0 * lost
+            );
         }
     }
 }

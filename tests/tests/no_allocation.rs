@@ -1,0 +1,79 @@
+//! Promise: nothing is allocated once an instrument or a string is built. The allocator of the tests
+//! aborts the program when memory is asked for or given back inside `assert_no_alloc`.
+
+// The allocator that keeps watch comes with the plugin.
+use low_action as _;
+use low_action_dsp::{
+    Drive, EngineSettings, Gesture, Instrument, Model, Scene, Scratch, Setup, State, Stencil,
+    StringParameters, TimedGesture,
+};
+use nice_assert_no_alloc::assert_no_alloc;
+
+#[test]
+fn playing_an_instrument() {
+    for name in Setup::BUILTIN {
+        let setup = Setup::builtin(name).expect("it is built in");
+        let settings = EngineSettings {
+            sample_rate: 48e3,
+            stencil: Stencil::Wide,
+            max_iterations: 20,
+            tolerance: 1e-12,
+        };
+        let mut instrument = Instrument::new(&setup, &settings).expect("it can be built");
+        let geometry: Vec<_> =
+            (0..instrument.string_count()).map(|string| instrument.geometry(string).clone()).collect();
+        let (mut left, mut right) = (vec![0.0; 512], vec![0.0; 512]);
+        let touch = setup.player.fretting.touch;
+        assert_no_alloc(|| {
+            for block in 0..100u64 {
+                for (string, geometry) in geometry.iter().enumerate() {
+                    let finger = (block % 4) as usize;
+                    let position = geometry.finger_position(1 + (block as usize + string) % 12);
+                    let away = geometry.length - 0.1;
+                    let gestures = [
+                        Gesture::Place { finger, touch, position, clearance: 1e-4 },
+                        Gesture::Press { finger, force: 6.0, duration: 0.004 },
+                        Gesture::Pluck { position: away, force: 2.0, duration: 0.001 },
+                        Gesture::Slide { finger, position: position + 0.01, duration: 0.01 },
+                        Gesture::Bend { tension_ratio: 1.1, duration: 0.01 },
+                        Gesture::Lift { finger, force: 3.0, duration: 0.002 },
+                    ];
+                    for (index, gesture) in gestures.into_iter().enumerate() {
+                        let time = instrument.now() + 80 * index as u64;
+                        // A full queue leaves a gesture out, which is no concern here.
+                        let _ = instrument.schedule(TimedGesture { time, string, gesture });
+                    }
+                }
+                instrument.process(&mut left, &mut right);
+            }
+            instrument.reset();
+        });
+        assert!(left.iter().all(|sample| sample.is_finite()));
+    }
+}
+
+#[test]
+fn hundreds_of_coupled_contacts() {
+    // A string dropped on a board of frets closer than the grid: large blocks, and blocks apart.
+    for frets in ["", "frets = [0.1, 0.1005, 0.101, 0.1015, 0.102, 0.1025, 0.103, 0.3]\nfret_top = -1e-5\n"] {
+        let text = format!(
+            "sample_rate = 96000\nduration = 1.0\n[[string]]\nlength = 0.65\nlinear_density = 5.25e-3\n\
+             tension = 60.0\nyoungs_modulus = 2e11\ncore_radius = 4.3e-4\ntension_modulation = true\n\
+             shape = [[0.0, 0.0], [0.1, -0.001], [0.5, -0.001], [0.65, 0.0]]\n[fretboard]\nstiffness = 1e13\n\
+             exponent = 2.3\nboard = -1e-5\n{frets}"
+        );
+        let scene = Scene::from_toml(&text).expect("the scene is valid");
+        let fretboard = scene.fretboard.as_ref().expect("there is one");
+        let barrier = low_action_dsp::Barrier::from_spec(fretboard, 0.65).expect("it is valid");
+        let string = StringParameters::from_spec(&scene.string[0]);
+        let model = Model::new(string, Some(&barrier), 0, scene.solver, 96e3).expect("it can be built");
+        let mut state = State::new(&model);
+        let shape = scene.string[0].shape.clone().expect("there is one");
+        state.set_shape(&model, &low_action_dsp::curve::Curve::Points(shape));
+        let mut scratch = Scratch::new(&model);
+        let drive = Drive::new(&model);
+        let most =
+            assert_no_alloc(|| (0..2000).map(|_| state.step(&model, &drive, &mut scratch).active).max());
+        assert!(most.is_some_and(|most| most > 50), "{most:?} contacts at once");
+    }
+}

@@ -1,0 +1,66 @@
+//! Promise: every sample rate from 8 to 384 kHz works, and the pitch stays where it is.
+
+use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture};
+
+/// Frequency of the strongest of a few partials near `near`, by the phase the signal gains against a
+/// tone there between two halves, Hz.
+fn frequency(signal: &[f32], rate: f64, near: f64) -> f64 {
+    let half = signal.len() / 2;
+    let phase = |part: &[f32], offset: usize| {
+        let (mut re, mut im) = (0.0, 0.0);
+        for (n, &sample) in part.iter().enumerate() {
+            let window = 0.5 - 0.5 * (std::f64::consts::TAU * n as f64 / part.len() as f64).cos();
+            let angle = std::f64::consts::TAU * near * (n + offset) as f64 / rate;
+            re += window * f64::from(sample) * angle.cos();
+            im -= window * f64::from(sample) * angle.sin();
+        }
+        im.atan2(re)
+    };
+    let turn = std::f64::consts::TAU;
+    let gained = phase(&signal[half..2 * half], half) - phase(&signal[..half], 0);
+    let gained = (gained + std::f64::consts::PI).rem_euclid(turn) - std::f64::consts::PI;
+    near + gained / turn * rate / half as f64
+}
+
+#[test]
+fn pitch_is_the_same_at_every_rate() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    for rate in [8e3, 11_025.0, 22_050.0, 44_100.0, 48e3, 88_200.0, 96e3, 176_400.0, 192e3, 384e3] {
+        let settings = EngineSettings {
+            sample_rate: rate,
+            stencil: Stencil::Wide,
+            max_iterations: 20,
+            tolerance: 1e-12,
+        };
+        let mut instrument = Instrument::new(&setup, &settings).expect("it can be built");
+        for (string, fret) in [(0, 0), (2, 5), (5, 3)] {
+            instrument.reset();
+            let geometry = instrument.geometry(string).clone();
+            let at = |gesture| TimedGesture { time: 0, string, gesture };
+            let player = &setup.player;
+            let place = Gesture::Place {
+                finger: 0,
+                touch: player.fretting.touch,
+                position: geometry.finger_position(fret),
+                clearance: player.fretting.hover,
+            };
+            let press =
+                Gesture::Press { finger: 0, force: player.fretting.force, duration: player.fretting.landing };
+            let position = geometry.length - player.pluck_position;
+            let pluck =
+                Gesture::Pluck { position, force: 0.2 * player.pluck_force, duration: player.pluck_duration };
+            for gesture in [place, press].into_iter().filter(|_| fret > 0).chain([pluck]) {
+                instrument.schedule(at(gesture)).expect("there is room");
+            }
+            let count = (0.8 * rate) as usize;
+            let (mut left, mut right) = (vec![0.0; count], vec![0.0; count]);
+            instrument.process(&mut left, &mut right);
+            assert!(left.iter().chain(&right).all(|sample| sample.is_finite()), "{rate} Hz");
+            let target = 440.0 * ((geometry.open_pitch + fret as f64 - 69.0) / 12.0).exp2();
+            let found = frequency(&left[(0.3 * rate) as usize..], rate, target);
+            let cents = 1200.0 * (found / target).log2();
+            println!("{rate} Hz, string {string}, fret {fret}: {cents:+.2} cents");
+            assert!(cents.abs() < 3.0, "{rate} Hz, string {string}, fret {fret}: {cents:+.2} cents");
+        }
+    }
+}
