@@ -1,0 +1,158 @@
+//! WAV files of the three sample formats, and what is known of the sound once it is written.
+
+use std::fmt;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use anyhow::{Context, Result, anyhow};
+use hound::{SampleFormat, WavSpec, WavWriter};
+
+use super::output::Draft;
+
+/// Bytes a WAV file can hold: sizes are 32-bit, and the header takes some.
+const LARGEST_FILE: u64 = u32::MAX as u64 - 1024;
+
+/// How samples are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BitDepth {
+    /// Whole numbers of 16 bits.
+    Int16,
+    /// Whole numbers of 24 bits.
+    Int24,
+    /// Floating point of 32 bits: nothing is clipped.
+    Float32,
+}
+
+impl BitDepth {
+    fn bits(self) -> u16 {
+        match self {
+            Self::Int16 => 16,
+            Self::Int24 => 24,
+            Self::Float32 => 32,
+        }
+    }
+
+    /// Samples per channel that fit in one file.
+    pub(super) fn largest_length(self, channels: u16) -> u64 {
+        LARGEST_FILE / (u64::from(self.bits() / 8) * u64::from(channels))
+    }
+}
+
+impl fmt::Display for BitDepth {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(match self {
+            Self::Int16 => "16",
+            Self::Int24 => "24",
+            Self::Float32 => "32f",
+        })
+    }
+}
+
+impl FromStr for BitDepth {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        match name {
+            "16" => Ok(Self::Int16),
+            "24" => Ok(Self::Int24),
+            "32f" => Ok(Self::Float32),
+            _ => Err("must be 16, 24 or 32f".into()),
+        }
+    }
+}
+
+/// What was written.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Findings {
+    /// Largest size of a sample, 1 is full scale.
+    pub peak: f32,
+    /// Samples that were no finite number (written as they are in floating point, as 0 otherwise).
+    pub not_finite: u64,
+}
+
+/// A WAV file being written.
+pub(super) struct WavFile {
+    path: PathBuf,
+    draft: Draft,
+    writer: WavWriter<BufWriter<File>>,
+    depth: BitDepth,
+    findings: Findings,
+}
+
+impl WavFile {
+    /// Begins a file that appears at `path` when it is [finished](Self::finish).
+    pub(super) fn begin(path: &Path, channels: u16, sample_rate: u32, depth: BitDepth) -> Result<Self> {
+        let sample_format = match depth {
+            BitDepth::Float32 => SampleFormat::Float,
+            BitDepth::Int16 | BitDepth::Int24 => SampleFormat::Int,
+        };
+        let spec = WavSpec { channels, sample_rate, bits_per_sample: depth.bits(), sample_format };
+        let draft = Draft::begin(path)?;
+        let writer = draft
+            .handle()
+            .map_err(hound::Error::from)
+            .and_then(|file| WavWriter::new(BufWriter::new(file), spec))
+            .with_context(|| format!("cannot write {}", path.display()))?;
+        Ok(Self { path: path.to_owned(), draft, writer, depth, findings: Findings::default() })
+    }
+
+    /// Adds samples, channels of one instant side by side.
+    pub(super) fn write(&mut self, samples: impl Iterator<Item = f32>) -> Result<()> {
+        for sample in samples {
+            self.findings.peak = self.findings.peak.max(sample.abs());
+            self.findings.not_finite += u64::from(!sample.is_finite());
+            let written = match self.depth {
+                BitDepth::Int16 => self.writer.write_sample(whole(sample, 16)),
+                BitDepth::Int24 => self.writer.write_sample(whole(sample, 24)),
+                BitDepth::Float32 => self.writer.write_sample(sample),
+            };
+            written.map_err(|error| self.refused(error))?;
+        }
+        Ok(())
+    }
+
+    /// Completes the file and lets it appear.
+    pub(super) fn finish(self) -> Result<Findings> {
+        let Self { path, draft, writer, findings, .. } = self;
+        writer.finalize().map_err(plain).with_context(|| format!("cannot write {}", path.display()))?;
+        draft.publish()?;
+        Ok(findings)
+    }
+
+    fn refused(&self, error: hound::Error) -> anyhow::Error {
+        plain(error).context(format!("cannot write {}", self.path.display()))
+    }
+}
+
+/// The system's own error where there is one.
+fn plain(error: hound::Error) -> anyhow::Error {
+    match error {
+        hound::Error::IoError(error) => anyhow!(error),
+        other => anyhow!(other),
+    }
+}
+
+/// The nearest whole number of so many bits; louder than full scale is clipped, and what is not a
+/// number becomes 0.
+fn whole(sample: f32, bits: u32) -> i32 {
+    let scale = f64::from(1_i32 << (bits - 1));
+    (f64::from(sample) * scale).round().clamp(-scale, scale - 1.0) as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_numbers_round_and_clip() {
+        assert_eq!(whole(0.5, 16), 16_384);
+        assert_eq!(whole(1.0, 16), 32_767);
+        assert_eq!(whole(-1.0, 16), -32_768);
+        assert_eq!(whole(-9.0, 24), -8_388_608);
+        assert_eq!(whole(f32::INFINITY, 24), 8_388_607);
+        assert_eq!(whole(f32::NAN, 24), 0);
+        assert_eq!(whole(0.6 / 32_768.0, 16), 1);
+    }
+}

@@ -1,0 +1,260 @@
+//! The whole instrument in one piece: notes in, stereo sound out.
+//!
+//! The plugin, the stand-alone program, the command line and the tests all play through
+//! [`Engine`]. Events carry sample times and the sound depends on those alone: cutting the same
+//! time into other blocks changes no bit of it.
+
+use std::collections::VecDeque;
+use std::fmt;
+use std::str::FromStr;
+
+use low_action_dsp::{EngineSettings, Instrument, Setup, Stencil, TimedGesture};
+
+use crate::performance::{Compromises, GestureSink, Performance, PlayerEvent, Style};
+
+/// Samples handed from the player to the instrument at a time. It bounds how many gestures can be
+/// waiting in the instrument, however large the blocks asked for.
+const STEP: usize = 64;
+/// Events that can wait for their time; far more than any host sends for one block.
+const WAITING_EVENTS: usize = 16_384;
+/// Most stems written at once; set-ups have at most 32 strings.
+const MOST_STEMS: usize = 32;
+
+/// How much computing a sound may take.
+///
+/// Every quality runs at the sample rate asked for; they differ in the string's stencil and in how
+/// exactly contacts are solved.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Quality {
+    /// Least work: the corrected stencil costs no more than the plain one (partial near 4 kHz of a
+    /// low E at 48 kHz 12 cents flat); contacts to 1e-9 m, at most 8 iterations.
+    Draft,
+    /// For playing: the wide stencil (1 cent flat there); contacts to 1e-12 m, at most 20
+    /// iterations.
+    #[default]
+    Live,
+    /// For a finished recording: contacts to 1e-14 m, at most 50 iterations.
+    Studio,
+    /// For comparison: contacts to 1e-16 m, at most 200 iterations.
+    Reference,
+}
+
+impl Quality {
+    /// All of them, from least to most work.
+    pub const ALL: [Self; 4] = [Self::Draft, Self::Live, Self::Studio, Self::Reference];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Draft => "draft",
+            Self::Live => "live",
+            Self::Studio => "studio",
+            Self::Reference => "reference",
+        }
+    }
+
+    /// What it means for the instrument at a sample rate in Hz.
+    pub fn settings(self, sample_rate: f64) -> EngineSettings {
+        let (stencil, max_iterations, tolerance) = match self {
+            Self::Draft => (Stencil::Corrected, 8, 1e-9),
+            Self::Live => (Stencil::Wide, 20, 1e-12),
+            Self::Studio => (Stencil::Wide, 50, 1e-14),
+            Self::Reference => (Stencil::Wide, 200, 1e-16),
+        };
+        EngineSettings { sample_rate, stencil, max_iterations, tolerance }
+    }
+}
+
+impl fmt::Display for Quality {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.name())
+    }
+}
+
+impl FromStr for Quality {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        Self::ALL
+            .into_iter()
+            .find(|quality| quality.name() == name)
+            .ok_or_else(|| format!("unknown quality {name:?}: must be draft, live, studio or reference"))
+    }
+}
+
+/// Everything an engine is built from.
+#[derive(Debug, Clone)]
+pub struct EngineOptions {
+    /// The instrument and its player.
+    pub setup: Setup,
+    /// Sample rate, Hz, 8,000 to 384,000.
+    pub sample_rate: f64,
+    /// How much computing.
+    pub quality: Quality,
+    /// Size of the small differences between one pluck and the next, 0 (none) to 1.
+    pub variation: f64,
+    /// Which sequence of differences.
+    pub seed: u64,
+    /// Semitones of a full turn of the pitch wheel, until registered parameter 0 sets another. The
+    /// string itself bends no farther than its set-up leaves room for.
+    pub bend_range: f64,
+}
+
+impl EngineOptions {
+    /// Usual size of the differences between plucks: up to 3 mm, 5 % of force and a quarter of a
+    /// millisecond.
+    pub const VARIATION: f64 = 0.25;
+    /// Usual reach of the pitch wheel, semitones: what General MIDI files are written for.
+    pub const BEND_RANGE: f64 = 2.0;
+
+    /// A set-up played at a rate (Hz) with everything else as usual.
+    pub fn new(setup: Setup, sample_rate: f64) -> Self {
+        Self {
+            setup,
+            sample_rate,
+            quality: Quality::default(),
+            variation: Self::VARIATION,
+            seed: 0,
+            bend_range: Self::BEND_RANGE,
+        }
+    }
+}
+
+/// An event waiting for its sample.
+#[derive(Debug, Clone, Copy)]
+struct Waiting {
+    time: u64,
+    event: PlayerEvent,
+}
+
+/// A player and an instrument.
+#[derive(Debug, Clone)]
+pub struct Engine {
+    performance: Performance,
+    instrument: Instrument,
+    waiting: VecDeque<Waiting>,
+    lost: u64,
+}
+
+impl Engine {
+    /// Builds everything; nothing is allocated afterwards.
+    ///
+    /// # Errors
+    /// When the set-up cannot be built at this rate; the message names the value and its range.
+    pub fn new(options: &EngineOptions) -> Result<Self, low_action_dsp::Error> {
+        let instrument = Instrument::new(&options.setup, &options.quality.settings(options.sample_rate))?;
+        let strings = (0..instrument.string_count()).map(|string| instrument.geometry(string).clone());
+        let style =
+            Style { variation: options.variation, seed: options.seed, bend_range: options.bend_range };
+        let performance =
+            Performance::new(strings.collect(), &options.setup.player, style, options.sample_rate);
+        Ok(Self { performance, instrument, waiting: VecDeque::with_capacity(WAITING_EVENTS), lost: 0 })
+    }
+
+    /// Takes an event that happens `offset` samples after the start of the next block. Events at
+    /// the same sample happen in the order they come in.
+    pub fn event(&mut self, offset: u32, event: PlayerEvent) {
+        let now = self.instrument.now();
+        let time = now + u64::from(offset);
+        if self.waiting.len() == WAITING_EVENTS {
+            // Those of the present sample need not wait.
+            self.deliver(now + 1);
+        }
+        if self.waiting.len() == WAITING_EVENTS {
+            self.lost += 1;
+            return;
+        }
+        // Hosts send events in order, so this looks at the last one and is done.
+        let after = self.waiting.iter().rev().take_while(|other| other.time > time).count();
+        self.waiting.insert(self.waiting.len() - after, Waiting { time, event });
+    }
+
+    /// Plays the next block. Both channels must be of one length; it may be any.
+    pub fn process(&mut self, left: &mut [f32], right: &mut [f32]) {
+        for (left, right) in left.chunks_mut(STEP).zip(right.chunks_mut(STEP)) {
+            self.prepare(left.len());
+            self.instrument.process(left, right);
+        }
+    }
+
+    /// Plays the next block and writes each string's own sound, before it is panned, to `stems`
+    /// (as many as there are strings, as long as the block). The stereo sound is the same as
+    /// without.
+    pub fn process_stems(&mut self, stems: &mut [&mut [f32]], left: &mut [f32], right: &mut [f32]) {
+        let count = stems.len().min(MOST_STEMS);
+        let steps = left.chunks_mut(STEP).zip(right.chunks_mut(STEP));
+        for (index, (left, right)) in steps.enumerate() {
+            let span = index * STEP..index * STEP + left.len();
+            let mut parts: [&mut [f32]; MOST_STEMS] = std::array::from_fn(|_| Default::default());
+            for (part, stem) in parts.iter_mut().zip(stems.iter_mut()) {
+                *part = &mut stem[span.clone()];
+            }
+            self.prepare(left.len());
+            self.instrument.process_stems(&mut parts[..count], left, right);
+        }
+    }
+
+    /// Number of strings, and so of stems.
+    pub fn string_count(&self) -> usize {
+        self.instrument.string_count()
+    }
+
+    /// Largest size of the sound over the last 50 ms, 1 is full scale; for the end of tails.
+    pub fn level(&self) -> f64 {
+        self.instrument.level()
+    }
+
+    /// Index of the next sample since construction or reset.
+    pub fn now(&self) -> u64 {
+        self.instrument.now()
+    }
+
+    /// What could not be played as written so far.
+    pub fn compromises(&self) -> Compromises {
+        self.performance.compromises()
+    }
+
+    /// Events lost because too many came at once (more than 16,384 in one block).
+    pub fn lost_events(&self) -> u64 {
+        self.lost
+    }
+
+    /// Silence, hands off, pedals up, wheels in the middle, sample 0.
+    pub fn reset(&mut self) {
+        self.performance.reset();
+        self.instrument.reset();
+        self.waiting.clear();
+        self.lost = 0;
+    }
+
+    /// Has the player do all that belongs to the next `frames` samples.
+    fn prepare(&mut self, frames: usize) {
+        let until = self.instrument.now() + frames as u64;
+        self.deliver(until);
+        let mut sink = Sink { instrument: &mut self.instrument, lost: &mut self.lost };
+        self.performance.advance(until, &mut sink);
+    }
+
+    /// Hands the player all events before sample `until`.
+    fn deliver(&mut self, until: u64) {
+        let mut sink = Sink { instrument: &mut self.instrument, lost: &mut self.lost };
+        while let Some(&Waiting { time, event }) = self.waiting.front().filter(|next| next.time < until) {
+            self.waiting.pop_front();
+            self.performance.event(time, event, &mut sink);
+        }
+    }
+}
+
+/// Hands gestures to the instrument.
+struct Sink<'a> {
+    instrument: &'a mut Instrument,
+    lost: &'a mut u64,
+}
+
+impl GestureSink for Sink<'_> {
+    fn gesture(&mut self, gesture: TimedGesture) {
+        // A step brings at most a handful of gestures a string and sample, far below the
+        // instrument's capacity; should it ever be full, the loss is counted.
+        *self.lost += u64::from(self.instrument.schedule(gesture).is_err());
+    }
+}

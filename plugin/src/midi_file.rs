@@ -1,0 +1,321 @@
+//! Standard MIDI files: bytes in, a list of [`PlayerEvent`]s at exact times out.
+//!
+//! Times are kept as whole numbers over one common denominator, so that a tempo map an hour long
+//! still lands every event on the right sample. Events are decoded by `midly`; the chunk structure
+//! is walked here, because `midly` reads a truncated file as a shorter song and stumbles over some
+//! impossible time divisions.
+
+mod chunks;
+mod timing;
+
+use std::fmt;
+
+use midly::{EventIter, MetaMessage, MidiMessage, TrackEventKind};
+
+use crate::performance::PlayerEvent;
+use chunks::Chunks;
+pub use timing::SongTime;
+use timing::{Clock, Division};
+
+/// Largest MIDI file read, bytes. Ordinary songs take some tens of kilobytes.
+pub const LARGEST_FILE: usize = 32 << 20;
+
+/// The channel of percussion in General MIDI, counted from 0.
+const DRUM_CHANNEL: u8 = 9;
+
+/// Why bytes are not a song.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum MidiFileError {
+    /// The bytes do not begin like a MIDI file.
+    #[error("not a MIDI file: it does not begin with a MThd chunk")]
+    NotMidi,
+    /// There are more bytes than [`LARGEST_FILE`].
+    #[error("the MIDI file is too large: at most {LARGEST_FILE} bytes are read")]
+    TooLarge,
+    /// The file ends before something it announced.
+    #[error("truncated MIDI file: {what} announces {expected} bytes, {found} are left")]
+    Truncated {
+        /// The part that is cut off.
+        what: String,
+        /// Bytes announced.
+        expected: usize,
+        /// Bytes found.
+        found: usize,
+    },
+    /// The header counts more tracks than there are.
+    #[error("truncated MIDI file: the header announces {expected} tracks, {found} are there")]
+    MissingTracks {
+        /// Tracks announced.
+        expected: usize,
+        /// Tracks found.
+        found: usize,
+    },
+    /// The format is none of the three.
+    #[error("unknown MIDI file format {0}: must be 0, 1 or 2")]
+    Format(u16),
+    /// The time division cannot be used.
+    #[error(
+        "impossible MIDI time division {0:#06x}: must be 1 to 32767 ticks a beat, or 24, 25, 29 or 30 frames of 1 to 255 ticks"
+    )]
+    Division(u16),
+    /// An event cannot be read.
+    #[error("damaged MIDI file: no readable event at byte {offset} of track {track}")]
+    BadEvent {
+        /// Track, counted from 1.
+        track: usize,
+        /// Bytes from the start of the track's data.
+        offset: usize,
+    },
+    /// The asked track is not there.
+    #[error("no track {asked}: the file has {count}, so --track takes 1 to {count}")]
+    NoSuchTrack {
+        /// Track asked for, counted from 1.
+        asked: usize,
+        /// Tracks in the file.
+        count: usize,
+    },
+}
+
+/// Which of a file's notes are played. Tempo changes always count.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// Only this track, counted from 1.
+    pub track: Option<usize>,
+    /// Only this channel, counted from 1 to 16. Naming the drum channel plays it.
+    pub channel: Option<u8>,
+}
+
+/// Something to tell the user about a file that plays nevertheless.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SongWarning {
+    /// Nothing to play.
+    NoNotes,
+    /// Notes of the drum channel were left out.
+    DrumsSkipped {
+        /// How many.
+        notes: usize,
+    },
+    /// A track stops without saying so; perhaps something is missing.
+    NoEndOfTrack {
+        /// Track, counted from 1.
+        track: usize,
+    },
+}
+
+impl fmt::Display for SongWarning {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoNotes => write!(out, "no notes to play: the result is silence"),
+            Self::DrumsSkipped { notes } => {
+                write!(
+                    out,
+                    "channel 10 is percussion: {notes} of its notes left out (--channel 10 plays them)"
+                )
+            }
+            Self::NoEndOfTrack { track } => {
+                write!(out, "track {track} has no end-of-track event: it may be incomplete")
+            }
+        }
+    }
+}
+
+/// An event at its exact time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SongEvent {
+    /// When, counted from the start of the song.
+    pub time: SongTime,
+    /// What.
+    pub event: PlayerEvent,
+}
+
+/// A song ready to play: events in order of time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Song {
+    /// The events, in order of time; those at equal times in the order of the file.
+    pub events: Vec<SongEvent>,
+    /// What the user should know.
+    pub warnings: Vec<SongWarning>,
+}
+
+impl Song {
+    /// Reads a whole MIDI file of any of the three formats; the sequences of format 2 follow one
+    /// another.
+    ///
+    /// # Errors
+    /// One line that says what is wrong with the file.
+    pub fn from_midi(bytes: &[u8], selection: Selection) -> Result<Self, MidiFileError> {
+        let chunks = Chunks::read(bytes)?;
+        if let Some(asked) = selection.track
+            && !(1..=chunks.tracks.len()).contains(&asked)
+        {
+            return Err(MidiFileError::NoSuchTrack { asked, count: chunks.tracks.len() });
+        }
+        let mut reader = Reader { selection, division: chunks.division, song: Song::empty(), drums: 0 };
+        let mut start = SongTime::zero(chunks.division);
+        if chunks.sequential {
+            for (index, data) in chunks.tracks.iter().enumerate() {
+                // Only the chosen sequence takes time: it does not wait for those before it.
+                if reader.selects(index) {
+                    let track = reader.track(index, data)?;
+                    start = reader.perform(start, vec![track]);
+                }
+            }
+        } else {
+            let mut tracks = Vec::with_capacity(chunks.tracks.len());
+            for (index, data) in chunks.tracks.iter().enumerate() {
+                tracks.push(reader.track(index, data)?);
+            }
+            reader.perform(start, tracks);
+        }
+        Ok(reader.finish())
+    }
+
+    /// A song without events.
+    fn empty() -> Self {
+        Self { events: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// Time of the last event, s; 0 without events.
+    pub fn duration(&self) -> f64 {
+        self.events.last().map_or(0.0, |event| event.time.seconds())
+    }
+}
+
+/// One decoded event on the tick grid of its track.
+struct Tick {
+    at: u64,
+    kind: TickKind,
+}
+
+enum TickKind {
+    /// Microseconds a beat.
+    Tempo(u32),
+    Player(PlayerEvent),
+}
+
+/// A decoded track: its events, and the tick at which it ends.
+struct Track {
+    ticks: Vec<Tick>,
+    end: u64,
+}
+
+/// Gathers the song while tracks are decoded.
+struct Reader {
+    selection: Selection,
+    division: Division,
+    song: Song,
+    drums: usize,
+}
+
+impl Reader {
+    fn selects(&self, track_index: usize) -> bool {
+        self.selection.track.is_none_or(|track| track == track_index + 1)
+    }
+
+    /// Decodes the events of one track.
+    fn track(&mut self, index: usize, data: &[u8]) -> Result<Track, MidiFileError> {
+        let mut track = Track { ticks: Vec::new(), end: 0 };
+        let mut iterator = EventIter::new(data);
+        let mut running_status = None;
+        let mut ended = false;
+        loop {
+            let offset = data.len() - iterator.unread().len();
+            if offset == data.len() {
+                break;
+            }
+            let Some(Ok(event)) = iterator.next() else {
+                return Err(MidiFileError::BadEvent { track: index + 1, offset });
+            };
+            // Many files carry running status across a meta event, though the standard ends it there.
+            if iterator.running_status().is_some() {
+                running_status = iterator.running_status();
+            } else {
+                *iterator.running_status_mut() = running_status;
+            }
+            track.end += u64::from(event.delta.as_int());
+            let kind = match event.kind {
+                TrackEventKind::Meta(MetaMessage::EndOfTrack) => {
+                    ended = true;
+                    break;
+                }
+                TrackEventKind::Meta(MetaMessage::Tempo(tempo)) => Some(TickKind::Tempo(tempo.as_int())),
+                TrackEventKind::Midi { channel, message } if self.selects(index) => {
+                    self.message(channel.as_int(), message).map(TickKind::Player)
+                }
+                _ => None,
+            };
+            track.ticks.extend(kind.map(|kind| Tick { at: track.end, kind }));
+        }
+        if !ended {
+            self.song.warnings.push(SongWarning::NoEndOfTrack { track: index + 1 });
+        }
+        Ok(track)
+    }
+
+    /// Translates a channel message, or leaves it out.
+    fn message(&mut self, channel: u8, message: MidiMessage) -> Option<PlayerEvent> {
+        match self.selection.channel {
+            Some(chosen) if chosen != channel + 1 => return None,
+            None if channel == DRUM_CHANNEL => {
+                let is_note = matches!(message, MidiMessage::NoteOn { vel, .. } if vel.as_int() > 0);
+                self.drums += usize::from(is_note);
+                return None;
+            }
+            _ => {}
+        }
+        player_event(channel, message)
+    }
+
+    /// Puts tracks that play together on the song's clock, from `start`; returns where they end.
+    fn perform(&mut self, start: SongTime, tracks: Vec<Track>) -> SongTime {
+        let end = tracks.iter().map(|track| track.end).max().unwrap_or(0);
+        let mut ticks: Vec<Tick> = tracks.into_iter().flat_map(|track| track.ticks).collect();
+        // Stable: simultaneous events keep the order of tracks, and of events within them.
+        ticks.sort_by_key(|tick| tick.at);
+        let mut clock = Clock::new(self.division, start);
+        for tick in ticks {
+            clock.advance_to(tick.at);
+            match tick.kind {
+                TickKind::Tempo(tempo) => clock.set_tempo(tempo),
+                TickKind::Player(event) => self.song.events.push(SongEvent { time: clock.now(), event }),
+            }
+        }
+        clock.advance_to(end);
+        clock.now()
+    }
+
+    fn finish(mut self) -> Song {
+        if self.drums > 0 {
+            self.song.warnings.push(SongWarning::DrumsSkipped { notes: self.drums });
+        }
+        if !self.song.events.iter().any(|event| matches!(event.event, PlayerEvent::NoteOn { .. })) {
+            self.song.warnings.push(SongWarning::NoNotes);
+        }
+        self.song
+    }
+}
+
+/// A channel message in the player's words, if the player cares for it.
+fn player_event(channel: u8, message: MidiMessage) -> Option<PlayerEvent> {
+    let unit = |value: midly::num::u7| f32::from(value.as_int()) / 127.0;
+    match message {
+        MidiMessage::NoteOn { key, vel } if vel.as_int() > 0 => {
+            Some(PlayerEvent::NoteOn { channel, key: key.as_int(), velocity: unit(vel) })
+        }
+        MidiMessage::NoteOn { key, .. } | MidiMessage::NoteOff { key, .. } => {
+            Some(PlayerEvent::NoteOff { channel, key: key.as_int() })
+        }
+        MidiMessage::Controller { controller, value } => {
+            Some(PlayerEvent::Controller { channel, number: controller.as_int(), value: unit(value) })
+        }
+        MidiMessage::PitchBend { bend } => {
+            // 0 to 8192 to 16383: the upper half is one step shorter, and both ends are full turns.
+            let steps = f32::from(bend.0.as_int()) - 8192.0;
+            let value = if steps < 0.0 { steps / 8192.0 } else { steps / 8191.0 };
+            Some(PlayerEvent::PitchBend { channel, value })
+        }
+        MidiMessage::Aftertouch { .. }
+        | MidiMessage::ProgramChange { .. }
+        | MidiMessage::ChannelAftertouch { .. } => None,
+    }
+}

@@ -1,0 +1,255 @@
+//! From notes to gestures: what a player makes of the music.
+//!
+//! [`Performance`] takes [`PlayerEvent`]s at sample times and hands out
+//! [`TimedGesture`](low_action_dsp::TimedGesture)s: which string and fret ([`hand`](self::hand)),
+//! what fingers and plucks a note takes from its start to its silence ([`string`](self::string)),
+//! what pedals and wheels do to it ([`channel`](self::channel)), and how one pluck differs from the
+//! next ([`variation`](self::variation)). There are no host types here, nothing is allocated after
+//! construction, and the result depends only on the events and their times, not on how the time
+//! between them is cut into blocks.
+
+mod channel;
+mod event;
+mod hand;
+mod string;
+mod technique;
+mod variation;
+
+use low_action_dsp::setup::Player;
+use low_action_dsp::{StringGeometry, TimedGesture};
+
+use channel::{Channel, Request};
+pub use event::PlayerEvent;
+use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
+use string::{Start, StringPlayer};
+use variation::Variation;
+
+/// MIDI channels.
+const CHANNELS: usize = 16;
+
+/// Somewhere gestures go: the instrument, or a list in a test.
+pub trait GestureSink {
+    /// Takes a gesture. Those of one string come in order of time, except that a pluck may be
+    /// handed over up to a millisecond ahead of it.
+    fn gesture(&mut self, gesture: TimedGesture);
+}
+
+impl GestureSink for Vec<TimedGesture> {
+    fn gesture(&mut self, gesture: TimedGesture) {
+        self.push(gesture);
+    }
+}
+
+/// What the player could not do as written.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Compromises {
+    /// Notes moved by octaves because no string gives them.
+    pub moved_by_octaves: u64,
+    /// Notes left out because more began at one instant than there were strings for.
+    pub left_out: u64,
+}
+
+/// How a performance is played.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Style {
+    /// Size of the small differences between plucks, 0 (none) to 1.
+    pub variation: f64,
+    /// Which sequence of differences.
+    pub seed: u64,
+    /// Semitones of a full turn of the pitch wheel until a file or keyboard sets its own
+    /// (registered parameter 0). A string bends no farther than its set-up leaves room for.
+    pub bend_range: f64,
+}
+
+/// A note-on waiting for the rest of its chord.
+#[derive(Debug, Clone, Copy)]
+struct Struck {
+    wanted: Wanted,
+    velocity: f64,
+}
+
+/// A player with an instrument in hand.
+#[derive(Debug, Clone)]
+pub struct Performance {
+    strings: Vec<StringPlayer>,
+    channels: [Channel; CHANNELS],
+    hand: Hand,
+    variation: Variation,
+    compromises: Compromises,
+    /// Notes that began at `now` and are not placed yet.
+    chord: Vec<Struck>,
+    now: u64,
+    // Scratch of `begin_chord`.
+    wanted: Vec<Wanted>,
+    uses: Vec<Use>,
+    placements: Vec<Option<Placement>>,
+}
+
+impl Performance {
+    /// A player who has touched nothing yet, with the hands the set-up describes. `strings` are in
+    /// the instrument's order.
+    pub fn new(strings: Vec<StringGeometry>, hands: &Player, style: Style, sample_rate: f64) -> Self {
+        let ranges =
+            strings.iter().map(|string| Range { open_pitch: string.open_pitch, frets: string.frets.len() });
+        let count = strings.len();
+        Self {
+            hand: Hand::new(ranges.collect()),
+            strings: strings
+                .into_iter()
+                .enumerate()
+                .map(|(index, geometry)| StringPlayer::new(index, geometry, hands.clone(), sample_rate))
+                .collect(),
+            channels: std::array::from_fn(|_| Channel::new(style.bend_range)),
+            variation: Variation::new(style.variation, style.seed),
+            compromises: Compromises::default(),
+            chord: Vec::with_capacity(LARGEST_CHORD),
+            now: 0,
+            wanted: Vec::with_capacity(LARGEST_CHORD),
+            uses: Vec::with_capacity(count),
+            placements: Vec::with_capacity(LARGEST_CHORD),
+        }
+    }
+
+    /// Takes an event at a sample time. Times never go back; an earlier one counts as the latest.
+    pub fn event(&mut self, time: u64, event: PlayerEvent, out: &mut impl GestureSink) {
+        let time = time.max(self.now);
+        self.advance(time, out);
+        match event {
+            PlayerEvent::NoteOn { channel, key, velocity } if velocity > 0.0 => {
+                self.strike(channel, key, f64::from(velocity.min(1.0)));
+            }
+            PlayerEvent::NoteOn { channel, key, .. } | PlayerEvent::NoteOff { channel, key } => {
+                self.begin_chord(out);
+                self.let_go(channel, key);
+            }
+            PlayerEvent::Controller { channel, number, value } => {
+                self.begin_chord(out);
+                self.control(channel, |channel| channel.set_controller(number, seven_bits(value)));
+            }
+            PlayerEvent::PitchBend { channel, value } => {
+                self.begin_chord(out);
+                self.control(channel, |channel| channel.set_wheel(value));
+            }
+            PlayerEvent::AllNotesOff => {
+                self.begin_chord(out);
+                for string in &mut self.strings {
+                    string.silence(time, None);
+                }
+                for channel in &mut self.channels {
+                    channel.pedal = false;
+                }
+            }
+        }
+    }
+
+    /// Does everything that falls due before sample `until`. Events at `until` and later may still
+    /// follow.
+    pub fn advance(&mut self, until: u64, out: &mut impl GestureSink) {
+        if until > self.now {
+            self.begin_chord(out);
+            for string in &mut self.strings {
+                string.advance(until, out);
+            }
+            self.now = until;
+        }
+    }
+
+    /// What could not be played as written so far.
+    pub fn compromises(&self) -> Compromises {
+        self.compromises
+    }
+
+    /// Forgets everything and starts again at sample 0.
+    pub fn reset(&mut self) {
+        self.strings.iter_mut().for_each(StringPlayer::reset);
+        self.channels.iter_mut().for_each(Channel::reset);
+        self.hand.reset();
+        self.variation.reset();
+        self.compromises = Compromises::default();
+        self.chord.clear();
+        self.now = 0;
+    }
+
+    /// Notes a struck key; it is placed with all others of the same instant.
+    fn strike(&mut self, channel: u8, key: u8, velocity: f64) {
+        if usize::from(channel) >= CHANNELS {
+            return;
+        }
+        let twin =
+            self.chord.iter_mut().find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
+        if let Some(twin) = twin {
+            twin.velocity = twin.velocity.max(velocity);
+            return;
+        }
+        match self.hand.playable_pitch(key) {
+            Some(pitch) if self.chord.len() < LARGEST_CHORD => {
+                self.compromises.moved_by_octaves += u64::from(pitch != f64::from(key));
+                self.chord.push(Struck { wanted: Wanted { channel, key, pitch }, velocity });
+            }
+            _ => self.compromises.left_out += 1,
+        }
+    }
+
+    /// Places and plays the notes that began together at `now`.
+    fn begin_chord(&mut self, out: &mut impl GestureSink) {
+        if self.chord.is_empty() {
+            return;
+        }
+        let time = self.now;
+        self.uses.clear();
+        self.uses.extend(self.strings.iter().map(|string| string.usage(time)));
+        self.wanted.clear();
+        self.wanted.extend(self.chord.iter().map(|struck| struck.wanted));
+        self.placements.clear();
+        self.placements.resize(self.wanted.len(), None);
+        self.hand.place(&self.wanted, &self.uses, &mut self.placements);
+        for (struck, placement) in self.chord.drain(..).zip(&self.placements) {
+            let Some(Placement { string, fret }) = *placement else {
+                self.compromises.left_out += 1;
+                continue;
+            };
+            let Wanted { channel, key, .. } = struck.wanted;
+            let deviation = self.variation.next();
+            let start = Start { channel, key, fret, velocity: struck.velocity, deviation };
+            self.strings[string].start(time, start, out);
+            self.strings[string].bend(time, channel, self.channels[usize::from(channel)].bend());
+        }
+    }
+
+    /// A key goes up.
+    fn let_go(&mut self, channel: u8, key: u8) {
+        let Some(pedal) = self.channels.get(usize::from(channel)).map(|channel| channel.pedal) else {
+            return;
+        };
+        for string in &mut self.strings {
+            if string.release(self.now, channel, key, pedal) {
+                break;
+            }
+        }
+    }
+
+    /// Changes a channel's state and carries the consequences to the strings.
+    fn control(&mut self, number: u8, change: impl FnOnce(&mut Channel) -> Request) {
+        let Some(channel) = self.channels.get_mut(usize::from(number)) else { return };
+        let request = change(channel);
+        let (pedal, bend, time) = (channel.pedal, channel.bend(), self.now);
+        for string in &mut self.strings {
+            match request {
+                Request::None => {}
+                Request::PedalUp => string.pedal_up(time, number),
+                Request::Bend => string.bend(time, number, bend),
+                Request::ReleaseKeys => string.release_channel(time, number, pedal),
+                Request::Silence => string.silence(time, Some(number)),
+                Request::Reset => {
+                    string.pedal_up(time, number);
+                    string.bend(time, number, bend);
+                }
+            }
+        }
+    }
+}
+
+/// A controller's value as MIDI sends it, 0 to 127; not a number counts as 0.
+fn seven_bits(value: f32) -> u8 {
+    (value.clamp(0.0, 1.0) * 127.0).round() as u8
+}
