@@ -4,4 +4,8 @@ pub mod cli;
 pub mod demo;
 pub mod engine;
 pub mod midi_file;
+pub mod params;
 pub mod performance;
+pub mod plugin;
+#[cfg(feature = "standalone")]
+pub mod standalone;

@@ -1,3 +1,4 @@
 //! Helpers shared by the promise tests.
 
 pub mod dense;
+pub mod host;

@@ -39,6 +39,9 @@ Examples:
 struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,
+    /// Options of the stand-alone instrument.
+    #[arg(last = true, value_name = "OPTION")]
+    options: Vec<String>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -175,9 +178,9 @@ where
     T: Into<OsString> + Clone,
 {
     let outcome = match CommandLine::try_parse_from(arguments) {
-        Ok(CommandLine { command: Some(Command::Render(arguments)) }) => render::run(&arguments),
-        Ok(CommandLine { command: Some(Command::Scene(arguments)) }) => scene::run(&arguments),
-        Ok(CommandLine { command: None }) => stand_alone(),
+        Ok(CommandLine { command: Some(Command::Render(arguments)), .. }) => render::run(&arguments),
+        Ok(CommandLine { command: Some(Command::Scene(arguments)), .. }) => scene::run(&arguments),
+        Ok(CommandLine { command: None, options }) => stand_alone(options),
         Err(error) => explain(&error),
     };
     match outcome {
@@ -194,8 +197,20 @@ pub(crate) fn say(kind: &str, text: &str) {
     writeln!(std::io::stderr(), "{kind}: {}", one_line(text)).ok();
 }
 
-/// Opens the instrument.
-fn stand_alone() -> Outcome {
+/// Opens the instrument with options of the plugin framework's.
+#[cfg(feature = "standalone")]
+fn stand_alone(options: Vec<String>) -> Outcome {
+    say("low-action", "playing what arrives on MIDI until Ctrl+C; `low-action -- --help` lists the options");
+    if crate::standalone::open(options) {
+        Ok(())
+    } else {
+        Err(Failure::Impossible(anyhow::anyhow!("the stand-alone instrument could not be opened")))
+    }
+}
+
+/// Says how to get the instrument.
+#[cfg(not(feature = "standalone"))]
+fn stand_alone(_options: Vec<String>) -> Outcome {
     Err(Failure::Usage(
         "this build has no stand-alone instrument: build it with `cargo build --release --features \
          standalone`, or see `low-action --help` for the commands"

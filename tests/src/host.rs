@@ -1,0 +1,164 @@
+//! A small CLAP host inside the test: it loads the plugin without a bundle and plays events through it.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clack_host::events::event_types::{MidiEvent, NoteOffEvent, NoteOnEvent, ParamValueEvent};
+use clack_host::prelude::*;
+
+/// What a performer or a host does to the plugin.
+#[derive(Clone, Copy, Debug)]
+pub enum Action {
+    /// A key goes down.
+    NoteOn {
+        /// MIDI channel, 0 to 15.
+        channel: u8,
+        /// MIDI key, 0 to 127.
+        key: u8,
+        /// How hard, 1 to 127.
+        velocity: u8,
+    },
+    /// A key goes up.
+    NoteOff {
+        /// MIDI channel, 0 to 15.
+        channel: u8,
+        /// MIDI key, 0 to 127.
+        key: u8,
+    },
+    /// Three bytes of MIDI.
+    Midi([u8; 3]),
+    /// A parameter is set, by its CLAP identifier, in the units CLAP shows to a host.
+    Parameter(u32, f64),
+}
+
+/// An action and the sample at which it happens, counted from the start of the performance.
+pub type Score = Vec<(u64, Action)>;
+
+/// The host's side of the conversation.
+pub struct Listener {
+    restart_requested: AtomicBool,
+}
+
+impl SharedHandler<'_> for Listener {
+    fn request_restart(&self) {
+        self.restart_requested.store(true, Ordering::Relaxed);
+    }
+    fn request_process(&self) {}
+    fn request_callback(&self) {}
+}
+
+/// Names the types of the three threads of a host.
+pub struct Handlers;
+
+impl HostHandlers for Handlers {
+    type Shared<'a> = Listener;
+    type MainThread<'a> = ();
+    type AudioProcessor<'a> = ();
+}
+
+/// The plugin, loaded and ready to be activated.
+pub struct Host {
+    instance: PluginInstance<Handlers>,
+}
+
+impl Default for Host {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Host {
+    /// Loads the plugin out of the library linked into the test.
+    pub fn new() -> Self {
+        // SAFETY: the entry is the one that the plugin framework generates for CLAP hosts.
+        let entry = unsafe { PluginEntry::load_from_raw(&low_action::plugin::clap_entry, c"") }
+            .expect("the entry initialises");
+        let factory = entry.get_plugin_factory().expect("the entry has a plugin factory");
+        let descriptor = factory.plugin_descriptor(0).expect("the factory describes a plugin");
+        assert_eq!(factory.plugin_count(), 1);
+        let id = descriptor.id().expect("the plugin has an identifier").to_owned();
+        let info = HostInfo::new("Low Action tests", "Low Action", "", "0").expect("no zero bytes");
+        let instance = PluginInstance::new(
+            |_| Listener { restart_requested: AtomicBool::new(false) },
+            |_| (),
+            &entry,
+            &id,
+            &info,
+        )
+        .expect("the plugin can be created");
+        Self { instance }
+    }
+
+    /// Activates the plugin at a sample rate in Hz, plays the score for `length` samples in blocks of the
+    /// given sizes (repeated as often as needed), deactivates it, and gives back both channels.
+    pub fn play(&mut self, sample_rate: f64, score: &Score, length: usize, blocks: &[u32]) -> [Vec<f32>; 2] {
+        let largest = blocks.iter().copied().max().expect("there is a block size");
+        let configuration =
+            PluginAudioConfiguration { sample_rate, min_frames_count: 1, max_frames_count: largest };
+        let stopped = self.instance.activate(|_, _| (), configuration).expect("the plugin activates");
+        let mut processor = stopped.start_processing().expect("processing starts");
+
+        let mut output = [vec![0.0; length], vec![0.0; length]];
+        let mut ports = AudioPorts::with_capacity(2, 1);
+        let mut block_sizes = blocks.iter().cycle();
+        let mut start = 0;
+        while start < length {
+            let size = *block_sizes.next().expect("a cycle has no end") as usize;
+            let end = length.min(start + size);
+            let events = events_between(score, start as u64, end as u64);
+            let mut buffers = ports.with_output_buffers([AudioPortBuffer {
+                latency: 0,
+                channels: AudioPortBufferType::f32_output_only(
+                    output.iter_mut().map(|channel| &mut channel[start..end]),
+                ),
+            }]);
+            let status = processor
+                .process(
+                    &InputAudioBuffers::empty(),
+                    &mut buffers,
+                    &events.as_input(),
+                    &mut OutputEvents::void(),
+                    Some(start as u64),
+                    None,
+                )
+                .expect("processing succeeds");
+            // A plugin put to sleep between a note and its first sound would lose the note.
+            assert_eq!(status, ProcessStatus::Continue);
+            start = end;
+        }
+        self.instance.deactivate(processor.stop_processing());
+        output
+    }
+
+    /// Whether the plugin has asked to be activated anew since the last time this was asked.
+    pub fn take_restart_request(&self) -> bool {
+        self.instance
+            .access_shared_handler(|listener| listener.restart_requested.swap(false, Ordering::Relaxed))
+    }
+}
+
+/// The events of the samples from `start` up to `end`, timed from `start`.
+fn events_between(score: &Score, start: u64, end: u64) -> EventBuffer {
+    let mut events = EventBuffer::new();
+    for &(at, action) in score.iter().filter(|(at, _)| (start..end).contains(at)) {
+        let time = (at - start) as u32;
+        match action {
+            Action::NoteOn { channel, key, velocity } => {
+                let velocity = f64::from(velocity) / 127.0;
+                events.push(&NoteOnEvent::new(time, note(channel, key), velocity));
+            }
+            Action::NoteOff { channel, key } => {
+                events.push(&NoteOffEvent::new(time, note(channel, key), 0.0));
+            }
+            Action::Midi(bytes) => events.push(&MidiEvent::new(time, 0, bytes)),
+            Action::Parameter(id, value) => {
+                events.push(&ParamValueEvent::new(time, ClapId::new(id), Pckn::match_all(), value));
+            }
+        }
+    }
+    events
+}
+
+/// CLAP's address of a key on a channel.
+fn note(channel: u8, key: u8) -> Pckn {
+    Pckn::new(0_u16, u16::from(channel), u16::from(key), clack_host::events::Match::All)
+}

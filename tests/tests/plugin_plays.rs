@@ -1,0 +1,174 @@
+//! The promise: a host that loads the plugin gets what the engine plays, bit for bit, whatever the size
+//! of its blocks.
+//!
+//! In builds with debug assertions the plugin framework aborts the test as soon as memory is allocated
+//! while processing.
+
+use low_action::engine::{Engine, EngineOptions};
+use low_action::performance::PlayerEvent;
+use low_action_dsp::Setup;
+use low_action_tests::host::{Action, Host, Score};
+
+const RATE: f64 = 48_000.0;
+
+/// The identifiers under which hosts save the plugin's parameters. They never change.
+const INSTRUMENT: u32 = 1_395_483_623;
+const VARIATION: u32 = 2_065_539_603;
+const LEVEL: u32 = 102_865_796;
+
+/// A chord, a bend, a note under the pedal and releases, at odd samples.
+fn score() -> Score {
+    let mut score = vec![
+        (0, Action::NoteOn { channel: 0, key: 45, velocity: 100 }),
+        (1, Action::NoteOn { channel: 0, key: 52, velocity: 90 }),
+        (1234, Action::NoteOn { channel: 0, key: 64, velocity: 64 }),
+        (6001, Action::Midi([0xB0, 64, 127])),
+        (7999, Action::NoteOff { channel: 0, key: 52 }),
+        (9600, Action::Midi([0xB0, 64, 0])),
+        (15_000, Action::NoteOff { channel: 0, key: 45 }),
+        (15_000, Action::NoteOff { channel: 0, key: 64 }),
+        (15_333, Action::Midi([0x90, 57, 110])),
+        (20_000, Action::Midi([0x80, 57, 0])),
+    ];
+    score.extend((0..40).map(|step: u16| {
+        let bend = 8192 + step * 100;
+        (2000 + 50 * u64::from(step), Action::Midi([0xE0, (bend & 127) as u8, (bend >> 7) as u8]))
+    }));
+    score.push((5000, Action::Midi([0xE0, 0, 64])));
+    score.sort_by_key(|&(at, _)| at);
+    score
+}
+
+/// The same actions as the engine takes them; MIDI's numbers are scaled as the command line scales them.
+fn player_event(action: Action) -> PlayerEvent {
+    let unit = |byte: u8| f32::from(byte) / 127.0;
+    match action {
+        Action::NoteOn { channel, key, velocity } => {
+            PlayerEvent::NoteOn { channel, key, velocity: unit(velocity) }
+        }
+        Action::NoteOff { channel, key } => PlayerEvent::NoteOff { channel, key },
+        Action::Midi([status, first, second]) => {
+            let channel = status & 15;
+            match status >> 4 {
+                0x8 => PlayerEvent::NoteOff { channel, key: first },
+                0x9 => PlayerEvent::NoteOn { channel, key: first, velocity: unit(second) },
+                0xB => PlayerEvent::Controller { channel, number: first, value: unit(second) },
+                0xE => {
+                    let bend = i16::from(first) + 128 * i16::from(second) - 8192;
+                    PlayerEvent::PitchBend { channel, value: f32::from(bend) / 8192.0 }
+                }
+                other => panic!("the score has no status {other:x}"),
+            }
+        }
+        Action::Parameter(..) => panic!("the engine has no parameters"),
+    }
+}
+
+/// The engine on its own, rendering everything in one go.
+fn engine_alone(options: &EngineOptions, score: &Score, length: usize) -> [Vec<f32>; 2] {
+    let mut engine = Engine::new(options).expect("the built-in set-up is sound");
+    for &(at, action) in score {
+        engine.event(at as u32, player_event(action));
+    }
+    let mut output = [vec![0.0; length], vec![0.0; length]];
+    let [left, right] = &mut output;
+    engine.process(left, right);
+    output
+}
+
+/// What the plugin is expected to build its engine from.
+fn options(instrument: &str, sample_rate: f64) -> EngineOptions {
+    EngineOptions::new(Setup::builtin(instrument).expect("a built-in set-up"), sample_rate)
+}
+
+/// Fails at the first sample that is not the same bits.
+fn assert_same_bits(expected: &[Vec<f32>; 2], found: &[Vec<f32>; 2], what: &str) {
+    for (side, (expected, found)) in expected.iter().zip(found).enumerate() {
+        assert_eq!(expected.len(), found.len());
+        let first = expected.iter().zip(found).position(|(e, f)| e.to_bits() != f.to_bits());
+        if let Some(at) = first {
+            panic!("{what}: channel {side} differs at sample {at}: {:e} and {:e}", expected[at], found[at]);
+        }
+    }
+}
+
+fn rms(samples: &[f32]) -> f32 {
+    (samples.iter().map(|x| x * x).sum::<f32>() / samples.len() as f32).sqrt()
+}
+
+#[test]
+fn a_note_sounds() {
+    let score = vec![(100, Action::NoteOn { channel: 0, key: 57, velocity: 100 })];
+    let output = Host::new().play(RATE, &score, 24_000, &[512]);
+    for channel in &output {
+        assert!(channel.iter().all(|sample| sample.is_finite()));
+        assert!(channel[..100].iter().all(|&sample| sample == 0.0), "sound before the note");
+        assert!(rms(&channel[2400..]) > 1e-3, "no sound: {}", rms(&channel[2400..]));
+    }
+}
+
+#[test]
+fn the_plugin_plays_what_the_engine_plays() {
+    let expected = engine_alone(&options("electric", RATE), &score(), 24_000);
+    assert!(rms(&expected[0]) > 1e-3);
+    let mut host = Host::new();
+    for blocks in [&[24_000][..], &[480], &[64], &[1], &[17, 1, 960, 33, 256]] {
+        let found = host.play(RATE, &score(), 24_000, blocks);
+        assert_same_bits(&expected, &found, &format!("blocks of {blocks:?}"));
+    }
+    assert!(!host.take_restart_request());
+}
+
+#[test]
+fn the_level_scales_and_nothing_else() {
+    let expected = engine_alone(&options("electric", RATE), &score(), 24_000);
+    let mut host = Host::new();
+    let mut louder = score();
+    louder.insert(0, (0, Action::Parameter(LEVEL, (6.0 + 60.0) / 72.0)));
+    let found = host.play(RATE, &louder, 24_000, &[480]);
+    // Past the ramp of 20 ms.
+    let gain = 10_f32.powf(6.0 / 20.0);
+    for (quiet, loud) in expected[0].iter().zip(&found[0]).skip(1000) {
+        assert!((loud - quiet * gain).abs() <= 1e-6 * loud.abs(), "{quiet} became {loud}");
+    }
+    // Set back to 0 dB through the host's 0 to 1, the samples are untouched again.
+    let back = vec![(0, Action::Parameter(LEVEL, 60.0 / 72.0))];
+    host.play(RATE, &back, 2000, &[480]);
+    assert_same_bits(&expected, &host.play(RATE, &score(), 24_000, &[480]), "back at 0 dB");
+}
+
+#[test]
+fn another_instrument_plays_from_the_next_activation() {
+    let mut host = Host::new();
+    let mut changed = score();
+    changed.insert(0, (0, Action::Parameter(INSTRUMENT, 3.0)));
+    let electric = engine_alone(&options("electric", RATE), &score(), 24_000);
+    assert_same_bits(&electric, &host.play(RATE, &changed, 24_000, &[480]), "before the restart");
+    assert!(host.take_restart_request());
+
+    let expected = engine_alone(&options("bass", RATE), &score(), 24_000);
+    assert_same_bits(&expected, &host.play(RATE, &score(), 24_000, &[480]), "after the restart");
+    assert!(!host.take_restart_request());
+}
+
+#[test]
+fn no_variation_is_exact() {
+    let mut host = Host::new();
+    host.play(RATE, &vec![(0, Action::Parameter(VARIATION, 0.0))], 480, &[480]);
+    assert!(host.take_restart_request());
+    let expected =
+        engine_alone(&EngineOptions { variation: 0.0, ..options("electric", RATE) }, &score(), 24_000);
+    assert_same_bits(&expected, &host.play(RATE, &score(), 24_000, &[480]), "without variation");
+}
+
+#[test]
+fn other_sample_rates_play_too() {
+    let score = vec![(0, Action::NoteOn { channel: 0, key: 57, velocity: 100 })];
+    for rate in [8000.0, 44_100.0, 96_000.0, 192_000.0] {
+        let length = (0.2 * rate) as usize;
+        let found = Host::new().play(rate, &score, length, &[256]);
+        let expected = engine_alone(&options("electric", rate), &score, length);
+        assert_same_bits(&expected, &found, &format!("{rate} Hz"));
+        assert!(rms(&found[0]) > 1e-3, "silent at {rate} Hz");
+    }
+}
