@@ -2,7 +2,7 @@
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
-use crate::error::Error;
+use crate::error::{Error, plain, within};
 
 /// A number, or `[[where, value], …]` joined by straight lines and constant outside.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,29 +42,34 @@ impl Curve {
         }
     }
 
-    /// Refuses an empty or unordered list and every value outside `[low, high]`.
-    pub(crate) fn check(&self, name: &str, low: f64, high: f64, unit: &str) -> Result<(), Error> {
-        match self {
-            Curve::Constant(value) => crate::error::within(name, *value, low, high, unit).map(drop),
-            Curve::Points(points) => {
-                if points.is_empty() {
-                    return Err(Error::range(name, "[]", "it needs at least one point"));
-                }
-                for (i, pair) in points.windows(2).enumerate() {
-                    if pair[1][0].partial_cmp(&pair[0][0]) != Some(std::cmp::Ordering::Greater) {
-                        let message = format!("it must be above the one before, {:e}", pair[0][0]);
-                        return Err(Error::range(format!("{name}[{}][0]", i + 1), pair[1][0], message));
-                    }
-                }
-                for (i, point) in points.iter().enumerate() {
-                    crate::error::within(&format!("{name}[{i}][0]"), point[0], -1e9, 1e9, "")?;
-                    crate::error::within(&format!("{name}[{i}][1]"), point[1], low, high, unit)?;
-                }
-                Ok(())
-            }
+    /// Refuses an empty or unordered list and every value outside `[low, high]`; `over` is what the
+    /// points are placed in, "time" or "place".
+    pub(crate) fn check(&self, name: &str, over: &str, low: f64, high: f64, unit: &str) -> Result<(), Error> {
+        let points = match self {
+            Curve::Constant(value) => return within(name, *value, low, high, unit).map(drop),
+            Curve::Points(points) => points,
+        };
+        if points.is_empty() {
+            return Err(Error::range(name, "[]", "it must be a number or have at least one point"));
         }
+        let mut before = f64::NEG_INFINITY;
+        for (i, &[place, value]) in points.iter().enumerate() {
+            let number = i + 1;
+            let place_name = format!("{over} of point {number} of {name}");
+            within(&place_name, place, -FARTHEST, FARTHEST, "")?;
+            if place <= before {
+                let accepted = format!("it must be above that of the point before, {}", plain(before));
+                return Err(Error::range(place_name, plain(place), accepted));
+            }
+            before = place;
+            within(&format!("value of point {number} of {name}"), value, low, high, unit)?;
+        }
+        Ok(())
     }
 }
+
+/// The largest time (s) or place (m) of a point, a limit against slips of the pen.
+const FARTHEST: f64 = 1e9;
 
 impl<'de> Deserialize<'de> for Curve {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -82,7 +87,7 @@ impl<'de> Deserialize<'de> for Curve {
             }
             fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Curve, A::Error> {
                 let mut points = Vec::new();
-                while let Some(point) = seq.next_element::<[f64; 2]>()? {
+                while let Some(Pair(point)) = seq.next_element()? {
                     points.push(point);
                 }
                 Ok(Curve::Points(points))
@@ -91,6 +96,26 @@ impl<'de> Deserialize<'de> for Curve {
         deserializer.deserialize_any(CurveVisitor)
     }
 }
+
+/// Two numbers, no fewer and no more.
+struct Pair([f64; 2]);
+
+impl<'de> Deserialize<'de> for Pair {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let numbers = Vec::<f64>::deserialize(deserializer)?;
+        let pair = <[f64; 2]>::try_from(numbers);
+        pair.map(Pair).map_err(|numbers| de::Error::invalid_length(numbers.len(), &"a pair [where, value]"))
+    }
+}
+
+/// Reads a list of pairs where a single number would mean nothing.
+pub(crate) fn pairs<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<[f64; 2]>>, D::Error> {
+    let pairs = Vec::<Pair>::deserialize(deserializer)?;
+    Ok(Some(pairs.into_iter().map(|Pair(pair)| pair).collect()))
+}
+
+/// The most frets a board may have.
+const MOST_FRETS: usize = 1000;
 
 /// A whole number of equal things, or the place (or value) of each.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,11 +132,11 @@ impl<'de> Deserialize<'de> for CountOrList {
         impl<'de> Visitor<'de> for CountVisitor {
             type Value = CountOrList;
             fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-                f.write_str("a count from 0 to 1000 or a list of places in m")
+                write!(f, "a count from 0 to {MOST_FRETS} or a list of at most {MOST_FRETS} places in m")
             }
             fn visit_i64<E: de::Error>(self, value: i64) -> Result<CountOrList, E> {
                 match usize::try_from(value) {
-                    Ok(count) if count <= 1000 => Ok(CountOrList::Count(count)),
+                    Ok(count) if count <= MOST_FRETS => Ok(CountOrList::Count(count)),
                     _ => Err(E::invalid_value(de::Unexpected::Signed(value), &self)),
                 }
             }
@@ -119,6 +144,9 @@ impl<'de> Deserialize<'de> for CountOrList {
                 let mut places = Vec::new();
                 while let Some(place) = seq.next_element::<f64>()? {
                     places.push(place);
+                    if places.len() > MOST_FRETS {
+                        return Err(de::Error::invalid_length(places.len(), &self));
+                    }
                 }
                 Ok(CountOrList::List(places))
             }

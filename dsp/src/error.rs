@@ -40,10 +40,14 @@ impl Error {
         Error::OutOfRange { name: name.into(), value: value.to_string(), accepted: accepted.into() }
     }
 
-    /// The same error with the place it arose in before the name.
+    /// The same error with the place it arose in before the name; of a fretboard that is under several
+    /// strings, the place after what is accepted.
     pub(crate) fn under(self, place: &str) -> Self {
         match self {
-            Error::OutOfRange { name, value, accepted } if !name.starts_with("fretboard") => {
+            Error::OutOfRange { name, value, accepted } if name.starts_with("fretboard") => {
+                Error::OutOfRange { name, value, accepted: format!("{accepted} (under {place})") }
+            }
+            Error::OutOfRange { name, value, accepted } => {
                 let name = name.rsplit('.').next().unwrap_or(&name);
                 Error::OutOfRange { name: format!("{place}.{name}"), value, accepted }
             }
@@ -51,15 +55,78 @@ impl Error {
         }
     }
 
-    /// A TOML error folded into one line.
+    /// A TOML error folded into one line: where it is, what is wrong there, what was expected.
     pub(crate) fn syntax(error: &toml::de::Error, text: &str) -> Self {
-        let place = error.span().map(|span| {
-            let before = &text[..span.start.min(text.len())];
-            let line = before.matches('\n').count() + 1;
-            format!("line {line}: ")
-        });
-        let message = error.message().split_whitespace().collect::<Vec<_>>().join(" ");
-        Error::Syntax(format!("{}{message}", place.unwrap_or_default()))
+        let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
+        let line_end = text[before.len()..].find('\n').map_or(text.len(), |rest| before.len() + rest);
+        let thing = thing_at_end(&text[..line_end]).unwrap_or_default();
+        let line = before.matches('\n').count() + 1;
+        let message = in_plain_words(error.message());
+        let is_table = thing.starts_with('[');
+        let message = if thing.starts_with("[[") && message.starts_with("invalid type: map") {
+            format!("line {line}, {thing}: there is only one: write {}", &thing[1..thing.len() - 1])
+        } else if is_table && message.starts_with("invalid type: map") {
+            format!("line {line}, {thing}: there may be several: write [{thing}]")
+        } else if message.starts_with("missing key") && !is_table {
+            // Of the file as a whole: no line is to blame.
+            message
+        } else if thing.is_empty() || message.starts_with("unknown key") {
+            format!("line {line}: {message}")
+        } else {
+            format!("line {line}, {thing}: {message}")
+        };
+        Error::Syntax(printable(&message))
+    }
+}
+
+/// The last key or table header that begins a line of a text: what an error at the text's end is about.
+fn thing_at_end(text: &str) -> Option<&str> {
+    let bare = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
+    let is_name = |name: &str| name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(bare);
+    text.lines().rev().find_map(|line| {
+        let line = line.trim();
+        let header = line.split_once('#').map_or(line, |(header, _)| header.trim_end());
+        if header.starts_with('[') && is_name(header.trim_matches(['[', ']'])) {
+            return Some(header);
+        }
+        line.split_once('=').map(|(key, _)| key.trim_end()).filter(|key| is_name(key))
+    })
+}
+
+/// A message of the TOML reader without Rust's names of types.
+fn in_plain_words(message: &str) -> String {
+    let words = [
+        ("missing field", "missing key"),
+        ("unknown field", "unknown key"),
+        ("expected f64", "expected a number"),
+        ("expected usize", "expected a whole number, 0 or more"),
+        ("expected a sequence", "expected a list"),
+        (" as i128", ""),
+        (" as u128", ""),
+    ];
+    words.iter().fold(message.to_owned(), |message, (rust, plain)| message.replace(rust, plain))
+}
+
+/// The longest message made of what stands in a file, characters.
+const LONGEST: usize = 400;
+
+/// One line of printable characters, cut where it gets too long: a file may hold anything.
+fn printable(text: &str) -> String {
+    let words: Vec<_> = text.split(|c: char| c.is_whitespace() || c.is_control()).collect();
+    let line = words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
+    match line.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} ...", &line[..end]),
+        None => line,
+    }
+}
+
+/// A number as one would write it: no row of zeros.
+pub(crate) fn plain(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !size.is_finite() || (1e-3..1e6).contains(&size) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
     }
 }
 
@@ -69,6 +136,7 @@ pub(crate) fn within(name: &str, value: f64, low: f64, high: f64, unit: &str) ->
         Ok(value)
     } else {
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-        Err(Error::range(name, value, format!("it must lie between {low:e} and {high:e}{unit}")))
+        let accepted = format!("it must lie between {} and {}{unit}", plain(low), plain(high));
+        Err(Error::range(name, plain(value), accepted))
     }
 }

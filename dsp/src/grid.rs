@@ -1,6 +1,6 @@
 //! The grid of one string, and how a point between grid points is read and driven.
 
-use crate::error::Error;
+use crate::error::{Error, plain};
 
 /// Where node 0 (the nut) stands in an array over the grid, so that node 1, the first unknown, is at
 /// index 4 and there is room for the two odd ghost points beyond each end.
@@ -53,11 +53,8 @@ impl Grid {
         if position.is_finite() && position > 0.0 && position < self.length {
             Ok(position)
         } else {
-            Err(Error::range(
-                name,
-                position,
-                format!("it must lie on the string, above 0 and below {} m", self.length),
-            ))
+            let accepted = format!("it must lie on the string, above 0 and below {} m", plain(self.length));
+            Err(Error::range(name, plain(position), accepted))
         }
     }
 }

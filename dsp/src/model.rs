@@ -2,7 +2,7 @@
 
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, OneOrEach};
-use crate::error::Error;
+use crate::error::{Error, plain};
 use crate::grid::{Grid, Reading};
 use crate::scene::{FretPlacement, FretboardSpec, SolverSettings, Stencil, StringSpec};
 
@@ -185,7 +185,7 @@ impl Barrier {
             }
         }
         for (index, &[place, height]) in self.frets.iter().enumerate() {
-            grid.check_place(&format!("fretboard.frets[{index}]"), place)?;
+            grid.check_place(&format!("fretboard.frets[{}]", index + 1), place)?;
             let reading = match self.placement {
                 FretPlacement::Exact => grid.reading(place),
                 FretPlacement::Nearest => {
@@ -271,8 +271,8 @@ impl Model {
     /// The finest grid on which the scheme is stable up to the tension limit.
     pub fn grid(string: &StringParameters, stencil: Stencil, time_step: f64) -> Result<Grid, Error> {
         let kappa = string.kappa_squared();
-        let fits = |intervals: usize| {
-            let grid = Grid::new(string.length, intervals, time_step);
+        let fits = |length: f64, intervals: usize| {
+            let grid = Grid::new(length, intervals, time_step);
             [string.tension_limit, string.tension].iter().all(|&tension| {
                 let stiffness = Stiffness::new(stencil, string.linear_density, tension, kappa, &grid);
                 let wave_fits =
@@ -286,18 +286,25 @@ impl Model {
         let (mut low, mut high) = (0, most + 1);
         while high - low > 1 {
             let middle = low + (high - low) / 2;
-            if fits(middle) { low = middle } else { high = middle }
+            if fits(string.length, middle) { low = middle } else { high = middle }
         }
         if low < LEAST_INTERVALS {
-            return Err(Error::range(
-                "length",
-                string.length,
-                format!(
-                    "the string is too short for its grid at {} Hz: it must be about {:.3e} m or more",
-                    1.0 / time_step,
-                    string.length * LEAST_INTERVALS as f64 / low.max(1) as f64
-                ),
-            ));
+            // The spacing that just fits in so few intervals, from below and above.
+            let (mut short, mut long) = (string.length, string.length);
+            while !fits(long, LEAST_INTERVALS) {
+                (short, long) = (long, 2.0 * long);
+            }
+            while long - short > 1e-4 * long {
+                let middle = 0.5 * (short + long);
+                if fits(middle, LEAST_INTERVALS) { long = middle } else { short = middle }
+            }
+            let accepted = format!(
+                "the string is too short for its grid at {} Hz: it must be at least {} m",
+                plain(1.0 / time_step),
+                // Rounded up in the fourth digit.
+                plain((long * 1.001 * 1e6).ceil() / 1e6),
+            );
+            return Err(Error::range("length", plain(string.length), accepted));
         }
         Ok(Grid::new(string.length, low, time_step))
     }
@@ -340,6 +347,6 @@ fn check_conditioning(name: &str, law: &ContactLaw, mobility: f64) -> Result<(),
         return Ok(());
     }
     let limit = libm::pow(LIMIT / conditioning(1.0), alpha);
-    let accepted = format!("at this sample rate it must be at most {limit:.3e} N/m^exponent");
-    Err(Error::range(name, format!("{:e}", law.stiffness()), accepted))
+    let accepted = format!("at this sample rate it must be at most {limit:.2e} N/m^exponent");
+    Err(Error::range(name, plain(law.stiffness()), accepted))
 }

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use crate::curve::{CountOrList, Curve, OneOrEach};
-use crate::error::{Error, within};
+use crate::error::{Error, plain, within};
 
 /// A whole simulation: strings, what they may hit, what acts on them, what is listened to.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -87,6 +87,7 @@ pub struct StringSpec {
     #[serde(default)]
     pub tension_modulation: bool,
     /// Initial displacement `[[x, u], …]`, m, released from rest.
+    #[serde(default, deserialize_with = "crate::curve::pairs")]
     pub shape: Option<Vec<[f64; 2]>>,
 }
 
@@ -230,6 +231,9 @@ impl<'de> Deserialize<'de> for ListeningPoint {
     }
 }
 
+/// The most strings, plucks or fingers of a scene, a limit against descriptions that fill the memory.
+const MOST_THINGS: usize = 1000;
+
 impl Scene {
     /// Reads and checks a scene.
     ///
@@ -253,8 +257,14 @@ impl Scene {
         within("sample_rate", self.sample_rate, 1e3, 1e7, "Hz")?;
         within("duration", self.duration, 0.0, 1e5, "s")?;
         self.solver.check()?;
-        if self.string.is_empty() || self.string.len() > 1000 {
-            return Err(Error::range("[[string]]", self.string.len(), "there must be 1 to 1000 strings"));
+        if self.string.is_empty() || self.string.len() > MOST_THINGS {
+            let accepted = format!("there must be 1 to {MOST_THINGS} strings");
+            return Err(Error::range("[[string]]", self.string.len(), accepted));
+        }
+        for (name, count) in [("[[pluck]]", self.pluck.len()), ("[[finger]]", self.finger.len())] {
+            if count > MOST_THINGS {
+                return Err(Error::range(name, count, format!("there must be at most {MOST_THINGS}")));
+            }
         }
         for (i, string) in self.string.iter().enumerate() {
             string.check(&format!("string[{}]", i + 1))?;
@@ -304,16 +314,17 @@ impl StringSpec {
     pub fn check(&self, name: &str) -> Result<(), Error> {
         within(&format!("{name}.length"), self.length, 1e-3, 1e3, "m")?;
         within(&format!("{name}.linear_density"), self.linear_density, 1e-7, 1e2, "kg/m")?;
-        self.tension.check(&format!("{name}.tension"), 1e-3, 1e6, "N")?;
+        self.tension.check(&format!("{name}.tension"), "time", 1e-3, 1e6, "N")?;
         within(&format!("{name}.youngs_modulus"), self.youngs_modulus, 0.0, 1e13, "Pa")?;
         within(&format!("{name}.core_radius"), self.core_radius, 0.0, 0.1, "m")?;
         within(&format!("{name}.loss_0"), self.loss_0, 0.0, 1e4, "1/s")?;
         within(&format!("{name}.loss_1"), self.loss_1, 0.0, 1e2, "m²/s")?;
-        for (i, point) in self.shape.iter().flatten().enumerate() {
-            within(&format!("{name}.shape[{i}][0]"), point[0], 0.0, self.length, "m")?;
-        }
         if let Some(shape) = &self.shape {
-            Curve::Points(shape.clone()).check(&format!("{name}.shape"), -1.0, 1.0, "m")?;
+            let name = format!("{name}.shape");
+            Curve::Points(shape.clone()).check(&name, "place", -1.0, 1.0, "m")?;
+            for (i, &[place, _]) in shape.iter().enumerate() {
+                within(&format!("place of point {} of {name}", i + 1), place, 0.0, self.length, "m")?;
+            }
         }
         Ok(())
     }
@@ -323,7 +334,7 @@ impl FretboardSpec {
     fn check(&self) -> Result<(), Error> {
         crate::contact::ContactLaw::new("fretboard", self.stiffness, self.exponent)?;
         if let Some(board) = &self.board {
-            board.check("fretboard.board", -10.0, 0.0, "m")?;
+            board.check("fretboard.board", "place", -10.0, 0.0, "m")?;
         }
         if let Some(spacing) = self.board_reference_spacing {
             within("fretboard.board_reference_spacing", spacing, 1e-6, 1e3, "m")?;
@@ -332,15 +343,17 @@ impl FretboardSpec {
             CountOrList::Count(count) => *count,
             CountOrList::List(places) => {
                 for (i, &place) in places.iter().enumerate() {
-                    within(&format!("fretboard.frets[{i}]"), place, 0.0, 1e3, "m")?;
+                    within(&format!("fretboard.frets[{}]", i + 1), place, 0.0, 1e3, "m")?;
                 }
                 places.len()
             }
         };
         match &self.fret_top {
-            None if count > 0 => {
-                Err(Error::range("fretboard.fret_top", "nothing", "frets need the height of their crowns, m"))
-            }
+            None if count > 0 => Err(Error::range(
+                "fretboard.fret_top",
+                "nothing",
+                "frets need the height of their crowns, -10 to 0 m",
+            )),
             None => Ok(()),
             Some(OneOrEach::One(height)) => within("fretboard.fret_top", *height, -10.0, 0.0, "m").map(drop),
             Some(OneOrEach::Each(heights)) if heights.len() != count => Err(Error::range(
@@ -350,7 +363,7 @@ impl FretboardSpec {
             )),
             Some(OneOrEach::Each(heights)) => {
                 for (i, &height) in heights.iter().enumerate() {
-                    within(&format!("fretboard.fret_top[{i}]"), height, -10.0, 0.0, "m")?;
+                    within(&format!("fretboard.fret_top[{}]", i + 1), height, -10.0, 0.0, "m")?;
                 }
                 Ok(())
             }
@@ -363,13 +376,13 @@ impl FingerSpec {
         self.touch().check(name)?;
         within(&format!("{name}.height"), self.height, -10.0, 10.0, "m")?;
         within(&format!("{name}.velocity"), self.velocity, -1e3, 1e3, "m/s")?;
-        self.force.check(&format!("{name}.force"), -1e6, 1e6, "N")?;
+        self.force.check(&format!("{name}.force"), "time", -1e6, 1e6, "N")?;
         match &self.position {
             Curve::Constant(place) => on_string(&format!("{name}.position"), *place, length)?,
             Curve::Points(points) => {
-                self.position.check(&format!("{name}.position"), 0.0, length, "m")?;
+                self.position.check(&format!("{name}.position"), "time", f64::MIN, f64::MAX, "m")?;
                 for (i, point) in points.iter().enumerate() {
-                    on_string(&format!("{name}.position[{i}][1]"), point[1], length)?;
+                    on_string(&format!("value of point {} of {name}.position", i + 1), point[1], length)?;
                 }
             }
         }
@@ -403,6 +416,6 @@ fn on_string(name: &str, place: f64, length: f64) -> Result<(), Error> {
     if place.is_finite() && place > 0.0 && place < length {
         return Ok(());
     }
-    let accepted = format!("it must lie on the string, above 0 and below {length} m");
-    Err(Error::range(name, place, accepted))
+    let accepted = format!("it must lie on the string, above 0 and below {} m", plain(length));
+    Err(Error::range(name, plain(place), accepted))
 }

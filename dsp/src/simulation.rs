@@ -3,7 +3,7 @@
 use crate::curve::Curve;
 use crate::drive::{Drive, Push};
 use crate::energy::{Entry, Ledger};
-use crate::error::Error;
+use crate::error::{Error, plain};
 use crate::gesture::raised_cosine;
 use crate::grid::Reading;
 use crate::model::{Barrier, ContactKind, Model, StringParameters};
@@ -54,9 +54,11 @@ impl Simulation {
     /// Compiles a scene.
     ///
     /// # Errors
-    /// When a value is out of range, a string too short for its grid, a contact too stiff for the rate.
+    /// When a value is out of range, a string too short for its grid, a contact too stiff for the rate,
+    /// or the whole more than [`MOST_POINTS`] and [`MOST_WORK`] allow.
     pub fn new(scene: &Scene) -> Result<Simulation, Error> {
         scene.check()?;
+        check_size(scene)?;
         let strings = (0..scene.string.len())
             .map(|index| SceneString::new(scene, index))
             .collect::<Result<_, Error>>()?;
@@ -126,6 +128,40 @@ impl Simulation {
     pub fn output(&self) -> f64 {
         self.strings.iter().map(SceneString::output).sum()
     }
+}
+
+/// The most grid points of all strings of a scene: with contacts at each, some hundred megabytes.
+pub const MOST_POINTS: usize = 1_000_000;
+
+/// The most steps of grid points, plucks and fingers that a scene may take: hours of computing.
+pub const MOST_WORK: f64 = 1e13;
+
+/// Refuses a scene that would fill the memory or never end, before anything of its size is made.
+fn check_size(scene: &Scene) -> Result<(), Error> {
+    let mut points = 0;
+    for (index, spec) in scene.string.iter().enumerate() {
+        let string = StringParameters::from_spec(spec);
+        let grid = Model::grid(&string, scene.solver.stencil, 1.0 / scene.sample_rate);
+        points += grid.map_err(|error| error.under(&format!("string[{}]", index + 1)))?.intervals;
+        if points >= MOST_POINTS {
+            let accepted = format!(
+                "at this rate the strings need {points} grid points or more, and fewer than {} are accepted",
+                plain(MOST_POINTS as f64)
+            );
+            return Err(Error::range("sample_rate", plain(scene.sample_rate), accepted));
+        }
+    }
+    let things = (points + scene.pluck.len() + scene.finger.len()) as f64;
+    let work = things * scene.duration * scene.sample_rate;
+    if work <= MOST_WORK {
+        return Ok(());
+    }
+    let longest = MOST_WORK / (things * scene.sample_rate);
+    let accepted = format!(
+        "with {points} grid points at {} Hz it must lie between 0 and {longest:.3e} s",
+        plain(scene.sample_rate)
+    );
+    Err(Error::range("duration", plain(scene.duration), accepted))
 }
 
 impl SceneString {
