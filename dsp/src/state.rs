@@ -154,6 +154,11 @@ impl State {
         &self.heights
     }
 
+    /// Number of fixed contacts near enough to be looked at in each sample.
+    pub fn watched(&self) -> usize {
+        self.watch.near.len()
+    }
+
     /// The string's displacement at a reading, m.
     pub fn displacement_at(&self, reading: &Reading) -> f64 {
         reading.of(&self.displacement)
