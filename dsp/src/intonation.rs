@@ -6,8 +6,8 @@
 //! for the open string. Nothing is corrected while a note sounds: a finger between frets, a slide and
 //! a bent note find the same neck.
 //!
-//! A note's pitch is found without playing it: the string's rest under the finger ([`equilibrium`]),
-//! then the frequency of the lowest oscillation about it ([`mode`]), both with the very matrices the
+//! A note's pitch is found without playing it: the string's rest under the finger (`equilibrium`),
+//! then the frequency of the lowest oscillation about it (`mode`), both with the very matrices the
 //! scheme steps through.
 
 mod band;

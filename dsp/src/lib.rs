@@ -1,6 +1,67 @@
-//! The physics of Low Action.
+//! The physics of Low Action: a stiff, lossy string over a fretboard, stopped by fingers.
 //!
-//! Scene → [`Model`] (coefficients) → [`State`] stepped by a [`Drive`] → strings → samples.
+//! ```text
+//! Scene ─> Model (coefficients) ─┬─> State, stepped by a Drive ─> strings ─> samples
+//! Setup ─> Instrument ───────────┘          ^
+//!                gestures ──────────────────┘
+//! ```
+//!
+//! - A [`Scene`] is an experiment in SI units, a [`Setup`] an instrument as a luthier would describe it.
+//!   Both are read from TOML and refused in one line when something is impossible.
+//! - A [`Model`] holds every coefficient of one string on its grid. It never changes while it sounds.
+//! - A [`State`] holds what one sample hands to the next: displacement and motion of the string, fingers,
+//!   last forces. [`State::step`] takes it from sample n to n + 1.
+//! - A [`Drive`] says what acts in that one step: tension, pushes, hands, moving frets.
+//! - A [`Scratch`] is room to work in, and the record of the last step for whoever listens or measures:
+//!   [`pickup`] makes a signal of it, [`Ledger`] an energy balance. Neither can change the motion.
+//! - A [`Simulation`] runs the strings of a scene; an [`Instrument`] runs those of a set-up under
+//!   [`Gesture`]s at exact samples.
+//!
+//! Within a step, [`State::step`] predicts the string without contacts (`kernel`), lists the contacts that
+//! act, solves for all their forces together (`solver`, by means of `response`), and advances the string
+//! (`kernel` again). Building may fail and may allocate; stepping does neither. Everything
+//! transcendental on the signal path comes from `libm`, sums have a fixed order and there is no fused
+//! multiply-add, so that the same description gives the same bits on every machine.
+//!
+//! The derivation is in `docs/physics.md`, the contact solver in `docs/solver.md`, the files in
+//! `docs/formats.md` of the repository.
+//!
+//! # Notation
+//!
+//! Lengths in m, up is positive, x runs from the nut at 0 to the bridge (or saddle) at L. The string at
+//! rest lies at u = 0, board and frets at or below. Superscripts count samples: uⁿ is now.
+//!
+//! | symbol | name in code | unit | meaning |
+//! |---|---|---|---|
+//! | L | `length` | m | length of the string |
+//! | ρ | `linear_density` | kg/m | mass per length, winding included |
+//! | T | `tension` | N | tension at rest; `tension_limit` is the most that bends reach |
+//! | E, r | `youngs_modulus`, `core_radius` | Pa, m | of the core: a winding adds mass, hardly stiffness |
+//! | A, I | (in `axial_stiffness`, `kappa_squared`) | m², m⁴ | section πr² and its moment πr⁴/4 |
+//! | c², κ² | `c2`, `kappa_squared` | m²/s², m⁴/s² | T/ρ and EI/ρ |
+//! | κ₂², κ₆ | `kappa_2`, `kappa_6` | m⁴/s², m⁶/s² | κ² as the stencil realises it, and its sixth-order term |
+//! | σ₀, σ₁ | `loss_0`, `loss_1` | 1/s, m²/s | loss of all frequencies alike, and growing with frequency |
+//! | k, h, N | `time_step`, `spacing`, `intervals` | s, m, – | grid; the unknowns are u₁ … u_{N−1} |
+//! | λ | `courant2` is λ² | – | ck/h, spacings a wave travels in a step |
+//! | uⁿ, dⁿ | `displacement`, `motion` | m | the string, and uⁿ − uⁿ⁻¹ |
+//! | v | `curvature` | m | undivided second difference of uⁿ |
+//! | w, ψ | `prediction`, `pull` | m, – | motion without contact and stretching; stretching takes ψv off it |
+//! | s | `inverse_s` is 1/s | – | 1 + σ₀k |
+//! | G | `stretch` | 1/m² | k²EA/(4ρLh³s), strength of tension modulation |
+//! | h g | `Reading::weights` | – | weights that read a point, and spread a force on it |
+//! | b | `height` | m | height of board or crown |
+//! | η | `penetration` | m | overlap of two bodies, positive when they touch |
+//! | r, c | `change`, −`opening` is what r would be without force | m | ηⁿ⁺¹ − ηⁿ⁻¹ |
+//! | K, α, β | `stiffness`, `exponent`, `damping` | N/m^α, –, s/m | law of a contact: Kη^α, and its loss |
+//! | Φ, φ | `energy`, `force` of [`contact::ContactLaw`] | J, N | energy stored in a contact and its slope |
+//! | λ(r), P | `lambda`, `lossy` | N, N/m | force that the stored energy explains; the lossy part is P r |
+//! | f | `force` | N | force of a contact, never below 0 |
+//! | M | `Response` | m/N | answer of the penetrations to the forces: r = −c − M f |
+//! | u_f, d_f | `height`, `motion` of [`state::Finger`] | m | height of a finger's pad, and its last change |
+//! | M_f, R_f | `mass`, `hand_damping` | kg, N s/m | a finger, and the hand behind it |
+//! | f₀ | `force` of [`drive::Hand`] | N | push of the hand, towards the board |
+//! | f_e | `force` of [`drive::Push`] | N | a pluck |
+//! | 𝔥, 𝔮, 𝔭 | [`Energies`], `power_loss` and `power_solver`, `power_in` | J, W, W | stored, lost, put in |
 
 pub mod contact;
 pub mod curve;

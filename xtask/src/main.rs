@@ -2,6 +2,8 @@
 //!
 //! Each command is one entry of [`COMMANDS`]; a command that outgrows a few lines gets a module.
 
+mod figures;
+
 use std::process::ExitCode;
 
 use anyhow::{Result, bail};
@@ -34,6 +36,12 @@ const COMMANDS: &[Command] = &[
         arguments: "low-action [--release]",
         summary: "the same for both processors of macOS in one binary (on macOS only)",
         run: |arguments| bundle("bundle-universal", arguments),
+    },
+    Command {
+        name: "figures",
+        arguments: "[NAME ...]",
+        summary: "draws the pictures of the documentation, or those named, into docs/figures",
+        run: |names| figures::run(&names),
     },
 ];
 
