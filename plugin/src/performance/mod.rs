@@ -1,10 +1,10 @@
 //! From notes to gestures: what a player makes of the music.
 //!
 //! [`Performance`] takes [`PlayerEvent`]s at sample times and hands out
-//! [`TimedGesture`](low_action_dsp::TimedGesture)s: which string and fret ([`hand`](self::hand)),
-//! what fingers and plucks a note takes from its start to its silence ([`string`](self::string)),
-//! what pedals and wheels do to it ([`channel`](self::channel)), and how one pluck differs from the
-//! next ([`variation`](self::variation)). There are no host types here, nothing is allocated after
+//! [`low_action_dsp::TimedGesture`]s: which string and fret (`hand`),
+//! what fingers and plucks a note takes from its start to its silence (`string`),
+//! what pedals and wheels do to it (`channel`), and how one pluck differs from the
+//! next (`variation`). There are no host types here, nothing is allocated after
 //! construction, and the result depends only on the events and their times, not on how the time
 //! between them is cut into blocks.
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// A power-law contact, Φ(η) = K/(α+1) [η]₊^(α+1).
+/// A power-law contact, Φ(η) = K/(α+1) \[η\]₊^(α+1).
 #[derive(Clone, Copy, Debug)]
 pub struct Law {
     /// Stiffness K, N/m^α.
