@@ -10,7 +10,7 @@ use std::str::FromStr;
 
 use low_action_dsp::{EngineSettings, Instrument, Setup, Stencil, TimedGesture};
 
-use crate::performance::{Compromises, GestureSink, Performance, PlayerEvent, Style};
+use crate::performance::{Compromises, GestureSink, Performance, PlayedString, PlayerEvent, Style};
 
 /// Samples handed from the player to the instrument at a time. It bounds how many gestures can be
 /// waiting in the instrument, however large the blocks asked for.
@@ -143,11 +143,12 @@ impl Engine {
     /// When the set-up cannot be built at this rate; the message names the value and its range.
     pub fn new(options: &EngineOptions) -> Result<Self, low_action_dsp::Error> {
         let instrument = Instrument::new(&options.setup, &options.quality.settings(options.sample_rate))?;
-        let strings = (0..instrument.string_count()).map(|string| instrument.geometry(string).clone());
+        let strings = (0..instrument.string_count())
+            .map(|string| PlayedString::new(&options.setup, &instrument, string))
+            .collect();
         let style =
             Style { variation: options.variation, seed: options.seed, bend_range: options.bend_range };
-        let performance =
-            Performance::new(strings.collect(), &options.setup.player, style, options.sample_rate);
+        let performance = Performance::new(strings, &options.setup.player, style, options.sample_rate);
         Ok(Self { performance, instrument, waiting: VecDeque::with_capacity(WAITING_EVENTS), lost: 0 })
     }
 

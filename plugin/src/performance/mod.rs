@@ -15,8 +15,8 @@ mod string;
 mod technique;
 mod variation;
 
-use low_action_dsp::setup::Player;
-use low_action_dsp::{StringGeometry, TimedGesture};
+use low_action_dsp::setup::{Player, Setup};
+use low_action_dsp::{Instrument, StringGeometry, TimedGesture};
 
 use channel::{Channel, Request};
 pub use event::PlayerEvent;
@@ -47,6 +47,34 @@ pub struct Compromises {
     pub moved_by_octaves: u64,
     /// Notes left out because more began at one instant than there were strings for.
     pub left_out: u64,
+}
+
+/// What the player knows of one string.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlayedString {
+    /// Its pitch, its length and its frets.
+    pub geometry: StringGeometry,
+    /// Force of a fretting finger under which the string leaves the fret, N, fret 1 first.
+    pub leaving_forces: Vec<f64>,
+}
+
+impl PlayedString {
+    /// What there is to know of string `index` of an instrument built from a set-up.
+    pub fn new(setup: &Setup, instrument: &Instrument, index: usize) -> Self {
+        let geometry = instrument.geometry(index).clone();
+        // Z² = Tρ.
+        let tension = geometry.wave_impedance.powi(2) / setup.string[index].linear_density;
+        let leaving_force = |(fret, &crown): (usize, &f64)| {
+            // The string hangs from nut and saddle in two straight lines that meet under the finger,
+            // so deep that it just touches the crown.
+            let finger = geometry.finger_position(fret + 1);
+            let beyond = geometry.length - finger;
+            let depth = -setup.neck.crown_height(crown) * beyond / (geometry.length - crown);
+            tension * depth * (1.0 / finger + 1.0 / beyond)
+        };
+        let leaving_forces = geometry.frets.iter().enumerate().map(leaving_force).collect();
+        Self { geometry, leaving_forces }
+    }
 }
 
 /// How a performance is played.
@@ -88,16 +116,18 @@ pub struct Performance {
 impl Performance {
     /// A player who has touched nothing yet, with the hands the set-up describes. `strings` are in
     /// the instrument's order.
-    pub fn new(strings: Vec<StringGeometry>, hands: &Player, style: Style, sample_rate: f64) -> Self {
-        let ranges =
-            strings.iter().map(|string| Range { open_pitch: string.open_pitch, frets: string.frets.len() });
+    pub fn new(strings: Vec<PlayedString>, hands: &Player, style: Style, sample_rate: f64) -> Self {
+        let ranges = strings.iter().map(|PlayedString { geometry, .. }| Range {
+            open_pitch: geometry.open_pitch,
+            frets: geometry.frets.len(),
+        });
         let count = strings.len();
         Self {
             hand: Hand::new(ranges.collect()),
             strings: strings
                 .into_iter()
                 .enumerate()
-                .map(|(index, geometry)| StringPlayer::new(index, geometry, hands.clone(), sample_rate))
+                .map(|(index, string)| StringPlayer::new(index, string, hands.clone(), sample_rate))
                 .collect(),
             channels: std::array::from_fn(|_| Channel::new(style.bend_range)),
             variation: Variation::new(style.variation, style.seed),

@@ -2,17 +2,25 @@
 
 use low_action_dsp::FingerSlot;
 
-/// Slots the fretting fingers take in turn. A new finger lands in the next one while the last is
-/// still being lifted, and the one before that has long gone.
-pub(crate) const FRETTING_SLOTS: usize = 3;
-/// Slot of the finger or palm that damps.
-pub(crate) const DAMPER_SLOT: FingerSlot = 3;
+/// Slots the fretting fingers take in turn: a new finger lands in one while the last is being lifted
+/// from the other, and the free one damps behind the finger when the note ends.
+pub(crate) const FRETTING_SLOTS: usize = 2;
+/// Slots of the edge of the hand that damps, and how far from the saddle each part of it rests, as
+/// part of the set-up's damper position. One point alone would leave the partials ringing that have
+/// a node there; a hand is wide, and a partial with nodes at both places is high and dies by itself.
+pub(crate) const DAMPERS: [(FingerSlot, f64); 2] = [(2, 1.0), (3, 0.37)];
+/// Where another damper rests behind a fretting finger, as a part of the way from the nut: what rings
+/// there is hardly heard until the finger leaves and lets it out.
+pub(crate) const BEHIND_FINGER: f64 = 0.62;
+/// Nearest to the nut that one rests, m; shorter ends ring far above what is heard.
+pub(crate) const NEAREST_NUT: f64 = 0.04;
+/// Farthest from the saddle a damper rests, as a part of the sounding length.
+pub(crate) const FARTHEST_DAMPER: f64 = 0.6;
 
-/// How force follows velocity: amplitude as its square, the response General MIDI level 2
-/// recommends (40 log₁₀ of velocity over its maximum, in dB).
-pub(crate) const VELOCITY_EXPONENT: i32 = 2;
-/// Softest pluck, as a part of the hardest, so that velocity 1 is a touch and not nothing.
-pub(crate) const SOFTEST: f64 = 0.002;
+/// How force follows velocity: its power of 1.5, so that velocity 64 is 9 dB and 32 is 18 dB below
+/// the hardest. The square that General MIDI level 2 recommends for synthesizers would put soft notes
+/// below the sound of the finger that stops them.
+pub(crate) const VELOCITY_EXPONENT: f64 = 1.5;
 /// Farthest from the saddle a pluck may be, as a part of the sounding length: past the middle it
 /// sounds the same mirrored, and the hands would meet.
 pub(crate) const FARTHEST_PLUCK: f64 = 0.45;
@@ -22,17 +30,26 @@ pub(crate) const NEAREST_PLUCK: f64 = 0.006;
 /// length at all be heard as a staccato.
 pub(crate) const SHORTEST_NOTE: f64 = 0.03;
 
-/// Force that pulls a finger off, as a part of the force that pressed it.
-pub(crate) const LIFT_FORCE: f64 = 0.5;
-/// Time in which a finger's force turns from pressing to lifting, s, when the next note hides it.
-pub(crate) const QUICK_LIFT: f64 = 0.002;
-/// The same when nothing hides it, s: many periods of any string, so that the string follows
-/// quietly instead of being plucked by the departing finger.
-pub(crate) const GENTLE_LIFT: f64 = 0.12;
-/// How long the damper rests before the fretting finger goes, s: 40 dB take at most 0.15 s.
-pub(crate) const UNFRET_AFTER: f64 = 0.18;
-/// How long the damper rests in all, s: until the departing finger has stopped sounding too.
-pub(crate) const UNDAMP_AFTER: f64 = 0.45;
+/// How a finger leaves a string.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Leaving {
+    /// Speed it reaches, m/s.
+    pub speed: f64,
+    /// Time in which its force turns from pressing to lifting, s.
+    pub turning: f64,
+}
+
+/// How it leaves when the next note is about to sound: 1 mm away after 3 ms.
+pub(crate) const QUICK_LIFT: Leaving = Leaving { speed: 0.5, turning: 0.001 };
+/// How long the dampers rest before the fretting finger begins to leave, s: 40 dB take at most 0.15 s.
+pub(crate) const QUIET_AFTER: f64 = 0.15;
+/// What a fretting finger goes on pressing with when a note has ended, as a multiple of the force at
+/// which the string would leave the fret.
+pub(crate) const HOLDING: f64 = 1.25;
+/// How it leaves then: so slowly that the string rises from the fret without a sound.
+pub(crate) const FINGER_EASING: Leaving = Leaving { speed: 0.005, turning: 0.3 };
+/// How the dampers leave after it; they bend the string much less.
+pub(crate) const DAMPER_EASING: Leaving = Leaving { speed: 0.01, turning: 0.2 };
 
 /// Fastest change of pitch by tension, semitones a second; strong fingers bend a tone in 20 ms.
 pub(crate) const BEND_SPEED: f64 = 100.0;
