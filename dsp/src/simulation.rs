@@ -40,6 +40,18 @@ pub struct SceneString {
     fingers: Vec<SceneFinger>,
     tension: Curve,
     listening: Option<Reading>,
+    fret_count: usize,
+}
+
+/// How a finger of a running scene is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FingerReport {
+    /// Index in the scene's list, 0 for the first.
+    pub number: usize,
+    /// Height of its pad, m.
+    pub height: f64,
+    /// Its force on the string in the last step, N, downward.
+    pub force: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -198,6 +210,7 @@ impl SceneString {
                 })
                 .collect(),
             tension: spec.tension.clone(),
+            fret_count: barrier.as_ref().map_or(0, |barrier| barrier.frets.len()),
             listening: match scene.output.position {
                 ListeningPoint::Bridge => None,
                 ListeningPoint::At(place) => Some(model.grid.reading(place)),
@@ -239,14 +252,13 @@ impl SceneString {
         (1..self.model.grid.intervals).map(|node| self.model.grid.place(node))
     }
 
-    /// For each finger of this string: its index in the scene's list, its height (m) and its force on
-    /// the string in the last step (N, downward).
-    pub fn fingers(&self) -> impl Iterator<Item = (usize, f64, f64)> + '_ {
+    /// The fingers over this string.
+    pub fn fingers(&self) -> impl Iterator<Item = FingerReport> + '_ {
         let contacts = self.model.contacts.len();
         self.fingers.iter().enumerate().map(move |(slot, finger)| {
             let height = self.state.fingers()[slot].map_or(f64::NAN, |finger| finger.height);
             let force = self.scratch.forces().find(|(index, _)| *index == contacts + slot);
-            (finger.number, height, force.map_or(0.0, |(_, force)| force))
+            FingerReport { number: finger.number, height, force: force.map_or(0.0, |(_, force)| force) }
         })
     }
 
@@ -254,7 +266,8 @@ impl SceneString {
     pub fn board_force(&self) -> f64 {
         let contact = |index: usize| self.model.contacts.get(index).map(|contact| contact.kind);
         let board = |index| matches!(contact(index), Some(ContactKind::Board { .. }));
-        self.scratch.forces().filter(|(index, _)| board(*index)).map(|(_, force)| force).sum()
+        // Not `sum`, which makes nothing a negative zero.
+        self.scratch.forces().filter(|(index, _)| board(*index)).fold(0.0, |sum, (_, force)| sum + force)
     }
 
     /// Force of each fret on the string in the last step, N: (fret of the barrier's list, force), for
@@ -270,10 +283,21 @@ impl SceneString {
 
     /// Number of frets under the string, those that share a point with a higher one included.
     pub fn fret_count(&self) -> usize {
-        let indices = self.model.contacts.iter().filter_map(|contact| match contact.kind {
-            ContactKind::Fret { index } => Some(index + 1),
-            ContactKind::Board { .. } => None,
+        self.fret_count
+    }
+
+    /// Whether there is a back board under the string.
+    pub fn has_board(&self) -> bool {
+        self.model.contacts.iter().any(|contact| matches!(contact.kind, ContactKind::Board { .. }))
+    }
+
+    /// How far the string is in board and frets where it is deepest after the last step, m; 0 where it
+    /// touches nothing.
+    pub fn penetration(&self) -> f64 {
+        let fixed = self.scratch.forces().filter_map(|(index, _)| {
+            let contact = self.model.contacts.get(index)?;
+            Some(self.state.heights()[index] - self.state.displacement_at(&contact.reading))
         });
-        indices.max().unwrap_or(0)
+        fixed.fold(0.0, f64::max)
     }
 }

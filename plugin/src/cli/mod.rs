@@ -2,13 +2,15 @@
 //!
 //! Exit codes: 0 done; 1 it could not be done (a file, its format, the disk, a limit); 2 wrong
 //! usage; 3 the result failed its own check, and is kept. Every error is one line on standard
-//! error; standard output carries nothing but sound asked for with `-`.
+//! error; standard output carries a result asked for with `-`, or else the summary of a scene.
 
 mod instrument;
+mod npz;
 pub mod output;
 mod progress;
 mod render;
 mod scene;
+mod trace;
 mod wav;
 
 use std::ffi::OsString;
@@ -113,21 +115,38 @@ pub struct RenderArgs {
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
 Examples:
+  low-action scene scene.toml                          computed, checked, summed up
   low-action scene scene.toml --wav out.wav
   low-action scene scene.toml --trace out.npz --every 4
+  low-action scene - --wav - < scene.toml | aplay      from standard input to standard output
+
+The trace is an .npz file of NumPy arrays. Strings (S), frets (F) and fingers (N) count from 1. Row n of
+the arrays over time belongs to its time t: the state there, the forces and powers that act there, and
+the energies half a sample later.
+  t                                                    s
+  x_S, u_S                                             m; places, and displacements over time and places
+  u_finger_N                                           m
+  force_board_S, force_fret_S_F, force_finger_N        N
+  iterations                                           of the contact solver, all strings together
+  energy_string, energy_tension, energy_contact, energy_finger    J
+  power_loss, power_solver, power_in                   W
+  residual                                             J in that sample: what the balance does not explain
+
+The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to
+1e-9 of the largest energy.
 
 Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check.")]
 pub struct SceneArgs {
     /// Scene file (TOML, SI units), - for standard input.
     pub file: PathBuf,
-    /// WAV file to write: 32-bit float, in SI units, at the scene's rate.
+    /// WAV file to write, - for standard output: 32-bit float, in SI units, at the scene's rate.
     #[arg(long, value_name = "FILE")]
     pub wav: Option<PathBuf>,
-    /// Trace to write: displacements, contact forces and the energy balance, as arrays in an .npz.
+    /// Trace to write: displacements, contact forces and the energy balance.
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
-    /// Keep every N-th sample of the trace.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    /// Keep every N-th sample of the trace, from the first.
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "trace", value_parser = clap::value_parser!(u64).range(1..))]
     pub every: u64,
 }
 

@@ -1,8 +1,333 @@
-//! The `scene` command.
+//! The `scene` command: a scene file computed into a WAV file and a trace.
+//!
+//! The result is checked as it is made: every sample must be finite and, where the energy ledger is
+//! open, the balance must close. The ledger takes as long as two to three times the step it measures,
+//! so it is open when a trace is asked for, and when nothing is written at all; a run that only makes a
+//! WAV file goes without.
 
-use super::{Failure, Outcome, SceneArgs};
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::{Context, Result, anyhow, bail};
+use low_action_dsp::scene::ListeningPoint;
+use low_action_dsp::{Ledger, Scene, Simulation};
+
+use super::trace::Trace;
+use super::wav::{BitDepth, Findings, WavFile};
+use super::{Failure, Outcome, SceneArgs, progress};
+
+/// The largest scene file read, bytes: room for profiles of many thousand points.
+const LARGEST_SCENE: u64 = 16 << 20;
+/// How far the energy balance may be open over a whole run, as a part of the largest energy. Rounding
+/// leaves some 1e-13 a second.
+const BALANCE: f64 = 1e-9;
+/// Samples between two looks at the progress bar.
+const LOOK: u64 = 4096;
 
 /// Computes a scene.
-pub(super) fn run(_arguments: &SceneArgs) -> Outcome {
-    Err(Failure::Usage("scenes cannot be computed yet".into()))
+pub(super) fn run(arguments: &SceneArgs) -> Outcome {
+    let scene = read(&arguments.file)?;
+    let mut simulation = Simulation::new(&scene).with_context(|| arguments.file.display().to_string())?;
+    check_paths(arguments)?;
+    if arguments.trace.is_some() || arguments.wav.is_none() {
+        simulation.open_ledger();
+    }
+    let mut outputs = Outputs::begin(arguments, &scene, &simulation)?;
+    let trace_size = outputs.trace.as_ref().map(Trace::size);
+    let started = Instant::now();
+    let seen = compute(&mut simulation, &mut outputs)?;
+    let elapsed = started.elapsed().as_secs_f64();
+    let sound = outputs.finish()?;
+    let summary =
+        Summary { arguments, scene: &scene, simulation: &simulation, seen, sound, trace_size, elapsed };
+    summary.print();
+    check(&seen, sound.as_ref(), simulation.ledgers())
+}
+
+/// Reads the scene from wherever it is.
+fn read(path: &Path) -> Result<Scene> {
+    let mut bytes = Vec::new();
+    // One byte more than is accepted, so that an endless source ends and is refused.
+    let limit = LARGEST_SCENE + 1;
+    let name = if is_dash(path) {
+        io::stdin().lock().take(limit).read_to_end(&mut bytes).context("cannot read standard input")?;
+        "standard input".to_owned()
+    } else {
+        let read = File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
+        read.with_context(|| format!("cannot read {}", path.display()))?;
+        path.display().to_string()
+    };
+    if bytes.len() as u64 > LARGEST_SCENE {
+        bail!("{name} is too large for a scene: at most {} MiB are accepted", LARGEST_SCENE >> 20);
+    }
+    let text =
+        String::from_utf8(bytes).map_err(|_| anyhow!("{name} is not a scene: it is not UTF-8 text"))?;
+    Scene::from_toml(&text).context(name)
+}
+
+fn is_dash(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Refuses to write two results, or a result and the scene, to one file.
+fn check_paths(arguments: &SceneArgs) -> Outcome {
+    let wav = arguments.wav.as_deref().map(|path| ("--wav", path));
+    let trace = arguments.trace.as_deref().map(|path| ("--trace", path));
+    let file = Some(("the scene", &*arguments.file)).filter(|(_, path)| !is_dash(path));
+    for pair in [(file, wav), (file, trace), (wav, trace)] {
+        if let (Some((name, path)), Some((other, other_path))) = pair
+            && is_same_file(path, other_path)
+        {
+            let path = path.display();
+            return Err(Failure::Usage(format!("{name} and {other} name the same file, {path}")));
+        }
+    }
+    Ok(())
+}
+
+/// Whether two paths lead to one file, or to standard output; devices take any number of results.
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    let is_device = |path| fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
+    let place = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    place(one) == place(other) && !is_device(one)
+}
+
+/// What is written.
+struct Outputs {
+    wav: Option<WavFile>,
+    trace: Option<Trace>,
+}
+
+impl Outputs {
+    fn begin(arguments: &SceneArgs, scene: &Scene, simulation: &Simulation) -> Result<Outputs> {
+        let wav = arguments.wav.as_ref().map(|path| begin_wav(path, scene, simulation)).transpose()?;
+        let trace = arguments.trace.as_ref().map(|path| Trace::begin(path, simulation, arguments.every));
+        Ok(Outputs { wav, trace: trace.transpose()? })
+    }
+
+    /// Lets the files appear; none does unless all could be completed.
+    fn finish(self) -> Result<Option<Findings>> {
+        let trace = self.trace.map(Trace::complete).transpose()?;
+        let sound = self.wav.map(WavFile::finish).transpose()?;
+        trace.map_or(Ok(()), |draft| draft.publish())?;
+        Ok(sound)
+    }
+}
+
+fn begin_wav(path: &Path, scene: &Scene, simulation: &Simulation) -> Result<WavFile> {
+    let rate = scene.sample_rate;
+    if rate.fract() != 0.0 {
+        bail!("sample_rate = {rate} is refused: --wav needs a whole number of hertz");
+    }
+    let longest = BitDepth::Float32.largest_length(1);
+    if simulation.samples() > longest {
+        let longest = (longest as f64 / rate).floor();
+        bail!("duration = {} is refused: --wav holds at most {longest} s at {rate} Hz", scene.duration);
+    }
+    WavFile::begin(path, 1, rate as u32, BitDepth::Float32)
+}
+
+/// What was seen while computing.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seen {
+    /// The first sample whose output is no finite number.
+    not_finite: Option<u64>,
+    /// Deepest penetration of board and frets, m.
+    penetration: f64,
+    /// Newton iterations in all, and the most in one sample of one string.
+    iterations: u64,
+    most_iterations: u32,
+    /// The most contacts active at once in one string.
+    contacts: u32,
+}
+
+impl Seen {
+    fn look(&mut self, simulation: &Simulation, output: f64) {
+        if self.not_finite.is_none() && !output.is_finite() {
+            self.not_finite = Some(simulation.steps() - 1);
+        }
+        for string in simulation.strings() {
+            let convergence = &string.convergence;
+            if convergence.active > 0 {
+                self.penetration = self.penetration.max(string.penetration());
+                self.iterations += u64::from(convergence.iterations);
+                self.most_iterations = self.most_iterations.max(convergence.iterations);
+                self.contacts = self.contacts.max(convergence.active);
+            }
+        }
+    }
+}
+
+fn compute(simulation: &mut Simulation, outputs: &mut Outputs) -> Result<Seen> {
+    let bar = progress::bar(simulation.samples() as f64 / simulation.sample_rate());
+    let mut seen = Seen::default();
+    while simulation.steps() < simulation.samples() {
+        match &mut outputs.trace {
+            Some(trace) => trace.step(simulation)?,
+            None => {
+                simulation.step();
+            }
+        }
+        let output = simulation.output();
+        seen.look(simulation, output);
+        if let Some(wav) = &mut outputs.wav {
+            wav.write(std::iter::once(output as f32))?;
+        }
+        if simulation.steps().is_multiple_of(LOOK) {
+            bar.set_position((simulation.steps() as f64 / simulation.sample_rate()) as u64);
+        }
+    }
+    bar.finish_and_clear();
+    // A listening point may never meet what went wrong elsewhere.
+    let still = |state: &low_action_dsp::State| state.displacement().iter().all(|u| u.is_finite());
+    if seen.not_finite.is_none() && !simulation.strings().iter().all(|string| still(&string.state)) {
+        seen.not_finite = Some(simulation.steps());
+    }
+    Ok(seen)
+}
+
+/// Whether the result may be believed.
+fn check(seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) -> Outcome {
+    if let Some(sample) = seen.not_finite {
+        return Err(Failure::Check(format!("the result is not finite from sample {sample} on; it is kept")));
+    }
+    if let Some(sound) = sound.filter(|sound| sound.not_finite > 0) {
+        let count = sound.not_finite;
+        return Err(Failure::Check(format!("{count} samples are too large for 32 bits; the file is kept")));
+    }
+    for (number, ledger) in (1..).zip(ledgers) {
+        let open = open_part(ledger);
+        if open.is_nan() || open > BALANCE {
+            return Err(Failure::Check(format!(
+                "the energy balance of string {number} is open by {open:.1e} of its largest energy, over \
+                 the limit of {BALANCE:e}; the result is kept"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// How far a ledger is open in all, as a part of the largest energy.
+fn open_part(ledger: &Ledger) -> f64 {
+    if ledger.residual_sum == 0.0 { 0.0 } else { ledger.residual_sum.abs() / ledger.largest }
+}
+
+/// What there is to say at the end.
+struct Summary<'a> {
+    arguments: &'a SceneArgs,
+    scene: &'a Scene,
+    simulation: &'a Simulation,
+    seen: Seen,
+    sound: Option<Findings>,
+    trace_size: Option<(u64, u64)>,
+    elapsed: f64,
+}
+
+impl Summary<'_> {
+    /// Prints a few lines, on standard output unless that carries a result.
+    fn print(&self) {
+        let results = [&self.arguments.wav, &self.arguments.trace];
+        let text = self.lines().join("\n") + "\n";
+        // A closed output is no reason to fail.
+        if results.into_iter().flatten().any(|path| is_dash(path)) {
+            io::stderr().write_all(text.as_bytes()).ok();
+        } else {
+            io::stdout().write_all(text.as_bytes()).ok();
+        }
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let strings = (1..).zip(self.simulation.strings());
+        let mut lines: Vec<_> = strings
+            .map(|(number, string)| {
+                let (grid, fingers) = (&string.model.grid, string.fingers().count());
+                let (intervals, spacing) = (grid.intervals, grid.spacing * 1e3);
+                let contacts = string.model.contacts.len();
+                format!("string {number}: N = {intervals}, h = {spacing:.3} mm, contacts {contacts}, fingers {fingers}")
+            })
+            .collect();
+        let (samples, rate) = (self.simulation.samples(), self.scene.sample_rate);
+        let (seconds, elapsed) = (samples as f64 / rate, self.elapsed);
+        lines.push(format!(
+            "time: {samples} samples at {rate} Hz, {seconds:.4} s, computed in {elapsed:.2} s"
+        ));
+        lines.extend(self.contact());
+        lines.push(self.energy());
+        lines.extend(self.files());
+        lines
+    }
+
+    fn contact(&self) -> Option<String> {
+        let Seen { penetration, iterations, most_iterations, contacts, .. } = self.seen;
+        let mean = iterations as f64 / self.simulation.samples() as f64;
+        (contacts > 0).then(|| {
+            format!(
+                "contact: at most {contacts} at once, penetration at most {penetration:.2e} m, {mean:.2} iterations a \
+                 sample, at most {most_iterations}"
+            )
+        })
+    }
+
+    fn energy(&self) -> String {
+        let ledgers = self.simulation.ledgers();
+        if ledgers.is_empty() {
+            return "energy: not measured (with --trace it is)".into();
+        }
+        let most = |of: fn(&Ledger) -> f64| ledgers.iter().map(of).fold(0.0, f64::max);
+        let (largest, worst, open) = (most(|l| l.largest), most(|l| l.worst_residual), most(open_part));
+        format!(
+            "energy: at most {largest:.3e} J in a string; the balance is open by {worst:.1e} of that in a sample, \
+             {open:.1e} in all"
+        )
+    }
+
+    fn files(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        if let (Some(path), Some(sound)) = (&self.arguments.wav, self.sound) {
+            let (path, peak) = (path.display(), sound.peak);
+            lines.push(match self.scene.output.position {
+                ListeningPoint::Bridge => format!("{path}: force on the bridge, at most {peak:.4} N"),
+                ListeningPoint::At(place) => format!("{path}: velocity at {place} m, at most {peak:.4} m/s"),
+            });
+        }
+        if let (Some(path), Some((rows, bytes))) = (&self.arguments.trace, self.trace_size) {
+            lines.push(format!("{}: {rows} rows, {:.1} MB", path.display(), bytes as f64 / 1e6));
+        }
+        lines
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ledgers() -> Vec<Ledger> {
+        let text = "sample_rate = 44100\nduration = 0.01\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\n\
+                    tension = 60.0\nshape = [[0.0, 0.0], [0.3, 0.001], [0.65, 0.0]]\n";
+        let mut simulation = Simulation::new(&Scene::from_toml(text).unwrap()).unwrap();
+        simulation.open_ledger();
+        simulation.step();
+        simulation.ledgers().to_vec()
+    }
+
+    #[test]
+    fn a_good_result_passes() {
+        assert!(check(&Seen::default(), Some(&Findings::default()), &ledgers()).is_ok());
+    }
+
+    #[test]
+    fn what_is_not_finite_or_not_balanced_fails_with_3() {
+        let code = |outcome: Outcome| outcome.err().map(|failure| failure.code());
+        let seen = Seen { not_finite: Some(7), ..Seen::default() };
+        assert_eq!(code(check(&seen, None, &[])), Some(3));
+        let sound = Findings { not_finite: 1, ..Findings::default() };
+        assert_eq!(code(check(&Seen::default(), Some(&sound), &[])), Some(3));
+        for part in [2.0 * BALANCE, -2.0 * BALANCE, f64::NAN] {
+            let mut open = ledgers();
+            open[0].residual_sum = part * open[0].largest;
+            assert_eq!(code(check(&Seen::default(), None, &open)), Some(3));
+        }
+    }
 }

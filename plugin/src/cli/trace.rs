@@ -1,0 +1,220 @@
+//! The trace of a scene: what moved where, what pushed, and where the energy went, as arrays.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use low_action_dsp::simulation::SceneString;
+use low_action_dsp::{Entry, Simulation};
+
+use super::npz::{Array, Kind, NpzFile};
+use super::output::Draft;
+
+/// The largest trace written, bytes.
+const LARGEST: u64 = 1_000_000_000_000;
+
+/// Where the numbers of one string go.
+struct StringArrays {
+    displacement: usize,
+    board: Option<usize>,
+    /// The first of its frets' arrays; the others follow.
+    frets: usize,
+}
+
+/// Where the numbers of one finger go.
+struct FingerArrays {
+    height: usize,
+    force: usize,
+}
+
+/// The ledger's arrays, in the order in which an entry's numbers are [listed](ledger_row).
+const LEDGER: [&str; 8] = [
+    "energy_string",
+    "energy_tension",
+    "energy_contact",
+    "energy_finger",
+    "power_loss",
+    "power_solver",
+    "power_in",
+    "residual",
+];
+
+fn ledger_row(entry: &Entry) -> [f64; 8] {
+    let energies = &entry.energies;
+    [
+        energies.string,
+        energies.tension,
+        energies.contact,
+        energies.finger,
+        entry.power_loss,
+        entry.power_solver,
+        entry.power_in,
+        entry.residual,
+    ]
+}
+
+/// The arrays of a trace and what fills them. Time is always the first.
+struct Plan {
+    arrays: Vec<Array>,
+    strings: Vec<StringArrays>,
+    fingers: Vec<FingerArrays>,
+    iterations: usize,
+    ledger: usize,
+    rows: u64,
+    every: u64,
+}
+
+impl Plan {
+    /// The trace of every so many-th sample of a simulation.
+    fn new(simulation: &Simulation, every: u64) -> Plan {
+        let rows = simulation.samples().div_ceil(every);
+        let mut arrays = Vec::new();
+        let mut array = |name: String, kind: Kind, shape: &[u64]| {
+            arrays.push(Array { name, kind, shape: shape.to_vec() });
+            arrays.len() - 1
+        };
+        array("t".into(), Kind::Real, &[rows]);
+        let mut strings = Vec::new();
+        let mut finger_numbers = Vec::new();
+        for (number, string) in (1..).zip(simulation.strings()) {
+            let points = string.model.grid.unknowns() as u64;
+            array(format!("x_{number}"), Kind::Real, &[points]);
+            let displacement = array(format!("u_{number}"), Kind::Real, &[rows, points]);
+            let board =
+                string.has_board().then(|| array(format!("force_board_{number}"), Kind::Real, &[rows]));
+            let frets = displacement + 1 + usize::from(board.is_some());
+            for fret in 1..=string.fret_count() {
+                array(format!("force_fret_{number}_{fret}"), Kind::Real, &[rows]);
+            }
+            strings.push(StringArrays { displacement, board, frets });
+            finger_numbers.extend(string.fingers().map(|finger| finger.number));
+        }
+        finger_numbers.sort_unstable();
+        let fingers = finger_numbers.iter().map(|index| FingerArrays {
+            height: array(format!("u_finger_{}", index + 1), Kind::Real, &[rows]),
+            force: array(format!("force_finger_{}", index + 1), Kind::Real, &[rows]),
+        });
+        let fingers = fingers.collect();
+        let iterations = array("iterations".into(), Kind::Count, &[rows]);
+        let ledger = iterations + 1;
+        for name in LEDGER {
+            array(name.into(), Kind::Real, &[rows]);
+        }
+        Plan { arrays, strings, fingers, iterations, ledger, rows, every }
+    }
+
+    /// Bytes of all numbers.
+    fn bytes(&self) -> u64 {
+        self.arrays.iter().map(Array::bytes).sum()
+    }
+}
+
+/// A trace being written. Row n holds the state at its sample, the forces and powers that act there, and
+/// the energies half a sample later.
+pub(super) struct Trace {
+    path: PathBuf,
+    draft: Draft,
+    plan: Plan,
+    npz: NpzFile,
+    fret_forces: Vec<f64>,
+}
+
+impl Trace {
+    /// Begins the trace of every so many-th sample of a simulation.
+    pub fn begin(path: &Path, simulation: &Simulation, every: u64) -> Result<Trace> {
+        let plan = Plan::new(simulation, every);
+        if plan.bytes() > LARGEST {
+            let (bytes, limit) = (plan.bytes() as f64, LARGEST as f64);
+            let enough = (every as f64 * bytes / limit).ceil();
+            bail!(
+                "--every {every} is refused: the trace would take {bytes:.1e} bytes, and at most {limit:e} are \
+                 accepted: it must be at least {enough}"
+            );
+        }
+        let draft = Draft::begin(path)?;
+        let npz = draft.handle().and_then(|file| NpzFile::begin(file, &plan.arrays));
+        let npz = npz.with_context(|| cannot_write(path))?;
+        let mut trace = Trace { path: path.to_owned(), draft, plan, npz, fret_forces: Vec::new() };
+        trace.keep_places(simulation).with_context(|| cannot_write(path))?;
+        Ok(trace)
+    }
+
+    /// Rows of the arrays over time, and bytes of all numbers.
+    pub fn size(&self) -> (u64, u64) {
+        (self.plan.rows, self.plan.bytes())
+    }
+
+    /// Takes a step, and keeps what there was before and what happened in it if its sample is due.
+    pub fn step(&mut self, simulation: &mut Simulation) -> Result<()> {
+        let due = simulation.steps().is_multiple_of(self.plan.every);
+        if due {
+            self.keep_state(simulation).with_context(|| cannot_write(&self.path))?;
+        }
+        let entry = simulation.step().unwrap_or_default();
+        if due {
+            self.keep_events(simulation, &entry).with_context(|| cannot_write(&self.path))?;
+        }
+        Ok(())
+    }
+
+    fn keep_places(&mut self, simulation: &Simulation) -> io::Result<()> {
+        for (arrays, string) in self.plan.strings.iter().zip(simulation.strings()) {
+            // Places stand just before displacements.
+            string.places().try_for_each(|place| self.npz.add(arrays.displacement - 1, &[place]))?;
+        }
+        Ok(())
+    }
+
+    /// Keeps the state that the next step leads from.
+    fn keep_state(&mut self, simulation: &Simulation) -> io::Result<()> {
+        self.npz.add(0, &[simulation.steps() as f64 / simulation.sample_rate()])?;
+        for (arrays, string) in self.plan.strings.iter().zip(simulation.strings()) {
+            self.npz.add(arrays.displacement, string.state.displacement())?;
+            for finger in string.fingers() {
+                self.npz.add(self.plan.fingers[finger.number].height, &[finger.height])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Keeps what acted in the step just taken.
+    fn keep_events(&mut self, simulation: &Simulation, entry: &Entry) -> io::Result<()> {
+        let mut iterations = 0;
+        for (index, string) in simulation.strings().iter().enumerate() {
+            iterations += string.convergence.iterations;
+            self.keep_forces(index, string)?;
+        }
+        self.npz.add_count(self.plan.iterations, iterations)?;
+        let ledger = self.plan.ledger;
+        ledger_row(entry).iter().zip(ledger..).try_for_each(|(&number, array)| self.npz.add(array, &[number]))
+    }
+
+    fn keep_forces(&mut self, index: usize, string: &SceneString) -> io::Result<()> {
+        let arrays = &self.plan.strings[index];
+        if let Some(board) = arrays.board {
+            self.npz.add(board, &[string.board_force()])?;
+        }
+        self.fret_forces.clear();
+        self.fret_forces.resize(string.fret_count(), 0.0);
+        for (fret, force) in string.fret_forces() {
+            self.fret_forces[fret] = force;
+        }
+        for (&force, array) in self.fret_forces.iter().zip(arrays.frets..) {
+            self.npz.add(array, &[force])?;
+        }
+        for finger in string.fingers() {
+            self.npz.add(self.plan.fingers[finger.number].force, &[finger.force])?;
+        }
+        Ok(())
+    }
+
+    /// Completes the file, which then waits to be published.
+    pub fn complete(self) -> Result<Draft> {
+        self.npz.complete().with_context(|| cannot_write(&self.path))?;
+        Ok(self.draft)
+    }
+}
+
+fn cannot_write(path: &Path) -> String {
+    format!("cannot write {}", path.display())
+}
