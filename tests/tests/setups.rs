@@ -155,7 +155,7 @@ fn wrong_setups_are_refused_in_one_line() {
         ("linear_density = 3.956e-4", "linear_density = 0.0", &["string[1].linear_density"]),
         ("loss_0 = 0.757", "loss_0 = -1.0", &["string[1].loss_0", "-1"]),
         ("pan = 0.25", "pan = 2", &["string[1].pan", "2"]),
-        ("behind = 0.3", "behind = 1.5", &["player.fretting.behind", "1.5"]),
+        ("behind = 0.4", "behind = 1.5", &["player.fretting.behind", "1.5"]),
         ("pluck_position = 0.12", "pluck_position = 0.7", &["player.pluck_position", "0.7", "0.6477"]),
         ("position = 0.162", "position = 0.001", &["pickup.aperture", "0.02"]),
         ("kind = \"magnetic\"", "kind = \"laser\"", &["laser"]),
