@@ -113,7 +113,7 @@ pub struct Damper {
     pub force: f64,
     /// Time over which its force rises, s.
     pub landing: f64,
-    /// Place, m from the saddle.
+    /// The place farthest from the saddle that it touches, m from the saddle.
     pub position: f64,
 }
 
