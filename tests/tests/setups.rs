@@ -146,7 +146,7 @@ fn wrong_setups_are_refused_in_one_line() {
     let cases: [(&str, &str, &[&str]); 16] = [
         ("frets = 22", "frets = 99", &["neck.frets", "99"]),
         ("frets = 22", "fretz = 22", &["fretz"]),
-        ("action = 0.0016", "action = 0.0001", &["neck.action", "0.0001"]),
+        ("action = 0.0016", "action = 0.0001", &["neck.action", "1e-4"]),
         ("action = 0.0016", "action = nan", &["neck.action", "NaN"]),
         ("scale_length = 0.6477", "scale_length = -1.0", &["neck.scale_length", "-1"]),
         ("max_bend = 3.0", "max_bend = 13", &["max_bend", "13", "semitones"]),
