@@ -1,0 +1,213 @@
+//! Tuning, from rendered sound at 48 kHz, `live`: the first partial between 0.25 and 1.35 s after a note
+//! at velocity 60 lies within 3 cents of equal temperament on every fret of every string of every
+//! set-up, open strings within 1.
+
+use std::f64::consts::TAU;
+
+use low_action::engine::{Engine, EngineOptions, Quality};
+use low_action::performance::PlayerEvent;
+use low_action_dsp::setup::{Intonation, frequency};
+use low_action_dsp::{Gesture, Instrument, Setup, TimedGesture};
+use low_action_tests::pitch::{cents, frequency_near};
+
+const RATE: f64 = 48_000.0;
+const FROM: f64 = 0.25;
+const TO: f64 = 1.35;
+
+/// The part of a sound that is measured.
+fn measured(sound: &[f32]) -> &[f32] {
+    &sound[(FROM * RATE) as usize..(TO * RATE) as usize]
+}
+
+/// The instrument with only one of its strings.
+fn alone(setup: &Setup, string: usize) -> Setup {
+    Setup { string: vec![setup.string[string].clone()], ..setup.clone() }
+}
+
+/// The same, ready to be handled without an engine.
+fn string_alone(setup: &Setup, string: usize) -> Instrument {
+    Instrument::new(&alone(setup, string), &Quality::Live.settings(RATE)).unwrap()
+}
+
+/// Errors in cents of the open string and every fret, played by the engine on an instrument that has
+/// only this string, so that it is played on this string.
+fn errors(setup: &Setup, string: usize) -> Vec<f64> {
+    let options = EngineOptions { variation: 0.0, ..EngineOptions::new(alone(setup, string), RATE) };
+    let mut engine = Engine::new(&options).unwrap();
+    let samples = (TO * RATE) as usize;
+    (0..=setup.neck.frets)
+        .map(|fret| {
+            let key = setup.string[string].pitch as u8 + fret as u8;
+            engine.reset();
+            engine.event(0, PlayerEvent::NoteOn { channel: 0, key, velocity: 60.0 / 127.0 });
+            let [mut left, mut right, mut sound] = [(); 3].map(|()| vec![0.0; samples]);
+            engine.process_stems(&mut [&mut sound], &mut left, &mut right);
+            let target = frequency(f64::from(key));
+            cents(frequency_near(measured(&sound), RATE, target), target)
+        })
+        .collect()
+}
+
+/// Errors of every string of a set-up, two strings at a time, with a line of report for each.
+fn all_errors(setup: &Setup) -> Vec<Vec<f64>> {
+    let mut all: Vec<Vec<f64>> = vec![Vec::new(); setup.string.len()];
+    for (pair, slots) in all.chunks_mut(2).enumerate() {
+        std::thread::scope(|scope| {
+            for (offset, slot) in slots.iter_mut().enumerate() {
+                scope.spawn(move || *slot = errors(setup, 2 * pair + offset));
+            }
+        });
+    }
+    for (string, errors) in setup.string.iter().zip(&all) {
+        let cents: Vec<String> = errors.iter().map(|error| format!("{error:.2}")).collect();
+        println!("{} {}: {}", setup.name, string.name, cents.join(" "));
+    }
+    let fretted = || all.iter().flat_map(|errors| &errors[1..]).map(|error| error.abs());
+    let open = all.iter().map(|errors| errors[0].abs()).fold(0.0, f64::max);
+    println!(
+        "{}: open at most {open:.2} cents off, fretted at most {:.2}, on average {:.2}",
+        setup.name,
+        fretted().fold(0.0, f64::max),
+        fretted().sum::<f64>() / fretted().count() as f64,
+    );
+    all
+}
+
+fn check(name: &str) {
+    let setup = Setup::builtin(name).unwrap();
+    for (string, errors) in setup.string.iter().zip(all_errors(&setup)) {
+        for (fret, error) in errors.iter().enumerate() {
+            let limit = if fret == 0 { 1.0 } else { 3.0 };
+            assert!(error.abs() <= limit, "{name} {} fret {fret}: {error:.2} cents off", string.name);
+        }
+    }
+}
+
+#[test]
+fn electric_plays_in_tune() {
+    check("electric");
+}
+
+#[test]
+fn classical_plays_in_tune() {
+    check("classical");
+}
+
+#[test]
+fn steel_plays_in_tune() {
+    check("steel");
+}
+
+#[test]
+fn bass_plays_in_tune() {
+    check("bass");
+}
+
+/// Without compensation, pressing sharpens: this is what the fret places make up for.
+#[test]
+fn raw_intonation_is_sharp_by_what_pressing_does() {
+    let mut setup = Setup::builtin("electric").unwrap();
+    setup.intonation = Intonation::Physical;
+    setup.string = vec![setup.string[2].clone(), setup.string[5].clone()];
+    for errors in all_errors(&setup) {
+        assert!(errors[0].abs() <= 1.0, "the open string is tuned: {:.2} cents", errors[0]);
+        assert!(errors[1..].iter().all(|&error| (3.0..40.0).contains(&error)), "{errors:.1?}");
+    }
+}
+
+/// The pitch of a string whose finger is handled by `hand` and which is plucked 0.4 s later.
+fn handled(setup: &Setup, string: usize, hand: &[(f64, Gesture)], target: f64) -> f64 {
+    const PLUCK: f64 = 0.4;
+    let mut instrument = string_alone(setup, string);
+    let player = &setup.player;
+    let pluck = Gesture::Pluck {
+        position: instrument.geometry(0).length - player.pluck_position,
+        force: 0.3 * player.pluck_force,
+        duration: player.pluck_duration,
+    };
+    for &(time, gesture) in hand.iter().chain([&(PLUCK, pluck)]) {
+        let time = (time * RATE) as u64;
+        instrument.schedule(TimedGesture { time, string: 0, gesture }).unwrap();
+    }
+    let samples = ((PLUCK + TO) * RATE) as usize;
+    let [mut left, mut right] = [(); 2].map(|()| vec![0.0; samples]);
+    instrument.process(&mut left, &mut right);
+    cents(frequency_near(measured(&left[(PLUCK * RATE) as usize..]), RATE, target), target)
+}
+
+/// A straight barré lies at one place across strings whose frets differ a little: still in tune.
+#[test]
+fn barres_are_in_tune() {
+    for name in ["electric", "classical"] {
+        let setup = Setup::builtin(name).unwrap();
+        let fretting = setup.player.fretting;
+        for fret in [1, 5] {
+            // The finger lies where it would on the middle of a neck with straight frets.
+            let (crown, below) =
+                (setup.neck.equal_place(f64::from(fret)), setup.neck.equal_place(f64::from(fret - 1)));
+            let position = crown - 0.5 * (crown - below);
+            let hand = [
+                (
+                    0.0,
+                    Gesture::Place { finger: 0, touch: fretting.touch, position, clearance: fretting.hover },
+                ),
+                (0.0, Gesture::Press { finger: 0, force: fretting.force, duration: fretting.landing }),
+            ];
+            for (index, string) in setup.string.iter().enumerate() {
+                let target = frequency(string.pitch + f64::from(fret));
+                let error = handled(&setup, index, &hand, target);
+                println!("{name} barré {fret} {}: {error:.2} cents", string.name);
+                assert!(error.abs() <= 3.0, "{name} {} barré at {fret}: {error:.2} cents", string.name);
+            }
+        }
+    }
+}
+
+/// A finger that slides to a fret stops the string as one that landed there.
+#[test]
+fn slides_end_in_tune() {
+    let setup = Setup::builtin("electric").unwrap();
+    let fretting = setup.player.fretting;
+    for (string, from, to) in [(0, 5, 7), (2, 12, 9), (5, 2, 7)] {
+        let instrument = string_alone(&setup, string);
+        let place = |fret| instrument.geometry(0).finger_position(fret);
+        let touch = fretting.touch;
+        let hand = [
+            (0.0, Gesture::Place { finger: 0, touch, position: place(from), clearance: fretting.hover }),
+            (0.0, Gesture::Press { finger: 0, force: fretting.force, duration: fretting.landing }),
+            (0.1, Gesture::Slide { finger: 0, position: place(to), duration: 0.15 }),
+        ];
+        let target = frequency(setup.string[string].pitch + to as f64);
+        let error = handled(&setup, string, &hand, target);
+        println!("slide on {} from {from} to {to}: {error:.2} cents", setup.string[string].name);
+        assert!(error.abs() <= 3.0, "{error:.2} cents");
+    }
+}
+
+/// The measure itself: partials of a stiff string with known frequency and decay, to 0.05 cents.
+#[test]
+fn the_measure_finds_known_frequencies() {
+    for (pitch, offset, t60) in
+        [(28.0, 0.0, 25.0), (28.0, 2.5, 3.0), (40.0, -11.0, 8.0), (64.0, 0.9, 2.0), (86.0, -29.0, 0.5)]
+    {
+        let first = frequency(pitch) * (offset / 1200.0_f64).exp2();
+        let partials = 12;
+        let sound: Vec<f32> = (0..(TO * RATE) as usize)
+            .map(|n| {
+                let t = n as f64 / RATE;
+                let sum: f64 = (1..=partials)
+                    .map(|k| {
+                        let k = f64::from(k);
+                        let inharmonic = (1.0 + 1e-4 * (k * k - 1.0)).sqrt();
+                        let decay = 1000.0_f64.ln() / t60 * (1.0 + 0.1 * (k * k - 1.0));
+                        (TAU * first * k * inharmonic * t + k).sin() * (-decay * t).exp()
+                    })
+                    .sum();
+                (0.1 * sum) as f32
+            })
+            .collect();
+        let found = frequency_near(measured(&sound), RATE, frequency(pitch));
+        let error = cents(found, first);
+        assert!(error.abs() < 0.05, "{first} Hz: {error:.4} cents off");
+    }
+}
