@@ -3,3 +3,4 @@
 pub mod dense;
 pub mod host;
 pub mod pitch;
+pub mod midi;

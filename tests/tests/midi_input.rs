@@ -1,0 +1,265 @@
+//! The promise: every Standard MIDI File plays, every event at its exact sample; what is no such file is
+//! refused in one line, and no bytes at all make the reader panic or hang.
+
+use low_action::midi_file::{LARGEST_FILE, MidiFileError, Selection, Song, SongWarning};
+use low_action::performance::PlayerEvent;
+use low_action_tests::midi::{END, file, tempo, track};
+use proptest::prelude::*;
+
+const RATE: u32 = 48_000;
+const ALL: Selection = Selection { track: None, channel: None };
+
+fn read(bytes: &[u8]) -> Song {
+    Song::from_midi(bytes, ALL).expect("the file is good")
+}
+
+fn refused(bytes: &[u8]) -> String {
+    let message = Song::from_midi(bytes, ALL).expect_err("the file is bad").to_string();
+    assert!(!message.contains('\n'), "one line: {message}");
+    message
+}
+
+/// Samples and keys of the note-ons.
+fn note_ons(song: &Song) -> Vec<(u64, u8)> {
+    let note_on = |event: &low_action::midi_file::SongEvent| match event.event {
+        PlayerEvent::NoteOn { key, .. } => Some((event.time.sample(RATE), key)),
+        _ => None,
+    };
+    song.events.iter().filter_map(note_on).collect()
+}
+
+#[test]
+fn running_status_carries_on_even_across_meta_events() {
+    // One status byte for four notes; a text event stands between the second and the third.
+    let notes = track(&[
+        (0, &[0x90, 60, 100]),
+        (96, &[62, 100]),
+        (0, &[0xFF, 0x01, 2, b'h', b'i']),
+        (96, &[64, 100]),
+        (96, &[64, 0]),
+    ]);
+    let song = read(&file(0, 96, &[notes]));
+    assert_eq!(note_ons(&song), [(0, 60), (24_000, 62), (48_000, 64)]);
+    let last = song.events.last().expect("events");
+    assert_eq!(last.event, PlayerEvent::NoteOff { channel: 0, key: 64 }, "velocity 0 lets go");
+}
+
+#[test]
+fn smpte_time_ignores_tempo() {
+    let slow = tempo(2_000_000);
+    let notes = track(&[(0, &slow), (0, &[0x90, 60, 100]), (1000, &[0x90, 62, 100])]);
+    // 25 frames of 40 ticks: a tick is a millisecond.
+    assert_eq!(note_ons(&read(&file(0, 0xE728, std::slice::from_ref(&notes))))[1].0, 48_000);
+    // Drop-frame: 30000/1001 frames of 100 ticks, so 1000 ticks are 1001/3000 s, exactly 16,016 samples.
+    assert_eq!(note_ons(&read(&file(0, 0xE364, &[notes])))[1].0, 16_016);
+}
+
+#[test]
+fn the_three_formats_order_their_tracks() {
+    let long = track(&[(0, &[0x90, 60, 100]), (96, &[0x80, 60, 0]), (96, END)]);
+    let short = track(&[(48, &[0x91, 62, 100]), (48, &[0x81, 62, 0])]);
+    let tracks = [long, short];
+    assert_eq!(note_ons(&read(&file(1, 96, &tracks))), [(0, 60), (12_000, 62)]);
+    // In sequence, the second begins where the first ends: after two beats.
+    assert_eq!(note_ons(&read(&file(2, 96, &tracks))), [(0, 60), (48_000 + 12_000, 62)]);
+    assert_eq!(note_ons(&read(&file(0, 96, &tracks[..1]))), [(0, 60)]);
+}
+
+#[test]
+fn a_tempo_map_an_hour_long_does_not_drift() {
+    // 70,000 beats whose tempo changes at every one, between two values with awkward fractions, set in a
+    // track of its own; the notes fall on every tenth beat.
+    let tempi = [tempo(51_283), tempo(51_577)];
+    let map: Vec<(u32, &[u8])> =
+        (0..70_000).map(|beat| (96 * u32::from(beat > 0), &tempi[beat % 2][..])).collect();
+    let notes: Vec<(u32, &[u8])> =
+        (0..7_000).map(|note| (960 * u32::from(note > 0), &[0x90, 60, 100][..])).collect();
+    let song = read(&file(1, 96, &[track(&map), track(&notes)]));
+    for (index, (sample, _)) in note_ons(&song).into_iter().enumerate() {
+        let microseconds = 5 * index as u64 * (51_283 + 51_577);
+        let exact = microseconds as f64 * f64::from(RATE) / 1e6;
+        assert!((sample as f64 - exact).abs() <= 0.5, "note {index}: {sample} for {exact}");
+    }
+}
+
+#[test]
+fn odd_but_legal_contents_play() {
+    let same_instant: Vec<[u8; 3]> = (0..100).map(|n| [0x90, n, 90]).collect();
+    let hundred: Vec<(u32, &[u8])> = same_instant.iter().map(|event| (0, &event[..])).collect();
+    assert_eq!(note_ons(&read(&file(0, 96, &[track(&hundred)]))).len(), 100);
+
+    let no_length = track(&[(0, &[0x90, 60, 100]), (0, &[0x80, 60, 0])]);
+    assert_eq!(read(&file(0, 96, &[no_length])).events.len(), 2);
+
+    let nothing = read(&file(1, 96, &[track(&[]), track(&[])]));
+    assert_eq!(nothing.warnings, [SongWarning::NoNotes]);
+    assert_eq!(nothing.duration(), 0.0);
+    assert_eq!(read(&file(1, 96, &[])).warnings, [SongWarning::NoNotes]);
+
+    // Unknown chunks, a longer header and bytes after the end are all allowed.
+    let notes = track(&[(0, &[0x90, 60, 100])]);
+    let mut odd = b"MThd\0\0\0\x08\0\x01\0\x01\0\x60\xAB\xCD".to_vec();
+    odd.extend(b"XFIH\0\0\0\x03abc");
+    odd.extend(&file(0, 96, std::slice::from_ref(&notes))[14..]);
+    odd.extend(b"rest");
+    assert_eq!(note_ons(&read(&odd)).len(), 1);
+
+    // The same in a RIFF wrapper.
+    let inner = file(0, 96, &[notes]);
+    let mut wrapped = b"RIFF\0\0\0\0RMIDdata".to_vec();
+    wrapped.extend((inner.len() as u32).to_le_bytes());
+    wrapped.extend(inner);
+    assert_eq!(note_ons(&read(&wrapped)).len(), 1);
+}
+
+#[test]
+fn drums_are_left_out_with_one_warning() {
+    let notes =
+        track(&[(0, &[0x99, 38, 100]), (10, &[0x99, 42, 100]), (0, &[0x90, 60, 100]), (0, &[0x99, 42, 0])]);
+    let bytes = file(0, 96, &[notes]);
+    let song = read(&bytes);
+    assert_eq!(note_ons(&song), [(2_500, 60)]);
+    assert_eq!(song.warnings, [SongWarning::DrumsSkipped { notes: 2 }]);
+
+    let drums = Song::from_midi(&bytes, Selection { channel: Some(10), ..ALL }).expect("good");
+    assert_eq!(note_ons(&drums).len(), 2, "asking for the channel plays it");
+    assert!(drums.warnings.is_empty());
+}
+
+#[test]
+fn tracks_and_channels_can_be_chosen() {
+    let slow = tempo(1_000_000);
+    let tracks = [
+        track(&[(0, &slow), (0, &[0x90, 40, 100])]),
+        track(&[(96, &[0x91, 50, 100]), (0, &[0x92, 51, 100])]),
+    ];
+    let bytes = file(1, 96, &tracks);
+    let chosen = |track, channel| {
+        Song::from_midi(&bytes, Selection { track, channel }).map(|song| note_ons(&song)).expect("good")
+    };
+    assert_eq!(chosen(Some(2), None), [(48_000, 50), (48_000, 51)], "the tempo of track 1 still counts");
+    assert_eq!(chosen(None, Some(3)), [(48_000, 51)]);
+    assert_eq!(chosen(Some(1), Some(2)), []);
+    for asked in [0, 3] {
+        let error = Song::from_midi(&bytes, Selection { track: Some(asked), channel: None });
+        assert_eq!(error, Err(MidiFileError::NoSuchTrack { asked, count: 2 }));
+    }
+    // Of sequences, only the chosen one takes time.
+    let second = Song::from_midi(&file(2, 96, &tracks), Selection { track: Some(2), channel: None });
+    assert_eq!(note_ons(&second.expect("good"))[0], (24_000, 50), "and no other's tempo counts");
+}
+
+#[test]
+fn bends_reach_both_ends() {
+    let bends = track(&[(0, &[0xE0, 0, 0]), (0, &[0xE0, 0, 64]), (0, &[0xE0, 127, 127])]);
+    let values: Vec<PlayerEvent> =
+        read(&file(0, 96, &[bends])).events.iter().map(|event| event.event).collect();
+    assert_eq!(values, [-1.0, 0.0, 1.0].map(|value| PlayerEvent::PitchBend { channel: 0, value }));
+}
+
+#[test]
+fn what_is_no_midi_file_is_refused() {
+    for bytes in
+        [&b""[..], b"\0", b"RIFF", b"RIFF\0\0\0\0WAVEfmt ", b"<html>", b"MTrk\0\0\0\0", &[0xFF; 4096]]
+    {
+        assert!(refused(bytes).contains("MIDI"), "{bytes:?}");
+    }
+    assert!(refused(&vec![0; LARGEST_FILE + 1]).contains("at most"));
+    assert!(refused(&file(3, 96, &[])).contains("must be 0, 1 or 2"));
+    for division in [0, 0x8000, 0x8001, 0xE700, 0xE800, 0xFF01] {
+        let message = refused(&file(0, division, &[track(&[])]));
+        assert!(message.contains("1 to 32767") && message.contains("frames"), "{message}");
+    }
+}
+
+#[test]
+fn every_truncation_is_refused() {
+    let notes = track(&[(0, &[0x90, 60, 100]), (96, &[0x80, 60, 0])]);
+    let whole = file(1, 96, &[notes.clone(), notes]);
+    for length in 0..whole.len() {
+        let message = refused(&whole[..length]);
+        let expected = if length < 4 { "MIDI file" } else { "truncated MIDI file" };
+        assert!(message.contains(expected), "{length} bytes: {message}");
+    }
+}
+
+#[test]
+fn damaged_events_are_refused_with_their_place() {
+    for event in [&[0x60, 60][..], &[0xF1, 0], &[0xF8]] {
+        let message = refused(&file(0, 96, &[track(&[(0, event)])]));
+        assert!(message.contains("byte 0 of track 1"), "{message}");
+    }
+    // A note cut off inside an intact chunk.
+    assert!(refused(&file(0, 96, &[vec![0, 0x90, 60]])).contains("byte 0 of track 1"));
+    // A track that merely lacks its end plays, with a word about it.
+    let song = read(&file(0, 96, &[vec![0, 0x90, 60, 100]]));
+    assert_eq!((note_ons(&song).len(), song.warnings), (1, vec![SongWarning::NoEndOfTrack { track: 1 }]));
+}
+
+#[test]
+fn the_longest_times_neither_overflow_nor_hang() {
+    let slowest = tempo(0xFF_FFFF);
+    let mut events: Vec<(u32, &[u8])> = vec![(0, &slowest)];
+    events.extend((0..10_000).map(|_| (0x0FFF_FFFF, &[0x90, 60, 100][..])));
+    let song = read(&file(0, 1, &[track(&events)]));
+    let exact = 10_000.0 * f64::from(0x0FFF_FFFF) * f64::from(0xFF_FFFF) / 1e6;
+    assert!((song.duration() / exact - 1.0).abs() < 1e-12);
+    assert!(note_ons(&song).is_sorted());
+}
+
+/// Reads the bytes in every way; whatever comes out must make sense.
+fn survives(bytes: &[u8]) {
+    for selection in
+        [ALL, Selection { track: Some(1), channel: None }, Selection { track: None, channel: Some(1) }]
+    {
+        match Song::from_midi(bytes, selection) {
+            Ok(song) => {
+                assert!(song.duration() >= 0.0);
+                assert!(song.events.is_sorted_by_key(|event| event.time.sample(RATE)));
+            }
+            Err(error) => assert!(!error.to_string().contains('\n')),
+        }
+    }
+}
+
+/// A file with a bit of everything, for mutation.
+fn rich() -> Vec<u8> {
+    let (fast, slow) = (tempo(300_000), tempo(900_000));
+    let first =
+        track(&[(0, &fast), (10, &[0x90, 60, 100]), (5, &[62, 90]), (200, &slow), (0, &[0x80, 60, 0])]);
+    let second = track(&[
+        (0, &[0xF0, 3, 1, 2, 0xF7]),
+        (7, &[0xE1, 3, 80]),
+        (130, &[0xB1, 64, 127]),
+        (20_000, &[0x91, 50, 50]),
+        (0, &[0xFF, 0x03, 4, b'n', b'a', b'm', b'e']),
+        (9, &[0xC1, 5]),
+        (0, &[0x91, 50, 0]),
+    ]);
+    file(1, 480, &[first, second])
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 4_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_bytes(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        survives(&bytes);
+    }
+
+    #[test]
+    fn random_bytes_behind_a_header(division: u16, bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        survives(&file(0, division, &[bytes]));
+    }
+
+    #[test]
+    fn mutated_files(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..12), cut: prop::sample::Index) {
+        let mut bytes = rich();
+        for (place, value) in changes {
+            let place = place.index(bytes.len());
+            bytes[place] = value;
+        }
+        survives(&bytes);
+        survives(&bytes[..cut.index(bytes.len())]);
+    }
+}
