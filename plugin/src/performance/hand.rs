@@ -9,8 +9,9 @@
 //! **Who gives way** when no free string can give the note: a note kept only by the pedal, or else
 //! one whose key is down; among several the one nearest to the hand, where each string with a
 //! younger note counts half a fret farther. A note is never taken away at the very instant it
-//! begins: of more simultaneous notes than strings, the outer ones stay (the highest, the lowest,
-//! the second highest, …) and the rest are left out.
+//! begins: of more simultaneous notes than can have a string each, the outer ones stay (the highest,
+//! the lowest, the second highest, and so on, each unless it would need a string of those before)
+//! and the rest are left out.
 //!
 //! Everything is a function of the hand's place and the strings' use, so the same notes always
 //! fall on the same strings.
@@ -18,7 +19,7 @@
 /// Frets under the hand without reaching: one for each finger.
 const SPAN: usize = 4;
 /// Most notes considered at one instant; of more, the last to arrive are left out.
-pub(crate) const LARGEST_CHORD: usize = 32;
+pub(crate) const LARGEST_CHORD: usize = 128;
 /// Nodes of the search for one place of the hand. Six notes on six strings take a few hundred
 /// after pruning; the bound is for instruments with very many strings.
 const SEARCH_LIMIT: usize = 2_000;
@@ -114,6 +115,9 @@ pub(crate) struct Hand {
     /// Least cost of each note from here to the last: the bound that prunes the search.
     bounds: Vec<f64>,
     taken: Vec<bool>,
+    /// Which notes are to be placed, and a string for each to show that it can be done.
+    chosen: Vec<bool>,
+    holders: Vec<Option<usize>>,
     path: Vec<Option<usize>>,
     best_path: Vec<Option<usize>>,
 }
@@ -130,6 +134,8 @@ impl Hand {
             costs: vec![0.0; count * count],
             bounds: vec![0.0; count + 1],
             taken: vec![false; count],
+            chosen: vec![false; LARGEST_CHORD],
+            holders: vec![None; count],
             path: vec![None; count],
             best_path: vec![None; count],
         }
@@ -195,21 +201,42 @@ impl Hand {
         }
     }
 
-    /// Picks the notes to be placed, no more than there are strings for, and sorts them.
+    /// Picks the notes to be placed, as many as can have a string each, and sorts them.
     fn choose(&mut self, wanted: &[Wanted], uses: &[Use]) {
-        let available = uses.iter().filter(|&&string| string != Use::Untouchable).count();
         self.order.clear();
         self.order.extend(0..wanted.len().min(LARGEST_CHORD));
         // Ties in pitch keep the order of arrival (a stable sort would allocate).
         self.order.sort_unstable_by(|&a, &b| wanted[b].pitch.total_cmp(&wanted[a].pitch).then(a.cmp(&b)));
-        if self.order.len() > available {
-            // The outer notes stay: half from the top (one more if odd), half from the bottom.
-            let low = available / 2;
-            let high = available - low;
-            let inner = high..self.order.len() - low;
-            self.order.drain(inner);
+        self.holders.fill(None);
+        self.chosen.fill(false);
+        let count = self.order.len();
+        for turn in 0..count {
+            // From outside in: highest, lowest, second highest, …
+            let place = if turn % 2 == 0 { turn / 2 } else { count - 1 - turn / 2 };
+            let note = self.order[place];
+            self.taken.fill(false);
+            self.chosen[note] = self.find_string(note, wanted, uses);
         }
+        let chosen = &self.chosen;
+        self.order.retain(|&note| chosen[note]);
         self.best_path[..self.order.len()].fill(None);
+    }
+
+    /// Finds a note a string of its own, moving notes that have one to others if need be: the step of
+    /// Kuhn's algorithm for matchings.
+    fn find_string(&mut self, note: usize, wanted: &[Wanted], uses: &[Use]) -> bool {
+        for string in 0..self.strings.len() {
+            let possible =
+                uses[string] != Use::Untouchable && self.strings[string].fret(wanted[note].pitch).is_some();
+            if !possible || std::mem::replace(&mut self.taken[string], true) {
+                continue;
+            }
+            if self.holders[string].is_none_or(|holder| self.find_string(holder, wanted, uses)) {
+                self.holders[string] = Some(note);
+                return true;
+            }
+        }
+        false
     }
 
     /// Fills in the cost of every chosen note on every string for one place of the hand.

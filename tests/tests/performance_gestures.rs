@@ -1,0 +1,360 @@
+//! The promise: notes become gestures of two hands. Every key finds its own string, its release ends that
+//! note and no other, nothing hangs, and the result depends on when things happen, never on how time is
+//! cut into blocks.
+
+use std::sync::LazyLock;
+
+use low_action::performance::{Performance, PlayedString, PlayerEvent, Style};
+use low_action_dsp::{EngineSettings, FINGERS_PER_STRING, Gesture, Instrument, Setup, Stencil, TimedGesture};
+use proptest::prelude::*;
+
+const RATE: f64 = 48_000.0;
+const EXACT: Style = Style { variation: 0.0, seed: 0, bend_range: 2.0 };
+/// A quarter of a second, samples.
+const WHILE: u64 = 12_000;
+
+/// The electric guitar and its strings, 0 (E4) to 5 (E2); tuning it takes a moment.
+static GUITAR: LazyLock<(Setup, Vec<PlayedString>)> = LazyLock::new(|| {
+    let setup = Setup::builtin("electric").expect("built in");
+    let settings =
+        EngineSettings { sample_rate: RATE, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 };
+    let instrument = Instrument::new(&setup, &settings).expect("builds");
+    let strings = (0..instrument.string_count()).map(|index| PlayedString::new(&setup, &instrument, index));
+    let strings = strings.collect();
+    (setup, strings)
+});
+
+/// A player who has not touched it yet.
+fn player(style: Style) -> Performance {
+    let (setup, strings) = &*GUITAR;
+    Performance::new(strings.clone(), &setup.player, style, RATE)
+}
+
+fn on(key: u8) -> PlayerEvent {
+    PlayerEvent::NoteOn { channel: 0, key, velocity: 0.5 }
+}
+
+fn off(key: u8) -> PlayerEvent {
+    PlayerEvent::NoteOff { channel: 0, key }
+}
+
+fn controller(number: u8, value: u8) -> PlayerEvent {
+    PlayerEvent::Controller { channel: 0, number, value: f32::from(value) / 127.0 }
+}
+
+/// Plays events and two seconds more.
+fn play(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
+    play_by(&mut player(EXACT), events)
+}
+
+fn play_by(performance: &mut Performance, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
+    let mut gestures = Vec::new();
+    for &(time, event) in events {
+        performance.event(time, event, &mut gestures);
+    }
+    let end = events.last().map_or(0, |event| event.0);
+    performance.advance(end + 2 * RATE as u64, &mut gestures);
+    gestures
+}
+
+/// (time, string) of the plucks.
+fn plucks(gestures: &[TimedGesture]) -> Vec<(u64, usize)> {
+    let pluck = |g: &&TimedGesture| matches!(g.gesture, Gesture::Pluck { .. });
+    gestures.iter().filter(pluck).map(|g| (g.time, g.string)).collect()
+}
+
+/// (time, string) at which dampers come down. Dampers lie in the two upper slots.
+fn dampings(gestures: &[TimedGesture]) -> Vec<(u64, usize)> {
+    let damper = |g: &&TimedGesture| matches!(g.gesture, Gesture::Place { finger: 2, .. });
+    gestures.iter().filter(damper).map(|g| (g.time, g.string)).collect()
+}
+
+/// The fingers left on each string at the end.
+fn left_on_strings(gestures: &[TimedGesture]) -> Vec<[bool; FINGERS_PER_STRING]> {
+    let mut left = vec![[false; FINGERS_PER_STRING]; 6];
+    for TimedGesture { string, gesture, .. } in gestures {
+        match *gesture {
+            Gesture::Place { finger, .. } => left[*string][finger] = true,
+            Gesture::Lift { finger, .. } => left[*string][finger] = false,
+            _ => {}
+        }
+    }
+    left
+}
+
+#[test]
+fn a_fretted_note_is_a_finger_and_a_pluck_at_once() {
+    let gestures = play(&[(100, on(67))]);
+    let [place, press, pluck] = &gestures[..] else { panic!("{gestures:?}") };
+    assert!(gestures.iter().all(|gesture| gesture.time == 100 && gesture.string == 0));
+    let Gesture::Place { finger, position, clearance, .. } = place.gesture else { panic!("{place:?}") };
+    // Behind the third fret: between the second and the third of a 0.6477 m scale.
+    assert!(position > 0.0706 && position < 0.1031, "{position} m");
+    assert!(clearance > 0.0 && clearance < 1e-3);
+    assert!(matches!(press.gesture, Gesture::Press { finger: presses, force, duration }
+        if presses == finger && force > 1.0 && duration > 0.0));
+    assert!(matches!(pluck.gesture, Gesture::Pluck { position, force, .. } if position > 0.5 && force > 0.0));
+    // An open string takes the pluck alone.
+    assert_eq!(play(&[(0, on(64))]).len(), 1);
+}
+
+#[test]
+fn force_grows_with_velocity() {
+    let force = |velocity| {
+        let gestures = play(&[(0, PlayerEvent::NoteOn { channel: 0, key: 64, velocity })]);
+        match gestures[0].gesture {
+            Gesture::Pluck { force, .. } => force,
+            other => panic!("{other:?}"),
+        }
+    };
+    let hardest = GUITAR.0.player.pluck_force;
+    assert!((force(1.0) - hardest).abs() < 1e-12);
+    assert_eq!(force(5.0), force(1.0), "no more than the hardest");
+    for step in 1..127 {
+        assert!(force(step as f32 / 127.0) < force((step + 1) as f32 / 127.0));
+    }
+    assert!(force(1.0 / 127.0) > 0.0);
+}
+
+#[test]
+fn a_release_ends_its_own_note_and_no_other() {
+    let gestures = play(&[
+        (0, on(64)),
+        (0, on(59)),
+        (0, PlayerEvent::NoteOn { channel: 1, key: 55, velocity: 0.5 }),
+        (WHILE, off(55)),
+        (WHILE, PlayerEvent::NoteOff { channel: 1, key: 64 }),
+        (WHILE, off(60)),
+        (2 * WHILE, off(59)),
+    ]);
+    assert_eq!(dampings(&gestures), [(2 * WHILE, 1)]);
+    // A stolen note's release must not cut the note that took its string: E2 and F2 share one.
+    let gestures = play(&[(0, on(40)), (WHILE, on(41)), (2 * WHILE, off(40)), (3 * WHILE, off(41))]);
+    assert_eq!(plucks(&gestures), [(0, 5), (WHILE, 5)]);
+    assert_eq!(dampings(&gestures), [(3 * WHILE, 5)]);
+}
+
+#[test]
+fn after_a_note_every_finger_leaves() {
+    let gestures = play(&[(0, on(64)), (0, on(62)), (WHILE, off(64)), (WHILE, off(62))]);
+    assert_eq!(left_on_strings(&gestures), [[false; FINGERS_PER_STRING]; 6]);
+    assert_eq!(dampings(&gestures).len(), 2);
+    // The fretting finger stays down until the string is quiet.
+    let lift = gestures.iter().find(|g| matches!(g.gesture, Gesture::Lift { finger: 0, .. }));
+    assert!(lift.expect("it leaves").time >= WHILE + 7_200);
+}
+
+#[test]
+fn a_key_that_comes_again_is_struck_on_its_string() {
+    let gestures = play(&[(0, on(62)), (WHILE, off(62)), (WHILE + 200, on(62)), (3 * WHILE, off(62))]);
+    let struck = plucks(&gestures);
+    assert_eq!((struck.len(), struck[0].1), (2, struck[1].1));
+    // The finger that is still there presses again; no other lands.
+    let landings = gestures.iter().filter(|g| {
+        matches!(g.gesture, Gesture::Place { finger: 0 | 1, touch, .. }
+        if touch == GUITAR.0.player.fretting.touch)
+    });
+    assert_eq!(landings.count(), 1);
+}
+
+#[test]
+fn a_repeated_key_outlives_the_release_of_its_first_press() {
+    // Many files let go of the first press only after the second, or at the same tick.
+    for late in [0, 10, 500] {
+        let gestures = play(&[(0, on(62)), (WHILE, on(62)), (WHILE + late, off(62)), (3 * WHILE, off(62))]);
+        assert_eq!(dampings(&gestures), [(3 * WHILE, plucks(&gestures)[0].1)], "{late} samples late");
+    }
+    // But one release is enough for a note pressed twice: nothing hangs.
+    let gestures = play(&[(0, on(62)), (WHILE, on(62)), (3 * WHILE, off(62))]);
+    assert_eq!(dampings(&gestures).len(), 1);
+}
+
+#[test]
+fn a_note_of_no_length_is_heard() {
+    let gestures = play(&[(0, on(64)), (0, off(64))]);
+    assert_eq!(plucks(&gestures), [(0, 0)]);
+    let (damped, _) = dampings(&gestures)[0];
+    assert!((960..=4_800).contains(&damped), "damped after {damped} samples");
+}
+
+#[test]
+fn another_fret_of_the_string_takes_another_finger() {
+    // D♯2 does not exist here; F2 then G2 are both on the lowest string only.
+    let gestures = play(&[(0, on(41)), (WHILE, on(43))]);
+    let fingers: Vec<(u64, &Gesture)> = gestures.iter().map(|g| (g.time, &g.gesture)).collect();
+    assert!(matches!(fingers[0], (0, Gesture::Place { finger: 0, .. })));
+    assert!(fingers.iter().any(|f| matches!(f, (WHILE, Gesture::Lift { finger: 0, .. }))));
+    assert!(fingers.iter().any(|f| matches!(f, (WHILE, Gesture::Place { finger: 1, .. }))));
+}
+
+#[test]
+fn the_sustain_pedal_holds_what_keys_let_go_of() {
+    let gestures = play(&[
+        (0, on(64)),
+        (10, controller(64, 127)),
+        (WHILE, off(64)),
+        (2 * WHILE, on(59)),
+        (3 * WHILE, controller(64, 0)),
+        (4 * WHILE, off(59)),
+    ]);
+    assert_eq!(dampings(&gestures), [(3 * WHILE, 0), (4 * WHILE, 1)]);
+}
+
+#[test]
+fn the_messages_that_stop_everything_do() {
+    let pedal = (10, controller(64, 127));
+    let held = [(0, on(64)), pedal, (0, on(59))];
+    let ends = |stop: &[(u64, PlayerEvent)]| {
+        let mut events = held.to_vec();
+        events.extend(stop);
+        dampings(&play(&events)).into_iter().map(|(time, _)| time).collect::<Vec<_>>()
+    };
+    assert_eq!(ends(&[(WHILE, controller(120, 0))]), [WHILE, WHILE], "all sound off");
+    assert_eq!(ends(&[(WHILE, PlayerEvent::AllNotesOff)]), [WHILE, WHILE], "the transport stops");
+    // All notes off lets go of keys; the pedal goes on holding until it comes up.
+    assert!(ends(&[(WHILE, controller(123, 0))]).is_empty());
+    assert_eq!(ends(&[(WHILE, controller(123, 0)), (2 * WHILE, controller(64, 0))]), [2 * WHILE; 2]);
+    // Reset all controllers lifts the pedal; keys that are down stay.
+    assert_eq!(ends(&[(WHILE, off(64)), (2 * WHILE, controller(121, 0))]), [2 * WHILE]);
+    // None of them reaches another channel.
+    for number in [120, 121, 123] {
+        let other = PlayerEvent::Controller { channel: 1, number, value: 0.0 };
+        assert!(ends(&[(WHILE, other)]).is_empty());
+    }
+}
+
+#[test]
+fn the_wheel_bends_by_tension_and_no_farther_than_the_string_allows() {
+    let max_bend = GUITAR.0.max_bend;
+    let ratios = |events: &[(u64, PlayerEvent)]| -> Vec<f64> {
+        let bend = |g: &TimedGesture| match g.gesture {
+            Gesture::Bend { tension_ratio, duration } => {
+                assert!(duration >= 0.01, "smooth and no faster than a hand: {duration} s");
+                Some(tension_ratio)
+            }
+            _ => None,
+        };
+        play(events).iter().filter_map(bend).collect()
+    };
+    let wheel = |time, value| (time, PlayerEvent::PitchBend { channel: 0, value });
+    // A semitone is the sixth root of 2 in tension: pitch goes with its square root.
+    let [up, down] = ratios(&[(0, on(64)), wheel(WHILE, 1.0), wheel(2 * WHILE, -0.5)])[..] else { panic!() };
+    assert!((up - 2_f64.powf(2.0 / 6.0)).abs() < 1e-12);
+    assert!((down - 2_f64.powf(-1.0 / 6.0)).abs() < 1e-12);
+    // A range of an octave is announced; the string stops at its own limit.
+    let octave = [(0, controller(101, 0)), (0, controller(100, 0)), (0, controller(6, 12)), (1, on(64))];
+    let far = ratios(&[&octave[..], &[wheel(WHILE, 1.0)]].concat());
+    assert!(far[0] <= 2_f64.powf(max_bend / 6.0) * 1.001 && far[0] > 2_f64.powf(2.5 / 6.0), "{far:?}");
+    // A note that begins with the wheel turned is bent from the start.
+    assert_eq!(ratios(&[wheel(0, 1.0), (WHILE, on(64))]).len(), 1);
+    // Another channel's wheel does nothing.
+    assert!(ratios(&[(0, on(64)), (WHILE, PlayerEvent::PitchBend { channel: 3, value: 1.0 })]).is_empty());
+    // However fast the wheel shakes, goals come at a bounded rate and end at the last.
+    let shaken: Vec<(u64, PlayerEvent)> =
+        std::iter::once((0, on(64))).chain((0..10_000).map(|n| wheel(n, (n as f32 * 0.01).sin()))).collect();
+    let goals = ratios(&shaken);
+    assert!(goals.len() < 100, "{}", goals.len());
+}
+
+#[test]
+fn a_hundred_notes_at_once_take_six_strings_and_leave_none_hanging() {
+    let mut performance = player(EXACT);
+    let mut events: Vec<(u64, PlayerEvent)> = (14..114).map(|key| (0, on(key))).collect();
+    events.extend((14..114).map(|key| (WHILE, off(key))));
+    let gestures = play_by(&mut performance, &events);
+    assert_eq!(plucks(&gestures).len(), 6);
+    assert_eq!(dampings(&gestures).len(), 6);
+    assert_eq!(performance.compromises().left_out, 94);
+    assert_eq!(left_on_strings(&gestures), [[false; FINGERS_PER_STRING]; 6]);
+}
+
+#[test]
+fn keys_no_string_gives_move_by_octaves() {
+    let mut performance = player(EXACT);
+    // E1 sounds as E2, the open low string; G8 moves down to a fret the first string has.
+    let gestures = play_by(&mut performance, &[(0, on(28)), (WHILE, off(28)), (2 * WHILE, on(127))]);
+    assert_eq!(plucks(&gestures), [(0, 5), (2 * WHILE, 0)]);
+    assert_eq!(dampings(&gestures), [(WHILE, 5)], "released by the key as it was sent");
+    assert_eq!(performance.compromises().moved_by_octaves, 2);
+}
+
+#[test]
+fn variation_is_seeded_small_and_off_at_zero() {
+    let phrase: Vec<(u64, PlayerEvent)> = (0..200).map(|n| (n * WHILE, on(64))).collect();
+    let take = |variation, seed| play_by(&mut player(Style { variation, seed, bend_range: 2.0 }), &phrase);
+    assert_eq!(take(1.0, 5), take(1.0, 5));
+    assert_ne!(take(1.0, 5), take(1.0, 6));
+    assert_eq!(take(0.0, 5), take(0.0, 6));
+    for (n, (time, _)) in plucks(&take(1.0, 5)).into_iter().enumerate() {
+        assert!((0..=48).contains(&(time as i64 - n as i64 * WHILE as i64)), "at most a millisecond late");
+    }
+}
+
+#[test]
+fn reset_forgets_everything() {
+    let phrase =
+        [(0, controller(64, 127)), (0, on(88)), (5, PlayerEvent::PitchBend { channel: 0, value: 1.0 })];
+    let mut performance = player(Style { variation: 1.0, ..EXACT });
+    let first = play_by(&mut performance, &phrase);
+    performance.reset();
+    assert_eq!(play_by(&mut performance, &phrase), first);
+}
+
+/// Any event, sensible or not.
+fn any_event() -> impl Strategy<Value = PlayerEvent> {
+    let value = prop_oneof![4 => -1.5_f32..1.5, 1 => any::<f32>()];
+    prop_oneof![
+        6 => (0..18_u8, 20..100_u8, value.clone())
+            .prop_map(|(channel, key, velocity)| PlayerEvent::NoteOn { channel: channel / 6, key, velocity }),
+        1 => (any::<u8>(), any::<u8>(), any::<f32>())
+            .prop_map(|(channel, key, velocity)| PlayerEvent::NoteOn { channel, key, velocity }),
+        5 => (0..18_u8, 20..100_u8).prop_map(|(channel, key)| PlayerEvent::NoteOff { channel: channel / 6, key }),
+        2 => (0..3_u8, prop::sample::select(vec![6, 38, 64, 100, 101, 120, 121, 123, 7]), value.clone())
+            .prop_map(|(channel, number, value)| PlayerEvent::Controller { channel, number, value }),
+        2 => (0..3_u8, value).prop_map(|(channel, value)| PlayerEvent::PitchBend { channel, value }),
+        1 => Just(PlayerEvent::AllNotesOff),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn blocks_do_not_matter_and_nothing_hangs(
+        steps in prop::collection::vec((prop_oneof![Just(0_u64), 0..5000_u64], any_event()), 1..120),
+        block in 1..2000_u64,
+    ) {
+        let mut time = 0;
+        let mut events: Vec<(u64, PlayerEvent)> = steps.into_iter().map(|(step, event)| {
+            time += step;
+            (time, event)
+        }).collect();
+        events.push((time, PlayerEvent::AllNotesOff));
+        let whole = play(&events);
+
+        let mut performance = player(EXACT);
+        let mut blocks = Vec::new();
+        let mut waiting = events.iter().peekable();
+        let mut now = 0;
+        while now < time + 2 * RATE as u64 {
+            now += block;
+            while let Some(&(time, event)) = waiting.next_if(|event| event.0 < now) {
+                performance.event(time, event, &mut blocks);
+            }
+            performance.advance(now, &mut blocks);
+        }
+        // Strings are independent, so only the order within each counts.
+        for string in 0..6 {
+            let of = |gestures: &[TimedGesture]| -> Vec<TimedGesture> {
+                gestures.iter().filter(|g| g.string == string).copied().collect()
+            };
+            prop_assert_eq!(of(&whole), of(&blocks));
+        }
+        prop_assert_eq!(left_on_strings(&whole), vec![[false; FINGERS_PER_STRING]; 6]);
+        for TimedGesture { gesture, .. } in whole {
+            if let Gesture::Pluck { position, force, .. } = gesture {
+                prop_assert!(force.is_finite() && force > 0.0 && position > 0.4 && position < 0.66);
+            }
+        }
+    }
+}
