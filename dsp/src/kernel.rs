@@ -254,6 +254,11 @@ fn predict_group<S: Simd, const WIDE: bool, const STRETCH: bool, const LOSS: boo
     }
 }
 
+/// Motion below this, m, is none: what runs ahead of a wave on a silent string would otherwise become a
+/// subnormal number, slow on most machines and flushed to zero on some, and the bits would depend on the
+/// host. The square of such a motion's last digit is still a normal number.
+const STILL: f64 = 1e-120;
+
 /// d⁺ = w − ψv and u⁺ = u + d⁺; returns the largest |d⁺|.
 #[inline(always)]
 fn advance<S: Simd, const STRETCH: bool>(
@@ -267,6 +272,7 @@ fn advance<S: Simd, const STRETCH: bool>(
     // Beyond the unknowns w and v are 0, and so is what is written there.
     let count = unknowns.div_ceil(LANES) * vectors::<S>();
     let pull = simd.splat_f64s(pull);
+    let (zero, still) = (simd.splat_f64s(0.0), simd.splat_f64s(STILL));
     let mut largest = [simd.splat_f64s(0.0); 2];
     let (w, v, u) =
         (&from::<S>(w, FIRST)[..count], &from::<S>(v, FIRST)[..count], &from::<S>(u, FIRST)[..count]);
@@ -274,9 +280,11 @@ fn advance<S: Simd, const STRETCH: bool>(
     let u_next = &mut from_mut::<S>(u_next, FIRST)[..count];
     for at in 0..count {
         let d = if STRETCH { simd.sub_f64s(w[at], simd.mul_f64s(pull, v[at])) } else { w[at] };
+        let size = simd.abs_f64s(d);
+        let d = simd.select_f64s(simd.less_than_f64s(size, still), zero, d);
         d_next[at] = d;
         u_next[at] = simd.add_f64s(u[at], d);
-        largest[at % 2] = simd.max_f64s(simd.abs_f64s(d), largest[at % 2]);
+        largest[at % 2] = simd.max_f64s(size, largest[at % 2]);
     }
     let lanes: &[f64] = pulp::bytemuck::cast_slice(&largest);
     lanes.iter().fold(0.0f64, |a, &b| a.max(b))

@@ -8,6 +8,8 @@
 use nalgebra::linalg::Cholesky;
 use nalgebra::{DVectorViewMut, Dyn, OMatrix, SMatrix, SVector, VecStorage};
 
+use crate::solver::Answer;
+
 /// Up to this many contacts are one block, with the rank-one term inside.
 const ONE_BLOCK: usize = 6;
 
@@ -93,10 +95,11 @@ impl Response {
             start = end;
         }
     }
+}
 
-    /// out = M x.
+impl Answer for Response {
     #[inline]
-    pub fn product(&self, x: &[f64], out: &mut [f64]) {
+    fn product(&self, x: &[f64], out: &mut [f64]) {
         for block in &self.blocks {
             let x = &x[block.start..block.start + block.len];
             for i in 0..block.len {
@@ -112,9 +115,7 @@ impl Response {
         }
     }
 
-    /// Solves (1 + √D M √D) y = y₀ in place, `roots` being the diagonal of √D. The matrix is symmetric
-    /// with eigenvalues of at least 1.
-    pub fn solve(&mut self, roots: &[f64], y: &mut [f64]) {
+    fn solve(&mut self, roots: &[f64], y: &mut [f64]) {
         for index in 0..self.blocks.len() {
             self.solve_block(self.blocks[index], roots, y);
         }
@@ -135,7 +136,9 @@ impl Response {
             self.scaled_pull = t;
         }
     }
+}
 
+impl Response {
     fn solve_block(&mut self, block: Block, roots: &[f64], y: &mut [f64]) {
         let range = block.start..block.start + block.len;
         let (roots, y) = (&roots[range.clone()], &mut y[range]);
@@ -146,6 +149,50 @@ impl Response {
             3 => solve_fixed::<3>(entries, roots, y),
             4 => solve_fixed::<4>(entries, roots, y),
             _ => solve_any(&mut self.matrix, entries, roots, y),
+        }
+    }
+}
+
+/// The answer matrix of a few contacts, whole.
+pub(crate) struct Few<const N: usize> {
+    entries: [[f64; N]; N],
+}
+
+impl<const N: usize> Few<N> {
+    /// Gathers M.
+    #[inline(always)]
+    pub fn gather<R: Row>(rows: &[R; N], pull_factor: f64) -> Self {
+        let mut entries = [[0.0; N]; N];
+        for i in 0..N {
+            for j in 0..=i {
+                let string = rows[i].coupling(&rows[j]);
+                entries[i][j] = string - pull_factor * (rows[i].pull() * rows[j].pull());
+                entries[j][i] = entries[i][j];
+            }
+            entries[i][i] += rows[i].own_mobility();
+        }
+        Few { entries }
+    }
+}
+
+impl<const N: usize> Answer for Few<N> {
+    #[inline(always)]
+    fn product(&self, x: &[f64], out: &mut [f64]) {
+        for i in 0..N {
+            let mut sum = 0.0;
+            for j in 0..N {
+                sum += self.entries[i][j] * x[j];
+            }
+            out[i] = sum;
+        }
+    }
+
+    #[inline(always)]
+    fn solve(&mut self, roots: &[f64], y: &mut [f64]) {
+        if N == 1 {
+            y[0] /= 1.0 + roots[0] * self.entries[0][0] * roots[0];
+        } else {
+            solve_fixed::<N>(self.entries.as_flattened(), roots, y);
         }
     }
 }

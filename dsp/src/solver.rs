@@ -9,7 +9,7 @@
 
 use crate::contact::{Before, ContactLaw};
 use crate::grid::Reading;
-use crate::response::{Response, Row};
+use crate::response::{Few, Response, Row};
 use crate::scene::SolverSettings;
 
 /// One active contact.
@@ -113,16 +113,54 @@ pub(crate) struct EnergyScale {
 /// Room to solve the contacts of a sample.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Solver {
-    pub response: Response,
-    residual: Vec<f64>,
-    step: Vec<f64>,
-    motion: Vec<f64>,
-    roots: Vec<f64>,
-    unknown: Vec<f64>,
-    start: Vec<f64>,
-    forces: Vec<f64>,
+    response: Response,
+    /// One array after another of as many numbers as there are contacts.
+    room: Vec<f64>,
     /// Fingers near the string that no contact is predicted for.
     pub aside: Vec<Active>,
+}
+
+/// How a set of contacts answers forces.
+pub(crate) trait Answer {
+    /// out = M x.
+    fn product(&self, x: &[f64], out: &mut [f64]);
+    /// Solves (1 + √D M √D) y = y₀ in place, `roots` being the diagonal of √D.
+    fn solve(&mut self, roots: &[f64], y: &mut [f64]);
+}
+
+/// The arrays of one solution, each with a number for each contact.
+struct Room<'a> {
+    residual: &'a mut [f64],
+    step: &'a mut [f64],
+    motion: &'a mut [f64],
+    roots: &'a mut [f64],
+    unknown: &'a mut [f64],
+    start: &'a mut [f64],
+    forces: &'a mut [f64],
+}
+
+/// Arrays of a [`Room`].
+const ARRAYS: usize = 7;
+
+impl<'a> Room<'a> {
+    #[inline(always)]
+    fn new(numbers: &'a mut [f64], count: usize) -> Self {
+        let (residual, rest) = numbers.split_at_mut(count);
+        let (step, rest) = rest.split_at_mut(count);
+        let (motion, rest) = rest.split_at_mut(count);
+        let (roots, rest) = rest.split_at_mut(count);
+        let (unknown, rest) = rest.split_at_mut(count);
+        let (start, rest) = rest.split_at_mut(count);
+        let (forces, _) = rest.split_at_mut(count);
+        Room { residual, step, motion, roots, unknown, start, forces }
+    }
+}
+
+/// What a solution is judged by.
+#[derive(Clone, Copy)]
+struct Demands<'a> {
+    settings: &'a SolverSettings,
+    scale: EnergyScale,
 }
 
 /// Force errors may do at most this part of the present energy as work in a converged sample.
@@ -131,22 +169,16 @@ const WORK_TOLERANCE: f64 = 1e-13;
 /// Attempts at a shorter step before it is taken as it is; the secant guard still stands behind it.
 const LINE_SEARCHES: usize = 12;
 
-/// Attempts of the fallback; its stiffnesses double from the fourth on, so that long before the last
+/// Attempts of the fallback; its stiffnesses double from the fifth on, so that long before the last
 /// the contacts hardly move at all.
 const FALLBACKS: u32 = 200;
 
 impl Solver {
+    /// Room for so many contacts.
     pub fn with_capacity(contacts: usize) -> Self {
-        let room = || Vec::with_capacity(contacts);
         Solver {
             response: Response::with_capacity(contacts),
-            residual: room(),
-            step: room(),
-            motion: room(),
-            roots: room(),
-            unknown: room(),
-            start: room(),
-            forces: room(),
+            room: Vec::with_capacity(ARRAYS * contacts),
             aside: Vec::with_capacity(contacts),
         }
     }
@@ -161,151 +193,176 @@ impl Solver {
         scale: EnergyScale,
         convergence: &mut Convergence,
     ) -> f64 {
-        let count = rows.len();
-        self.response.gather(rows, pull_factor);
-        for room in [
-            &mut self.residual,
-            &mut self.step,
-            &mut self.motion,
-            &mut self.roots,
-            &mut self.unknown,
-            &mut self.start,
-            &mut self.forces,
-        ] {
-            room.clear();
-            room.resize(count, 0.0);
-        }
-        for (start, row) in self.start.iter_mut().zip(rows.iter()) {
-            *start = row.force;
-        }
-        self.forces.copy_from_slice(&self.start);
-        self.place(rows, 0.0);
-        let work_tolerance = WORK_TOLERANCE * scale.present;
-        let mut iterations = 0;
-        loop {
-            let mut work = 0.0;
-            for (residual, (row, force)) in self.residual.iter_mut().zip(rows.iter().zip(&self.forces)) {
-                *residual = row.required - force;
-                work += *residual * row.change;
-            }
-            self.response.product(&self.residual, &mut self.motion);
-            let far = largest(&self.motion);
-            // |Mδ| of a full Newton step is at most |M R|.
-            if far <= settings.tolerance && work.abs() <= work_tolerance {
-                break;
-            }
-            if iterations == settings.max_iterations {
-                break;
-            }
-            iterations += 1;
-            let step = self.newton_step(rows);
-            if step == 0.0 {
-                break;
+        let demands = Demands { settings, scale };
+        // The same code for any number of contacts; for the usual few the compiler knows how many.
+        match rows.len() {
+            1 => solve_few::<1>(rows, pull_factor, demands, convergence),
+            2 => solve_few::<2>(rows, pull_factor, demands, convergence),
+            3 => solve_few::<3>(rows, pull_factor, demands, convergence),
+            4 => solve_few::<4>(rows, pull_factor, demands, convergence),
+            count => {
+                self.response.gather(rows, pull_factor);
+                self.room.clear();
+                self.room.resize(ARRAYS * count, 0.0);
+                let room = Room::new(&mut self.room, count);
+                solve(rows, &mut self.response, room, demands, convergence)
             }
         }
-        convergence.iterations += iterations as u32;
-        let gain = 0.5 * created(rows, &self.forces);
-        if gain <= scale.credit {
-            for (row, force) in rows.iter_mut().zip(&self.forces) {
-                row.force = *force;
-            }
-            return gain;
-        }
-        self.fall_back(rows, convergence)
     }
+}
 
-    /// r = −c − M(f + tδ) for the present forces `start` and step δ; evaluates the laws there.
-    #[inline(always)]
-    fn place(&mut self, rows: &mut [Active], t: f64) {
-        for ((force, start), step) in self.forces.iter_mut().zip(&self.start).zip(&self.step) {
-            *force = if t == 0.0 { *start } else { start + t * step };
+fn solve_few<const N: usize>(
+    rows: &mut [Active],
+    pull_factor: f64,
+    demands: Demands,
+    convergence: &mut Convergence,
+) -> f64 {
+    let Some(rows) = rows.first_chunk_mut::<N>() else { return 0.0 };
+    let mut few = Few::gather(rows, pull_factor);
+    let mut numbers = [[0.0; N]; ARRAYS];
+    let room = Room::new(numbers.as_flattened_mut(), N);
+    solve(rows, &mut few, room, demands, convergence)
+}
+
+#[inline(always)]
+fn solve(
+    rows: &mut [Active],
+    answer: &mut impl Answer,
+    mut room: Room,
+    Demands { settings, scale }: Demands,
+    convergence: &mut Convergence,
+) -> f64 {
+    for (start, row) in room.start.iter_mut().zip(rows.iter()) {
+        *start = row.force;
+    }
+    place(rows, answer, &mut room, 0.0);
+    let work_tolerance = WORK_TOLERANCE * scale.present;
+    let mut iterations = 0;
+    loop {
+        let mut work = 0.0;
+        for (residual, (row, force)) in room.residual.iter_mut().zip(rows.iter().zip(&*room.forces)) {
+            *residual = row.required - force;
+            work += *residual * row.change;
         }
-        self.response.product(&self.forces, &mut self.unknown);
-        for (row, answer) in rows.iter_mut().zip(&self.unknown) {
+        answer.product(room.residual, room.motion);
+        // |Mδ| of a full Newton step is at most |M R|.
+        let settled = largest(room.motion) <= settings.tolerance && work.abs() <= work_tolerance;
+        if settled || iterations == settings.max_iterations {
+            break;
+        }
+        iterations += 1;
+        if newton_step(rows, answer, &mut room) == 0.0 {
+            break;
+        }
+    }
+    convergence.iterations += iterations as u32;
+    let mut gain = 0.5 * created(rows, room.forces);
+    // Written so that what is not a number is refused too.
+    let accepted = gain <= scale.credit;
+    if !accepted {
+        gain = fall_back(rows, answer, &mut room, convergence);
+    }
+    for (row, force) in rows.iter_mut().zip(&*room.forces) {
+        row.force = *force;
+    }
+    gain
+}
+
+/// r = −c − M(f + tδ) from the forces `start` and the step δ; evaluates the laws there.
+#[inline(always)]
+fn place(rows: &mut [Active], answer: &impl Answer, room: &mut Room, t: f64) {
+    for ((force, start), step) in room.forces.iter_mut().zip(&*room.start).zip(&*room.step) {
+        *force = if t == 0.0 { *start } else { start + t * step };
+    }
+    answer.product(room.forces, room.unknown);
+    for (row, answer) in rows.iter_mut().zip(&*room.unknown) {
+        row.evaluate(-row.opening - answer);
+    }
+}
+
+/// One Newton step with a line search; returns the largest change of penetration it made.
+#[inline(always)]
+fn newton_step(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) -> f64 {
+    // (1 + √D M √D) y = −√D M R, δ = R + √D y.
+    for (i, row) in rows.iter().enumerate() {
+        room.roots[i] = row.slope.sqrt();
+        room.unknown[i] = -room.roots[i] * room.motion[i];
+    }
+    answer.solve(room.roots, room.unknown);
+    for i in 0..rows.len() {
+        room.step[i] = room.residual[i] + room.roots[i] * room.unknown[i];
+    }
+    answer.product(room.step, room.motion);
+    room.start.copy_from_slice(room.forces);
+    // Along the step −(Mδ)ᵀ(law − f) rises monotonically through 0, where the best point is.
+    let downhill = -dot(room.motion, room.residual);
+    let (mut low, mut low_value) = (0.0, downhill);
+    let (mut high, mut high_value) = (1.0, f64::INFINITY);
+    let mut t = 1.0;
+    for _ in 0..LINE_SEARCHES {
+        place(rows, answer, room, t);
+        let mut value = 0.0;
+        for (i, row) in rows.iter().enumerate() {
+            value -= room.motion[i] * (row.required - room.forces[i]);
+        }
+        if value.abs() <= 0.5 * downhill.abs() || (t == 1.0 && value <= 0.0) {
+            break;
+        }
+        if value > 0.0 {
+            (high, high_value) = (t, value);
+        } else {
+            (low, low_value) = (t, value);
+        }
+        // False position, kept away from the ends of the bracket.
+        let fraction = (low_value / (low_value - high_value)).clamp(0.1, 0.9);
+        t = low + (high - low) * fraction;
+    }
+    t * largest(room.motion)
+}
+
+/// Forces f = λ(0) + S r with secants S steep enough that no energy is created.
+#[cold]
+#[inline(never)]
+fn fall_back(
+    rows: &mut [Active],
+    answer: &mut impl Answer,
+    room: &mut Room,
+    convergence: &mut Convergence,
+) -> f64 {
+    // The secants take the place of the residual.
+    for (i, row) in rows.iter_mut().enumerate() {
+        row.evaluate(0.0);
+        room.start[i] = row.lambda;
+        room.residual[i] = row.slope;
+    }
+    let mut gain = 0.0;
+    for attempt in 0..FALLBACKS {
+        convergence.fallbacks += 1;
+        // y = (1 + √S M √S)⁻¹ √S(−c − Mλ(0)), f = λ(0) + √S y.
+        answer.product(room.start, room.motion);
+        for (i, row) in rows.iter().enumerate() {
+            room.roots[i] = room.residual[i].sqrt();
+            room.unknown[i] = room.roots[i] * (-row.opening - room.motion[i]);
+        }
+        answer.solve(room.roots, room.unknown);
+        for i in 0..rows.len() {
+            room.forces[i] = room.start[i] + room.roots[i] * room.unknown[i];
+        }
+        answer.product(room.forces, room.motion);
+        for (row, answer) in rows.iter_mut().zip(&*room.motion) {
             row.evaluate(-row.opening - answer);
         }
-    }
-
-    /// One Newton step with a line search; returns the largest change of penetration it made.
-    #[inline(always)]
-    fn newton_step(&mut self, rows: &mut [Active]) -> f64 {
-        // (1 + √D M √D) y = −√D M R, δ = R + √D y.
+        gain = 0.5 * created(rows, room.forces);
+        if gain <= 0.0 {
+            break;
+        }
         for (i, row) in rows.iter().enumerate() {
-            self.roots[i] = row.slope.sqrt();
-            self.unknown[i] = -self.roots[i] * self.motion[i];
+            let secant = (row.lambda - room.start[i]) / row.change;
+            let raised = if attempt < 4 { room.residual[i] } else { 2.0 * room.residual[i] };
+            room.residual[i] = if secant.is_finite() { raised.max(secant) } else { raised };
         }
-        self.response.solve(&self.roots, &mut self.unknown);
-        for i in 0..rows.len() {
-            self.step[i] = self.residual[i] + self.roots[i] * self.unknown[i];
-        }
-        self.response.product(&self.step, &mut self.motion);
-        self.start.copy_from_slice(&self.forces);
-        // Along the step −(Mδ)ᵀ(law − f) rises monotonically through 0, where the best point is.
-        let downhill = -dot(&self.motion, &self.residual);
-        let (mut low, mut low_value) = (0.0, downhill);
-        let (mut high, mut high_value) = (1.0, f64::INFINITY);
-        let mut t = 1.0;
-        for _ in 0..LINE_SEARCHES {
-            self.place(rows, t);
-            let mut value = 0.0;
-            for (i, row) in rows.iter().enumerate() {
-                value -= self.motion[i] * (row.required - self.forces[i]);
-            }
-            if value.abs() <= 0.5 * downhill.abs() || (t == 1.0 && value <= 0.0) {
-                break;
-            }
-            if value > 0.0 {
-                (high, high_value) = (t, value);
-            } else {
-                (low, low_value) = (t, value);
-            }
-            // False position, kept away from the ends of the bracket.
-            let fraction = (low_value / (low_value - high_value)).clamp(0.1, 0.9);
-            t = low + (high - low) * fraction;
-        }
-        t * largest(&self.motion)
     }
-
-    /// Forces f = λ(0) + S r with secants S steep enough that no energy is created.
-    fn fall_back(&mut self, rows: &mut [Active], convergence: &mut Convergence) -> f64 {
-        let count = rows.len();
-        for (i, row) in rows.iter_mut().enumerate() {
-            row.evaluate(0.0);
-            self.start[i] = row.lambda;
-            self.residual[i] = row.slope;
-        }
-        let mut gain = 0.0;
-        for attempt in 0..FALLBACKS {
-            convergence.fallbacks += 1;
-            // y = (1 + √S M √S)⁻¹ √S(−c − Mλ(0)), f = λ(0) + √S y.
-            self.response.product(&self.start, &mut self.motion);
-            for (i, row) in rows.iter().enumerate() {
-                self.roots[i] = self.residual[i].sqrt();
-                self.unknown[i] = self.roots[i] * (-row.opening - self.motion[i]);
-            }
-            self.response.solve(&self.roots, &mut self.unknown);
-            for i in 0..count {
-                self.forces[i] = self.start[i] + self.roots[i] * self.unknown[i];
-            }
-            self.response.product(&self.forces, &mut self.motion);
-            for (row, answer) in rows.iter_mut().zip(&self.motion) {
-                row.evaluate(-row.opening - answer);
-            }
-            gain = 0.5 * created(rows, &self.forces);
-            if gain <= 0.0 {
-                break;
-            }
-            for (i, row) in rows.iter().enumerate() {
-                let secant = (row.lambda - self.start[i]) / row.change;
-                let raised = if attempt < 4 { self.residual[i] } else { 2.0 * self.residual[i] };
-                self.residual[i] = if secant.is_finite() { raised.max(secant) } else { raised };
-            }
-        }
-        for (row, force) in rows.iter_mut().zip(&self.forces) {
-            row.force = *force;
-        }
-        gain
-    }
+    gain
 }
 
 /// Σ(λ − f)r, twice the energy given to the string beyond what the contacts gave up.

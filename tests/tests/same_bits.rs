@@ -101,3 +101,24 @@ fn with_and_without_the_ledger() {
     };
     assert!(run(true) == run(false));
 }
+
+/// Hosts may flush subnormal numbers to zero; there are none to flush, so that the bits do not depend on it.
+#[test]
+fn no_subnormal_numbers() {
+    let mut instrument = instrument();
+    let mut sample = [0.0];
+    let mut other = [0.0];
+    let mut moved = false;
+    for _ in 0..2000 {
+        instrument.process(&mut sample, &mut other);
+        for string in 0..instrument.string_count() {
+            let state = instrument.state(string);
+            for value in state.motion().iter().chain(state.displacement()) {
+                assert!(*value == 0.0 || value.is_normal(), "{value:e} on string {string}");
+            }
+            moved |= state.motion().iter().any(|value| *value != 0.0);
+        }
+        assert!(sample[0] == 0.0 || sample[0].is_normal());
+    }
+    assert!(moved, "nothing moves");
+}
