@@ -178,12 +178,8 @@ impl<const N: usize> Few<N> {
 impl<const N: usize> Answer for Few<N> {
     #[inline(always)]
     fn product(&self, x: &[f64], out: &mut [f64]) {
-        for i in 0..N {
-            let mut sum = 0.0;
-            for j in 0..N {
-                sum += self.entries[i][j] * x[j];
-            }
-            out[i] = sum;
+        for (out, row) in out.iter_mut().zip(&self.entries) {
+            *out = row.iter().zip(x).map(|(m, x)| m * x).sum();
         }
     }
 

@@ -2,5 +2,5 @@
 
 pub mod dense;
 pub mod host;
-pub mod pitch;
 pub mod midi;
+pub mod pitch;
