@@ -47,7 +47,7 @@ pub(crate) const QUIET_AFTER: f64 = 0.15;
 /// which the string would leave the fret.
 pub(crate) const HOLDING: f64 = 1.25;
 /// How it leaves then: so slowly that the string rises from the fret without a sound.
-pub(crate) const FINGER_EASING: Leaving = Leaving { speed: 0.005, turning: 0.3 };
+pub(crate) const FINGER_EASING: Leaving = Leaving { speed: 0.005, turning: 0.5 };
 /// How the dampers leave after it; they bend the string much less.
 pub(crate) const DAMPER_EASING: Leaving = Leaving { speed: 0.01, turning: 0.2 };
 

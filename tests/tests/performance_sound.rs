@@ -1,0 +1,233 @@
+//! The promise: a note sounds within 3 ms and begins once; when it is let go of it is 40 dB down within
+//! 150 ms, without a click and without a sound from departing hands; open and stopped strings follow
+//! velocity alike. The engine's sound depends on the times of events alone, and it allocates nothing.
+
+use low_action::engine::{Engine, EngineOptions};
+use low_action::performance::PlayerEvent;
+use low_action_dsp::Setup;
+use nice_assert_no_alloc::assert_no_alloc;
+
+const RATE: f64 = 48_000.0;
+
+/// Samples of so many seconds.
+fn samples(seconds: f64) -> usize {
+    (seconds * RATE) as usize
+}
+
+fn peak(sound: &[f32]) -> f64 {
+    f64::from(sound.iter().fold(0.0_f32, |most, sample| most.max(sample.abs())))
+}
+
+fn decibels(ratio: f64) -> f64 {
+    20.0 * ratio.max(1e-15).log10()
+}
+
+fn engine(setup: Setup) -> Engine {
+    Engine::new(&EngineOptions { variation: 0.0, ..EngineOptions::new(setup, RATE) }).expect("builds")
+}
+
+/// One string of a set-up, on its own so that every note is played on it.
+struct Alone {
+    name: String,
+    open_key: u8,
+    engine: Engine,
+}
+
+impl Alone {
+    fn new(setup: &Setup, string: usize) -> Self {
+        let spec = setup.string[string].clone();
+        Self {
+            name: format!("{} {}", setup.name, spec.name),
+            open_key: spec.pitch.round() as u8,
+            engine: engine(Setup { string: vec![spec], ..setup.clone() }),
+        }
+    }
+
+    /// The sound of a note held for so many seconds and of so many more.
+    fn note(&mut self, fret: u8, velocity: u8, held: f64, more: f64) -> Vec<f32> {
+        let key = self.open_key + fret;
+        let velocity = f32::from(velocity) / 127.0;
+        self.engine.reset();
+        self.engine.event(0, PlayerEvent::NoteOn { channel: 0, key, velocity });
+        self.engine.event(samples(held) as u32, PlayerEvent::NoteOff { channel: 0, key });
+        let length = samples(held + more);
+        let [mut left, mut right, mut sound] = [(); 3].map(|()| vec![0.0; length]);
+        self.engine.process_stems(&mut [&mut sound], &mut left, &mut right);
+        sound
+    }
+}
+
+/// Runs a check on every set-up and the outer and a middle string of each, set-ups side by side.
+fn everywhere(check: impl Fn(Alone) + Sync) {
+    std::thread::scope(|scope| {
+        for name in Setup::BUILTIN {
+            let check = &check;
+            scope.spawn(move || {
+                let setup = Setup::builtin(name).expect("built in");
+                let last = setup.string.len() - 1;
+                for string in [0, last / 2, last] {
+                    check(Alone::new(&setup, string));
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn the_first_sound_comes_within_three_milliseconds_and_no_second_attack_follows() {
+    everywhere(|mut string| {
+        for fret in [0, 2, 7, 12] {
+            for velocity in [30, 100] {
+                let sound = string.note(fret, velocity, 0.3, 0.0);
+                let name = format!("{} fret {fret} at {velocity}", string.name);
+                // The time in which a finger sets down the highest string of all.
+                let attack = peak(&sound[..samples(0.06)]);
+                let first = sound.iter().position(|sample| f64::from(sample.abs()) > 0.01 * attack);
+                assert!(first.is_some_and(|first| first < samples(0.003)), "{name}: first at {first:?}");
+                let later = peak(&sound[samples(0.06)..]);
+                assert!(later < 1.12 * attack, "{name}: {:.1} dB later", decibels(later / attack));
+            }
+        }
+    });
+}
+
+#[test]
+fn a_released_note_is_down_40_db_within_150_ms_without_a_click() {
+    let held = 0.3;
+    let (off, quiet) = (samples(held), samples(held + 0.15));
+    everywhere(|mut string| {
+        for fret in [0, 1, 5, 12] {
+            for velocity in [70, 120] {
+                let sound = string.note(fret, velocity, held, 1.0);
+                let name = format!("{} fret {fret} at {velocity}", string.name);
+                let before = &sound[off - samples(0.03)..off];
+                let down = decibels(peak(&sound[quiet..quiet + samples(0.05)]) / peak(before));
+                assert!(down < -40.0, "{name}: {down:.1} dB after 150 ms");
+                // Nothing the hands do afterwards is heard.
+                let attack = peak(&sound[..samples(0.05)]);
+                let later = decibels(peak(&sound[quiet..]) / attack);
+                assert!(later < -40.0, "{name}: {later:.1} dB later");
+                // The hand comes down without a jump. The string may brush it for a few periods, which makes
+                // the sound up to twice as steep; a click would be many times steeper.
+                let slope = |sound: &[f32]| {
+                    sound.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0_f32, f32::max)
+                };
+                let after = &sound[off..quiet];
+                assert!(peak(after) < 1.2 * peak(before), "{name}: louder when released");
+                assert!(slope(after) < 2.5 * slope(before), "{name}: a click when released");
+            }
+        }
+    });
+}
+
+#[test]
+fn open_and_stopped_strings_follow_velocity_alike() {
+    everywhere(|mut string| {
+        let name = string.name.clone();
+        let mut loudness = |fret, velocity| decibels(peak(&string.note(fret, velocity, 0.1, 0.0)));
+        for velocity in [20, 64, 110] {
+            let open = loudness(0, velocity);
+            for fret in [1, 5, 12] {
+                let stopped = loudness(fret, velocity);
+                let difference = stopped - open;
+                assert!(difference.abs() < 9.0, "{name} fret {fret} at {velocity}: {difference:.1} dB");
+            }
+        }
+        let range = loudness(5, 127) - loudness(5, 20);
+        assert!(range > 12.0, "{name}: {range:.1} dB from 20 to 127");
+    });
+}
+
+#[test]
+fn nobody_plays_no_sound() {
+    let mut engine = engine(Setup::builtin("electric").expect("built in"));
+    let [mut left, mut right] = [(); 2].map(|()| vec![1.0; samples(0.5)]);
+    engine.process(&mut left, &mut right);
+    assert!(left.iter().chain(&right).all(|&sample| sample == 0.0));
+}
+
+/// Three seconds in which all happens: chords, a stolen string, pedal, bends, everything stopping.
+fn score() -> Vec<(usize, PlayerEvent)> {
+    let on = |key, velocity| PlayerEvent::NoteOn { channel: 0, key, velocity };
+    let off = |key| PlayerEvent::NoteOff { channel: 0, key };
+    let pedal = |value| PlayerEvent::Controller { channel: 0, number: 64, value };
+    let mut score: Vec<(f64, PlayerEvent)> =
+        vec![(1.0, pedal(1.0)), (1.8, pedal(0.0)), (2.5, PlayerEvent::AllNotesOff)];
+    for (index, key) in [40, 47, 52, 56, 59, 64, 67].into_iter().enumerate() {
+        score.push((0.0, on(key, 0.8)));
+        score.push((0.5 + 0.013 * index as f64, off(key)));
+        score.push((1.1 + 0.031 * index as f64, on(key + 2, 0.5)));
+        score.push((1.5, off(key + 2)));
+        score.push((2.0 + 0.0007 * index as f64, on(key + 5, 1.0)));
+    }
+    score.extend((0..50).map(|n| {
+        (0.1 + 0.004 * f64::from(n), PlayerEvent::PitchBend { channel: 0, value: (n as f32 * 0.2).sin() })
+    }));
+    score.sort_by(|a, b| a.0.total_cmp(&b.0));
+    score.into_iter().map(|(time, event)| (samples(time), event)).collect()
+}
+
+fn render(block: usize, variation: f64) -> Vec<u32> {
+    let setup = Setup::builtin("electric").expect("built in");
+    let options = EngineOptions { variation, seed: 3, ..EngineOptions::new(setup, RATE) };
+    let mut engine = Engine::new(&options).expect("builds");
+    let [mut left, mut right] = [(); 2].map(|()| vec![0.0; samples(3.0)]);
+    let mut waiting = score().into_iter().peekable();
+    let blocks = left.chunks_mut(block).zip(right.chunks_mut(block));
+    for (start, (left, right)) in (0..).step_by(block).zip(blocks) {
+        while let Some((time, event)) = waiting.next_if(|event| event.0 < start + block) {
+            engine.event((time - start) as u32, event);
+        }
+        engine.process(left, right);
+    }
+    assert!(peak(&left) > 1e-3);
+    left.iter().chain(&right).map(|sample| sample.to_bits()).collect()
+}
+
+#[test]
+fn the_same_bits_in_blocks_of_any_size() {
+    let whole = render(samples(3.0), 1.0);
+    for block in [1, 64, 480] {
+        assert!(render(block, 1.0) == whole, "blocks of {block}");
+    }
+    assert!(render(480, 0.0) != whole, "variation is heard");
+}
+
+#[test]
+fn playing_allocates_nothing() {
+    let mut engine = engine(Setup::builtin("electric").expect("built in"));
+    let (mut left, mut right) = (vec![0.0; 4800], vec![0.0; 4800]);
+    let mut stems = vec![vec![0.0; 4800]; engine.string_count()];
+    let mut stems: Vec<&mut [f32]> = stems.iter_mut().map(|stem| &mut stem[..]).collect();
+    let score = score();
+    assert_no_alloc(|| {
+        for &(time, event) in &score {
+            // More in one block than any host sends, and more notes at once than strings.
+            engine.event((time / 30) as u32, event);
+            for key in 0..128 {
+                engine.event((time / 30) as u32, PlayerEvent::NoteOn { channel: 5, key, velocity: 0.1 });
+            }
+        }
+        engine.process(&mut left, &mut right);
+        engine.process_stems(&mut stems, &mut left, &mut right);
+        engine.reset();
+    });
+    assert!(left.iter().all(|sample| sample.is_finite()));
+}
+
+#[test]
+fn a_flood_of_events_is_survived() {
+    let mut engine = engine(Setup::builtin("electric").expect("built in"));
+    let (mut left, mut right) = (vec![0.0; 4800], vec![0.0; 4800]);
+    for round in 0..100_000_u32 {
+        let key = (round % 128) as u8;
+        engine.event(0, PlayerEvent::NoteOn { channel: 0, key, velocity: 1.0 });
+        engine.event(0, PlayerEvent::NoteOff { channel: 0, key });
+    }
+    assert_eq!(engine.lost_events(), 0, "events of the present sample need not wait");
+    engine.event(9, PlayerEvent::AllNotesOff);
+    for _ in 0..20 {
+        engine.process(&mut left, &mut right);
+    }
+    assert!(peak(&left) < 0.01 && engine.level() < 0.01, "all is quiet: {}", engine.level());
+}
