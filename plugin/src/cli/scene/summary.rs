@@ -1,0 +1,97 @@
+//! What the `scene` command says at the end.
+
+use std::io::{self, Write};
+
+use low_action_dsp::scene::ListeningPoint;
+use low_action_dsp::{Ledger, Scene, Simulation};
+
+use super::{Seen, is_dash, open_part};
+use crate::cli::SceneArgs;
+use crate::cli::wav::Findings;
+
+/// What there is to say at the end.
+pub(super) struct Summary<'a> {
+    pub arguments: &'a SceneArgs,
+    pub scene: &'a Scene,
+    pub simulation: &'a Simulation,
+    pub seen: Seen,
+    pub sound: Option<Findings>,
+    /// Rows and bytes.
+    pub trace_size: Option<(u64, u64)>,
+    /// Time taken, s.
+    pub elapsed: f64,
+}
+
+impl Summary<'_> {
+    /// Prints a few lines, on standard output unless that carries a result.
+    pub fn print(&self) {
+        let results = [&self.arguments.wav, &self.arguments.trace];
+        let text = self.lines().join("\n") + "\n";
+        // A closed output is no reason to fail.
+        if results.into_iter().flatten().any(|path| is_dash(path)) {
+            io::stderr().write_all(text.as_bytes()).ok();
+        } else {
+            io::stdout().write_all(text.as_bytes()).ok();
+        }
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let strings = (1..).zip(self.simulation.strings());
+        let mut lines: Vec<_> = strings
+            .map(|(number, string)| {
+                let (grid, fingers) = (&string.model.grid, string.fingers().count());
+                let (intervals, spacing) = (grid.intervals, grid.spacing * 1e3);
+                let contacts = string.model.contacts.len();
+                format!("string {number}: N = {intervals}, h = {spacing:.3} mm, contacts {contacts}, fingers {fingers}")
+            })
+            .collect();
+        let (samples, rate) = (self.simulation.samples(), self.scene.sample_rate);
+        let (seconds, elapsed) = (samples as f64 / rate, self.elapsed);
+        lines.push(format!(
+            "time: {samples} samples at {rate} Hz, {seconds:.4} s, computed in {elapsed:.2} s"
+        ));
+        lines.extend(self.contact());
+        lines.push(self.energy());
+        lines.extend(self.files());
+        lines
+    }
+
+    fn contact(&self) -> Option<String> {
+        let Seen { penetration, iterations, most_iterations, contacts, .. } = self.seen;
+        let mean = iterations as f64 / self.simulation.samples() as f64;
+        (contacts > 0).then(|| {
+            format!(
+                "contact: at most {contacts} at once, penetration at most {penetration:.2e} m, {mean:.2} iterations a \
+                 sample, at most {most_iterations}"
+            )
+        })
+    }
+
+    fn energy(&self) -> String {
+        let ledgers = self.simulation.ledgers();
+        if ledgers.is_empty() {
+            return "energy: not measured (with --trace it is)".into();
+        }
+        let most = |of: fn(&Ledger) -> f64| ledgers.iter().map(of).fold(0.0, f64::max);
+        let (largest, worst, open) = (most(|l| l.largest), most(|l| l.worst_residual), most(open_part));
+        format!(
+            "energy: at most {largest:.3e} J in a string; the balance is open by {worst:.1e} of that in a sample, \
+             {open:.1e} in all"
+        )
+    }
+
+    fn files(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        if let (Some(path), Some(sound)) = (&self.arguments.wav, self.sound) {
+            let (path, peak) = (path.display(), sound.peak);
+            lines.push(match self.scene.output.position {
+                ListeningPoint::Bridge => format!("{path}: force on the bridge, at most {peak:.4} N"),
+                ListeningPoint::At(place) => format!("{path}: velocity at {place} m, at most {peak:.4} m/s"),
+            });
+        }
+        if let (Some(path), Some((rows, bytes))) = (&self.arguments.trace, self.trace_size) {
+            lines.push(format!("{}: {rows} rows, {:.1} MB", path.display(), bytes as f64 / 1e6));
+        }
+        lines
+    }
+}
