@@ -1,5 +1,6 @@
 //! Helpers shared by the promise tests.
 
+pub mod command;
 pub mod dense;
 pub mod host;
 pub mod midi;

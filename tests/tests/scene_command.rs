@@ -1,0 +1,322 @@
+//! Promise: `low-action scene` writes what the simulation computes, bit for bit, and measuring it changes
+//! nothing.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path::Path;
+
+use low_action_dsp::{Entry, Scene, Simulation};
+use low_action_tests::command::Workplace;
+use npyz::NpyFile;
+
+/// Two strings of different grids, board and frets, fingers out of order, moving and pressed.
+const SCENE: &str = r#"
+sample_rate = 44100
+duration = 0.02
+[[string]]
+length = 0.65
+linear_density = 5.25e-3
+tension = 60.0
+youngs_modulus = 2e11
+core_radius = 4.3e-4
+loss_0 = 1.38
+loss_1 = 1.25e-4
+tension_modulation = true
+[[string]]
+length = 0.6
+linear_density = 1e-3
+tension = [[0.0, 60.0], [0.02, 62.0]]
+loss_0 = 1.0
+[fretboard]
+stiffness = 1e12
+exponent = 2.3
+board = -0.0022
+frets = [0.1, 0.2, 0.3]
+fret_top = -0.0008
+[[pluck]]
+string = 1
+duration = 0.002
+position = 0.5
+force = -3.0
+[[finger]]
+string = 2
+mass = 5e-3
+stiffness = 1e8
+exponent = 2.0
+damping = 2.0
+hand_damping = 8.0
+position = [[0.0, 0.15], [0.02, 0.18]]
+height = 0.0001
+force = 6.0
+[[finger]]
+string = 1
+mass = 5e-3
+stiffness = 1e8
+exponent = 2.0
+position = 0.25
+height = 0.0005
+velocity = -2.0
+[output]
+position = 0.55
+"#;
+
+fn workplace() -> Workplace {
+    Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
+}
+
+fn simulation() -> Simulation {
+    Simulation::new(&Scene::from_toml(SCENE).unwrap()).unwrap()
+}
+
+/// An array as read by libraries that share no code with the writer.
+#[derive(Debug)]
+struct Array {
+    shape: Vec<u64>,
+    numbers: Vec<f64>,
+}
+
+fn arrays(path: &Path) -> BTreeMap<String, Array> {
+    let mut archive = zip::ZipArchive::new(File::open(path).unwrap()).unwrap();
+    let mut arrays = BTreeMap::new();
+    for index in 0..archive.len() {
+        // Reading to the end compares the checksum.
+        let entry = archive.by_index(index).unwrap();
+        let name = entry.name().unwrap().strip_suffix(".npy").unwrap().to_owned();
+        let array = NpyFile::new(entry).unwrap();
+        let shape = array.shape().to_vec();
+        let numbers = if name == "iterations" {
+            array.into_vec::<u32>().unwrap().into_iter().map(f64::from).collect()
+        } else {
+            array.into_vec::<f64>().unwrap()
+        };
+        assert_eq!(numbers.len() as u64, shape.iter().product::<u64>(), "{name}");
+        arrays.insert(name, Array { shape, numbers });
+    }
+    arrays
+}
+
+fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|number| number.to_bits()).collect()
+}
+
+/// What the trace of a run that is not measured must hold, taken from the simulation itself.
+fn expected(every: usize) -> BTreeMap<String, Vec<f64>> {
+    let mut simulation = simulation();
+    let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+    let mut add = |name: String, number: f64| columns.entry(name).or_default().push(number);
+    for (number, string) in (1..).zip(simulation.strings()) {
+        string.places().for_each(|place| add(format!("x_{number}"), place));
+    }
+    for step in 0..simulation.samples() as usize {
+        let due = step % every == 0;
+        if due {
+            add("t".into(), step as f64 / 44100.0);
+            for (number, string) in (1..).zip(simulation.strings()) {
+                string.state.displacement().iter().for_each(|&u| add(format!("u_{number}"), u));
+                string
+                    .fingers()
+                    .for_each(|finger| add(format!("u_finger_{}", finger.number + 1), finger.height));
+            }
+        }
+        assert!(simulation.step().is_none(), "no ledger is open");
+        if !due {
+            continue;
+        }
+        let mut iterations = 0;
+        for (number, string) in (1..).zip(simulation.strings()) {
+            iterations += string.convergence.iterations;
+            add(format!("force_board_{number}"), string.board_force());
+            let mut frets = vec![0.0; 3];
+            string.fret_forces().for_each(|(fret, force)| frets[fret] = force);
+            (1..).zip(frets).for_each(|(fret, force)| add(format!("force_fret_{number}_{fret}"), force));
+            string
+                .fingers()
+                .for_each(|finger| add(format!("force_finger_{}", finger.number + 1), finger.force));
+        }
+        add("iterations".into(), f64::from(iterations));
+    }
+    columns
+}
+
+#[test]
+fn the_trace_holds_the_motion_of_a_run_that_is_not_measured() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    for every in [1, 7] {
+        let done = place.run(&["scene", "scene.toml", "--trace", "out.npz", "--every", &every.to_string()]);
+        assert_eq!(done.code, 0, "{}", done.error);
+        let found = arrays(&place.path("out.npz"));
+        let rows = found["t"].shape[0];
+        assert_eq!(rows, 882_u64.div_ceil(every as u64));
+        let expected = expected(every);
+        for (name, numbers) in &expected {
+            assert_eq!(bits(&found[name].numbers), bits(numbers), "{name}");
+        }
+        for (string, points) in [(1, found["x_1"].shape[0]), (2, found["x_2"].shape[0])] {
+            assert_eq!(found[&format!("u_{string}")].shape, [rows, points]);
+        }
+        assert!(found["force_finger_1"].numbers.iter().any(|f| *f > 1.0), "the scene presses a finger");
+        assert!(found["force_fret_1_3"].numbers.iter().any(|f| *f > 0.1), "the scene hits a fret");
+        let rest: Vec<_> = found.keys().filter(|name| !expected.contains_key(*name)).collect();
+        let ledger = ["energy_contact", "energy_finger", "energy_string", "energy_tension"];
+        let ledger: Vec<_> =
+            ledger.into_iter().chain(["power_in", "power_loss", "power_solver", "residual"]).collect();
+        assert_eq!(rest, ledger.iter().collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn the_trace_holds_the_ledger() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    assert_eq!(place.run(&["scene", "scene.toml", "--trace", "out.npz"]).code, 0);
+    let found = arrays(&place.path("out.npz"));
+    let mut simulation = simulation();
+    simulation.open_ledger();
+    let entries: Vec<Entry> = (0..simulation.samples()).map(|_| simulation.step().unwrap()).collect();
+    let column = |of: fn(&Entry) -> f64| entries.iter().map(of).collect::<Vec<_>>();
+    let expected = [
+        ("energy_string", column(|entry| entry.energies.string)),
+        ("energy_tension", column(|entry| entry.energies.tension)),
+        ("energy_contact", column(|entry| entry.energies.contact)),
+        ("energy_finger", column(|entry| entry.energies.finger)),
+        ("power_loss", column(|entry| entry.power_loss)),
+        ("power_solver", column(|entry| entry.power_solver)),
+        ("power_in", column(|entry| entry.power_in)),
+        ("residual", column(|entry| entry.residual)),
+    ];
+    for (name, numbers) in expected {
+        assert_eq!(bits(&found[name].numbers), bits(&numbers), "{name}");
+    }
+
+    // And whoever has only the file can close the balance: h(n+1/2) - h(n-1/2) + k (q - p) = 0.
+    let number = |name: &str, row: usize| found[name].numbers[row];
+    let energy = |row: usize| {
+        let names = found.keys().filter(|name| name.starts_with("energy_"));
+        names.map(|name| number(name, row)).sum::<f64>()
+    };
+    let largest = (0..entries.len()).map(energy).fold(0.0, f64::max);
+    let time_step = found["t"].numbers[1];
+    let open: f64 = (1..entries.len())
+        .map(|row| {
+            let lost = number("power_loss", row) + number("power_solver", row) - number("power_in", row);
+            energy(row) - energy(row - 1) + time_step * lost
+        })
+        .sum();
+    assert!(open.abs() < 1e-12 * largest, "{open} of {largest}");
+}
+
+#[test]
+fn the_sound_is_the_output_in_si_units() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    let mut alone = simulation();
+    let expected: Vec<u32> = (0..alone.samples())
+        .map(|_| {
+            alone.step();
+            (alone.output() as f32).to_bits()
+        })
+        .collect();
+    for arguments in [vec!["--wav", "out.wav"], vec!["--wav", "out.wav", "--trace", "out.npz"]] {
+        let done = place.run(&[vec!["scene", "scene.toml"], arguments].concat());
+        assert_eq!(done.code, 0, "{}", done.error);
+        let reader = hound::WavReader::open(place.path("out.wav")).unwrap();
+        let spec = reader.spec();
+        assert_eq!((spec.channels, spec.sample_rate, spec.bits_per_sample), (1, 44100, 32));
+        assert_eq!(spec.sample_format, hound::SampleFormat::Float);
+        let found: Vec<u32> = reader.into_samples::<f32>().map(|sample| sample.unwrap().to_bits()).collect();
+        assert!(found == expected, "the trace changed the sound, or the sound is not the output");
+    }
+}
+
+#[test]
+fn two_runs_write_the_same_bytes() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    for name in ["a", "b"] {
+        let (wav, trace) = (format!("{name}.wav"), format!("{name}.npz"));
+        assert_eq!(place.run(&["scene", "scene.toml", "--wav", &wav, "--trace", &trace]).code, 0);
+    }
+    for kind in ["wav", "npz"] {
+        let read = |name: &str| fs::read(place.path(&format!("{name}.{kind}"))).unwrap();
+        assert!(read("a") == read("b"), "{kind}");
+    }
+    assert_eq!(place.names(), ["a.npz", "a.wav", "b.npz", "b.wav", "scene.toml"]);
+}
+
+#[test]
+fn a_scene_comes_from_standard_input_and_goes_to_standard_output() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    assert_eq!(place.run(&["scene", "scene.toml", "--wav", "out.wav", "--trace", "out.npz"]).code, 0);
+    for (option, name) in [("--wav", "out.wav"), ("--trace", "out.npz")] {
+        let done = place.run_with(&["scene", "-", option, "-"], SCENE.as_bytes());
+        assert_eq!(done.code, 0, "{}", done.error);
+        assert!(done.output == fs::read(place.path(name)).unwrap(), "{option}");
+        assert!(done.error.contains("string 2: N = "), "{}", done.error);
+    }
+}
+
+#[test]
+fn a_run_is_summed_up() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    let done = place.run(&["scene", "scene.toml"]);
+    assert_eq!((done.code, done.error.as_str()), (0, ""));
+    for words in [
+        "string 1: N = ",
+        "string 2: N = ",
+        "882 samples at 44100 Hz",
+        "penetration",
+        "iterations",
+        "balance",
+    ] {
+        assert!(done.text().contains(words), "{words} is not in {}", done.text());
+    }
+    let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
+    assert!(done.text().contains("energy: not measured"), "{}", done.text());
+    assert!(done.text().contains("out.wav: velocity at 0.55 m, at most "), "{}", done.text());
+}
+
+#[test]
+fn a_scene_of_no_length_makes_empty_files() {
+    let place = workplace();
+    place.write("scene.toml", SCENE.replace("duration = 0.02", "duration = 0"));
+    let done = place.run(&["scene", "scene.toml", "--wav", "out.wav", "--trace", "out.npz"]);
+    assert_eq!(done.code, 0, "{}", done.error);
+    assert_eq!(arrays(&place.path("out.npz"))["t"].shape, [0]);
+    assert_eq!(hound::WavReader::open(place.path("out.wav")).unwrap().len(), 0);
+}
+
+#[test]
+fn arrays_larger_than_what_is_gathered_are_whole() {
+    // 40,000 rows of 30 points are several times what one array gathers in memory.
+    let text = "sample_rate = 8000\nduration = 5.0\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\n\
+                tension = 60.0\nloss_0 = 1.0\nshape = [[0.0, 0.0], [0.2, 0.001], [0.65, 0.0]]\n";
+    let place = workplace();
+    place.write("scene.toml", text);
+    assert_eq!(place.run(&["scene", "scene.toml", "--trace", "out.npz"]).code, 0);
+    let found = arrays(&place.path("out.npz"));
+    let mut simulation = Simulation::new(&Scene::from_toml(text).unwrap()).unwrap();
+    for (row, sample) in found["u_1"].numbers.chunks(found["x_1"].numbers.len()).enumerate() {
+        assert_eq!(bits(sample), bits(simulation.string(0).state.displacement()), "row {row}");
+        simulation.step();
+    }
+    assert_eq!(simulation.steps(), 40_000);
+    let names: Vec<_> = found.keys().filter(|name| name.starts_with("force_")).collect();
+    assert!(names.is_empty(), "nothing touches this string, but there is {names:?}");
+}
+
+#[test]
+fn every_example_runs() {
+    let place = workplace();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let mut count = 0;
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let done = place.run(&["scene".as_ref(), path.as_os_str()]);
+        assert_eq!(done.code, 0, "{}: {}", path.display(), done.error);
+        count += 1;
+    }
+    assert!(count >= 4);
+}

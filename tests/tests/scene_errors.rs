@@ -1,0 +1,279 @@
+//! Promise: a scene that cannot be computed, and a place that cannot be written, is refused in one line
+//! that names the thing, the value and what is accepted, with the right exit code and nothing left behind.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use low_action_tests::command::{Finished, Workplace};
+
+const SCENE: &str = r#"
+sample_rate = 44100
+duration = 0.01
+[[string]]
+length = 0.65
+linear_density = 5.25e-3
+tension = 60.0
+loss_0 = 1.0
+[fretboard]
+stiffness = 1e12
+exponent = 2.3
+board = -0.002
+frets = 3
+fret_top = -0.001
+[[pluck]]
+duration = 0.002
+position = 0.5
+force = -1.0
+[[finger]]
+mass = 5e-3
+stiffness = 1e8
+exponent = 2.0
+position = 0.2
+"#;
+
+fn workplace() -> Workplace {
+    Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
+}
+
+/// That a run was refused in one line holding these words.
+fn assert_refused(done: &Finished, code: i32, words: &[&str]) {
+    assert_eq!(done.code, code, "{}", done.error);
+    assert!(done.error.starts_with("error: "), "{}", done.error);
+    assert!(done.error.ends_with('\n') && done.error.lines().count() == 1, "{}", done.error);
+    assert!(!done.error.trim_end().contains(char::is_control), "{:?}", done.error);
+    assert!(done.error.chars().count() < 600, "{}", done.error);
+    for word in words {
+        assert!(done.error.contains(word), "{word} is not in: {}", done.error);
+    }
+    assert!(done.output.is_empty(), "{}", done.text());
+}
+
+/// That the scene with a part replaced is refused, quickly and with nothing written.
+fn assert_scene_refused(from: &str, to: &str, words: &[&str]) {
+    assert!(SCENE.contains(from), "{from} is not in the scene");
+    let place = workplace();
+    place.write("scene.toml", SCENE.replacen(from, to, 1));
+    let started = Instant::now();
+    let done = place.run(&["scene", "scene.toml", "--wav", "out.wav", "--trace", "out.npz"]);
+    assert_refused(&done, 1, &[&["scene.toml"], words].concat());
+    assert!(started.elapsed() < Duration::from_secs(10), "{to}");
+    assert_eq!(place.names(), ["scene.toml"], "{to}");
+}
+
+#[test]
+fn the_scene_itself_is_accepted() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    assert_eq!(place.run(&["scene", "scene.toml"]).code, 0);
+}
+
+#[test]
+fn values_out_of_range_are_refused() {
+    let cases: &[(&str, &str, &[&str])] = &[
+        ("duration = 0.01", "duration = 1e18", &["duration = 1e18", "between 0 and 100000 s"]),
+        ("duration = 0.01", "duration = -1", &["duration = -1", "between 0"]),
+        ("duration = 0.01", "duration = nan", &["duration = NaN"]),
+        ("duration = 0.01", "duration = 1e400", &["line 3, duration", "overflow"]),
+        ("sample_rate = 44100", "sample_rate = 0", &["sample_rate = 0", "between 1000 and 1e7 Hz"]),
+        ("sample_rate = 44100", "sample_rate = 1e12", &["sample_rate = 1e12", "1e7 Hz"]),
+        ("sample_rate = 44100", "sample_rate = -inf", &["sample_rate = -inf"]),
+        ("length = 0.65", "length = 0.0", &["string[1].length = 0", "m"]),
+        ("linear_density = 5.25e-3", "linear_density = -1", &["string[1].linear_density = -1", "kg/m"]),
+        ("tension = 60.0", "tension = inf", &["string[1].tension = inf", "N"]),
+        ("tension = 60.0", "tension = []", &["string[1].tension", "at least one point"]),
+        (
+            "tension = 60.0",
+            "tension = [[1, 60], [0.5, 60]]",
+            &["time of point 2 of string[1].tension = 0.5", "above"],
+        ),
+        ("tension = 60.0", "tension = [[0, 60], [1, -2]]", &["value of point 2 of string[1].tension = -2"]),
+        ("tension = 60.0", "tension = 60\nshape = [[0.1, 0.001], [0.7, 0]]", &["shape = 0.7", "0.65"]),
+        ("loss_0 = 1.0", "loss_0 = -1.0", &["string[1].loss_0 = -1", "1/s"]),
+        ("exponent = 2.3", "exponent = 0.5", &["fretboard.exponent = 0.5", "between 1 and 5"]),
+        ("board = -0.002", "board = 0.001", &["fretboard.board = 0.001", "-10 and 0 m"]),
+        ("frets = 3", "frets = -3", &["frets", "-3", "0 to 1000"]),
+        ("frets = 3", "frets = 1001", &["frets", "1001", "0 to 1000"]),
+        ("frets = 3", "frets = [0.1, 0.7]\n#", &["fretboard.frets[2] = 0.7", "0.65 m", "string[1]"]),
+        ("fret_top = -0.001", "fret_top = [-0.001]", &["fret_top", "1 heights", "each of the 3"]),
+        ("fret_top = -0.001", "", &["fret_top", "need the height"]),
+        ("position = 0.5", "position = 0.65", &["pluck[1].position = 0.65", "above 0 and below 0.65 m"]),
+        ("force = -1.0", "force = 1e7", &["pluck[1].force = 1e7", "N"]),
+        ("[[pluck]]", "[[pluck]]\nstring = 2", &["pluck[1].string = 2", "1 to 1"]),
+        ("mass = 5e-3", "mass = -5e-3", &["finger[1].mass = -0.005", "kg"]),
+        ("mass = 5e-3", "mass = nan", &["finger[1].mass = NaN"]),
+        ("position = 0.2", "position = -0.2", &["finger[1].position = -0.2", "above 0 and below 0.65 m"]),
+        (
+            "position = 0.2",
+            "position = [[0, 0.2], [1, 0.8]]",
+            &["point 2 of finger[1].position = 0.8", "0.65 m"],
+        ),
+        ("position = 0.2", "position = 0.2\nheight = 11", &["finger[1].height = 11", "m"]),
+        (
+            "duration = 0.01",
+            "duration = 0.01\nsolver.max_iterations = 2000",
+            &["solver.max_iterations = 2000", "1000"],
+        ),
+        ("duration = 0.01", "duration = 0.01\noutput.position = 0.7", &["output.position = 0.7", "0.65 m"]),
+    ];
+    for (from, to, words) in cases {
+        assert_scene_refused(from, to, words);
+    }
+}
+
+#[test]
+fn what_does_not_fit_the_grid_is_refused() {
+    let words = ["string[1].length = 0.65", "too short", "44100 Hz", "at least 1."];
+    assert_scene_refused("tension = 60.0", "tension = 1e6", &words);
+    assert_scene_refused("stiffness = 1e12", "stiffness = 1e30", &["fretboard.stiffness = 1e30", "at most"]);
+    assert_scene_refused("stiffness = 1e8", "stiffness = 1e30", &["finger[1].stiffness = 1e30", "at most"]);
+}
+
+#[test]
+fn the_length_named_as_the_shortest_is_accepted() {
+    let place = workplace();
+    let bare =
+        "sample_rate = 44100\nduration = 0.001\n[[string]]\nlinear_density = 5e-3\ntension = 60.0\nlength = ";
+    place.write("scene.toml", format!("{bare}0.002"));
+    let done = place.run(&["scene", "scene.toml"]);
+    let shortest = done.error.split("at least ").nth(1).unwrap().trim_end_matches(" m\n").to_owned();
+    place.write("scene.toml", format!("{bare}{shortest}"));
+    assert_eq!(place.run(&["scene", "scene.toml"]).code, 0, "{shortest}");
+}
+
+#[test]
+fn scenes_too_large_to_compute_are_refused() {
+    let long = "length = 1000.0\nlinear_density = 50.0";
+    assert_scene_refused(
+        "length = 0.65\nlinear_density = 5.25e-3",
+        long,
+        &["sample_rate = 44100", "grid points", "1e6"],
+    );
+    let fast = "sample_rate = 1e7\nduration = 1e4\n#";
+    assert_scene_refused(
+        "sample_rate = 44100\nduration = 0.01",
+        fast,
+        &["duration = 10000", "grid points", "1e7 Hz", "s"],
+    );
+}
+
+#[test]
+fn a_trace_too_large_for_any_disk_is_refused() {
+    let place = workplace();
+    place.write("scene.toml", SCENE.replace("duration = 0.01", "duration = 1e5"));
+    let done = place.run(&["scene", "scene.toml", "--trace", "out.npz", "--every", "2"]);
+    assert_refused(&done, 1, &["--every 2", "1e12", "at least "]);
+    assert_eq!(place.names(), ["scene.toml"]);
+}
+
+#[test]
+fn what_is_not_a_scene_is_refused() {
+    let cases: &[(&str, &str, &[&str])] = &[
+        ("loss_0 = 1.0", "losses = 1.0", &["line 8", "unknown key `losses`", "loss_0"]),
+        ("loss_0 = 1.0", "loss_0 = \"none\"", &["line 8, loss_0", "\"none\"", "a number"]),
+        ("loss_0 = 1.0", "loss_0 = ", &["line 8, loss_0"]),
+        ("loss_0 = 1.0", "tension = 1.0", &["line 8, tension", "duplicate"]),
+        ("length = 0.65\n", "", &["[[string]]", "missing key `length`"]),
+        ("[[string]]", "[string]", &["line 4, [string]", "write [[string]]"]),
+        ("[fretboard]", "[[fretboard]]", &["line 9, [[fretboard]]", "write [fretboard]"]),
+        ("sample_rate = 44100\n", "", &["missing key `sample_rate`"]),
+        ("sample_rate", "sample_räte", &["line 2"]),
+        ("duration", "[[[", &["line 3"]),
+        (
+            "duration = 0.01",
+            "duration = 0.01\nsolver.stencil = \"better\"",
+            &["`better`", "`paper`, `corrected`, `wide`"],
+        ),
+        ("board = -0.002", "board = [[0, -0.001, 3]]", &["line 12, board", "length 3", "pair"]),
+        ("loss_0", "\"\\u001b[31m\\n\\u0007\"", &["line 8", "unknown key"]),
+    ];
+    for (from, to, words) in cases {
+        assert_scene_refused(from, to, words);
+    }
+    let place = workplace();
+    place.write("scene.toml", [0xff, 0xfe, 0x00]);
+    assert_refused(&place.run(&["scene", "scene.toml"]), 1, &["scene.toml", "UTF-8"]);
+    place.write("scene.toml", vec![b'#'; (16 << 20) + 1]);
+    assert_refused(&place.run(&["scene", "scene.toml"]), 1, &["scene.toml", "16 MiB"]);
+    let deep = "[".repeat(100_000);
+    place.write("scene.toml", format!("sample_rate = {deep}"));
+    assert_refused(&place.run(&["scene", "scene.toml"]), 1, &["scene.toml", "line 1"]);
+    place.write("scene.toml", format!("{} = 1", "a".repeat(100_000)));
+    assert_refused(&place.run(&["scene", "scene.toml"]), 1, &["scene.toml", "unknown key"]);
+    assert_refused(&place.run_with(&["scene", "-"], b"nothing"), 1, &["standard input", "line 1"]);
+}
+
+#[test]
+fn files_that_cannot_be_read_are_refused() {
+    let place = workplace();
+    assert_refused(&place.run(&["scene", "none.toml"]), 1, &["cannot read none.toml"]);
+    assert_refused(&place.run(&["scene", "."]), 1, &["cannot read ."]);
+    if Path::new("/dev/zero").exists() {
+        assert_refused(&place.run(&["scene", "/dev/zero"]), 1, &["/dev/zero", "16 MiB"]);
+    }
+}
+
+#[test]
+fn places_that_cannot_be_written_are_refused() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    place.write("file", "kept");
+    std::fs::create_dir(place.path("folder")).unwrap();
+    let before = place.names();
+    for option in ["--wav", "--trace"] {
+        for target in ["folder", "file/out", "none/out"] {
+            let done = place.run(&["scene", "scene.toml", option, target]);
+            assert_refused(&done, 1, &["cannot write", target]);
+            assert_eq!(place.names(), before, "{option} {target}");
+        }
+        if Path::new("/dev/full").exists() {
+            let done = place.run(&["scene", "scene.toml", option, "/dev/full"]);
+            assert_eq!(done.code, 1, "{}", done.error);
+            assert_refused(&done, 1, &["cannot write", "/dev/full"]);
+            assert_eq!(place.names(), before);
+        }
+    }
+    assert_eq!(std::fs::read(place.path("file")).unwrap(), b"kept");
+}
+
+#[test]
+fn a_result_that_cannot_be_begun_leaves_the_other_as_it_was() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    place.write("out.wav", "old");
+    let done = place.run(&["scene", "scene.toml", "--wav", "out.wav", "--trace", "none/out.npz"]);
+    assert_refused(&done, 1, &["none/out.npz"]);
+    assert_eq!(std::fs::read(place.path("out.wav")).unwrap(), b"old");
+    assert_eq!(place.names(), ["out.wav", "scene.toml"]);
+}
+
+#[test]
+fn what_a_wav_file_cannot_hold_is_refused() {
+    let place = workplace();
+    place.write("scene.toml", SCENE.replace("44100", "44100.5"));
+    let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
+    assert_refused(&done, 1, &["sample_rate = 44100.5", "--wav", "whole number"]);
+    place.write("scene.toml", SCENE.replace("duration = 0.01", "duration = 90000"));
+    let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
+    assert_refused(&done, 1, &["duration = 90000", "--wav", "at most"]);
+    assert_eq!(place.names(), ["scene.toml"]);
+}
+
+#[test]
+fn wrong_usage_is_told_apart() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    let cases: &[(&[&str], &[&str])] = &[
+        (&["scene"], &["FILE"]),
+        (&["scene", "scene.toml", "--wave", "x"], &["--wave"]),
+        (&["scene", "scene.toml", "--trace", "x.npz", "--every", "0"], &["--every", "0"]),
+        (&["scene", "scene.toml", "--trace", "x.npz", "--every", "some"], &["--every", "some"]),
+        (&["scene", "scene.toml", "--every", "2"], &["--trace"]),
+        (&["scene", "scene.toml", "--wav", "x", "--trace", "x"], &["--wav", "--trace", "same file"]),
+        (&["scene", "scene.toml", "--wav", "-", "--trace", "-"], &["--wav", "--trace", "same file"]),
+        (&["scene", "scene.toml", "--wav", "./scene.toml"], &["the scene", "--wav", "same file"]),
+    ];
+    for (arguments, words) in cases {
+        assert_refused(&place.run(arguments), 2, words);
+        assert_eq!(place.names(), ["scene.toml"], "{arguments:?}");
+    }
+}
