@@ -232,7 +232,7 @@ impl Voice {
             drive: Drive::new(&model),
             hands: Hands::new(&model, rate),
             listener: Listener::new(&setup.pickup, &model, rate),
-            gain: setup.gain,
+            gain: setup.gain * spec.level,
             pan: [libm::cos(angle), libm::sin(angle)],
             asleep: true,
             run: [0.0; RUN],

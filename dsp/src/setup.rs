@@ -66,9 +66,16 @@ pub struct SetupString {
     pub loss_0: f64,
     /// Loss that grows with frequency, m²/s.
     pub loss_1: f64,
+    /// How strongly the pickup senses this string, as a factor beside the other strings, 0 to 100.
+    #[serde(default = "alike")]
+    pub level: f64,
     /// Place in the stereo picture, −1 (left) to 1 (right).
     #[serde(default)]
     pub pan: f64,
+}
+
+fn alike() -> f64 {
+    1.0
 }
 
 /// How the hands act.
@@ -266,6 +273,7 @@ impl SetupString {
         within(&format!("{name}.core_radius"), self.core_radius, 0.0, 0.1, "m")?;
         within(&format!("{name}.loss_0"), self.loss_0, 0.0, 1e4, "1/s")?;
         within(&format!("{name}.loss_1"), self.loss_1, 0.0, 1e2, "m²/s")?;
+        within(&format!("{name}.level"), self.level, 0.0, 100.0, "")?;
         within(&format!("{name}.pan"), self.pan, -1.0, 1.0, "").map(drop)
     }
 }

@@ -143,15 +143,16 @@ fn frequencies_follow_the_midi_tuning_standard() {
 
 #[test]
 fn wrong_setups_are_refused_in_one_line() {
-    let cases: [(&str, &str, &[&str]); 16] = [
+    let cases: [(&str, &str, &[&str]); 17] = [
         ("frets = 22", "frets = 99", &["neck.frets", "99"]),
         ("frets = 22", "fretz = 22", &["fretz"]),
         ("action = 0.0016", "action = 0.0001", &["neck.action", "1e-4"]),
         ("action = 0.0016", "action = nan", &["neck.action", "NaN"]),
         ("scale_length = 0.6477", "scale_length = -1.0", &["neck.scale_length", "-1"]),
         ("max_bend = 3.0", "max_bend = 13", &["max_bend", "13", "semitones"]),
-        ("gain = 1.0", "gain = 0.0", &["gain", "0"]),
+        ("gain = 0.21", "gain = 0.0", &["gain", "0"]),
         ("pitch = 64.0", "pitch = 640.0", &["string[1].pitch", "640"]),
+        ("level = 0.24", "level = -1.0", &["string[1].level", "-1"]),
         ("linear_density = 3.956e-4", "linear_density = 0.0", &["string[1].linear_density"]),
         ("loss_0 = 0.757", "loss_0 = -1.0", &["string[1].loss_0", "-1"]),
         ("pan = 0.25", "pan = 2", &["string[1].pan", "2"]),
