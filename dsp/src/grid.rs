@@ -131,6 +131,15 @@ impl Reading {
         self.first as f64 + (w[1] + 2.0 * w[2] + 3.0 * w[3])
     }
 
+    /// The interval of array indices whose weights matter, end not included.
+    #[inline]
+    pub(crate) fn span(&self) -> (usize, usize) {
+        let weighs = |weight: &f64| *weight != 0.0;
+        let start = self.weights.iter().position(weighs).unwrap_or(0);
+        let end = self.weights.iter().rposition(weighs).map_or(0, |last| last + 1);
+        (self.first + start, self.first + end)
+    }
+
     /// The value hgᵀv of an array over the grid.
     #[inline(always)]
     pub fn of(&self, v: &[f64]) -> f64 {

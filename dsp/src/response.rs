@@ -13,6 +13,9 @@ use crate::solver::Answer;
 /// Up to this many contacts are one block, with the rank-one term inside.
 const ONE_BLOCK: usize = 6;
 
+/// Points of the string that a finger may touch at once, by cubic interpolation.
+const FINGER_POINTS: usize = 4;
+
 /// A run of contacts that share grid points.
 #[derive(Debug, Clone, Copy)]
 struct Block {
@@ -26,6 +29,8 @@ struct Block {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Response {
     blocks: Vec<Block>,
+    /// Room to find the blocks.
+    starts: Vec<usize>,
     entries: Vec<f64>,
     /// z and its factor ω ≥ 0; 0 when it is inside the only block.
     pull: Vec<f64>,
@@ -33,6 +38,32 @@ pub(crate) struct Response {
     /// Room for one block's matrix, and for z scaled.
     matrix: Vec<f64>,
     scaled_pull: Vec<f64>,
+}
+
+/// Splits contacts in order of place into the shortest runs that share no grid points. A wide contact may
+/// begin before a narrow one that stands before it, so a run ends only where all that follows begins later.
+fn split(
+    starts: &mut Vec<usize>,
+    count: usize,
+    span: impl Fn(usize) -> (usize, usize),
+    mut found: impl FnMut(usize, usize),
+) {
+    starts.clear();
+    starts.extend((0..count).map(|i| span(i).0));
+    for i in (1..count).rev() {
+        starts[i - 1] = starts[i - 1].min(starts[i]);
+    }
+    let (mut start, mut reach) = (0, 0);
+    for (i, &next) in starts.iter().enumerate() {
+        if i > start && next >= reach {
+            found(start, i);
+            start = i;
+        }
+        reach = reach.max(span(i).1);
+    }
+    if start < count {
+        found(start, count);
+    }
 }
 
 /// What the response needs to know of a contact.
@@ -48,17 +79,42 @@ pub(crate) trait Row {
 }
 
 impl Response {
-    /// Room for so many contacts.
-    pub fn with_capacity(contacts: usize) -> Self {
-        // Frets can be denser than the grid, and then all couple with all.
-        let square = contacts * contacts;
+    /// Room for fixed contacts, whose spans are given in order of place, and so many fingers anywhere: for
+    /// all that can be active at once, but for no square of a long board.
+    pub fn with_capacity(spans: &[(usize, usize)], fingers: usize) -> Self {
+        let mut blocks = Vec::new();
+        let mut starts = Vec::new();
+        split(
+            &mut starts,
+            spans.len(),
+            |i| spans[i],
+            |start, end| {
+                let first = spans[start..end].iter().map(|span| span.0).min();
+                let last = spans[start..end].iter().map(|span| span.1).max();
+                blocks.push((end - start, first.unwrap_or(0), last.unwrap_or(0)));
+            },
+        );
+        // The most contacts whose blocks a finger's four points can touch: from the last point of one
+        // block on, the blocks that begin within the next three.
+        let touched = (0..blocks.len()).map(|i| {
+            let reach = blocks[i].2 + FINGER_POINTS - 1;
+            blocks[i..].iter().take_while(|block| block.1 < reach).map(|block| block.0).sum::<usize>()
+        });
+        // Fingers join what they touch; at worst all of it becomes one block.
+        let joined = fingers * (touched.max().unwrap_or(0) + 1);
+        let all = spans.len() + fingers;
+        let largest =
+            blocks.iter().map(|block| block.0).max().unwrap_or(0).max(joined).min(all).max(ONE_BLOCK);
+        let fixed: usize = blocks.iter().map(|block| block.0 * block.0).sum();
+        let entries = (fixed + joined * joined).min(all * all).max(ONE_BLOCK * ONE_BLOCK);
         Response {
-            blocks: Vec::with_capacity(contacts),
-            entries: Vec::with_capacity(square),
-            pull: Vec::with_capacity(contacts),
+            blocks: Vec::with_capacity(all),
+            starts: Vec::with_capacity(all),
+            entries: Vec::with_capacity(entries),
+            pull: Vec::with_capacity(all),
             pull_factor: 0.0,
-            matrix: Vec::with_capacity(square),
-            scaled_pull: Vec::with_capacity(contacts),
+            matrix: Vec::with_capacity(largest * largest),
+            scaled_pull: Vec::with_capacity(all),
         }
     }
 
@@ -71,28 +127,26 @@ impl Response {
         self.pull.extend(rows.iter().map(Row::pull));
         let inside = count <= ONE_BLOCK;
         self.pull_factor = if inside { 0.0 } else { pull_factor };
-        let mut start = 0;
-        while start < count {
-            let mut end = start + 1;
-            let mut reach = rows[start].span().1;
-            while end < count && (inside || rows[end].span().0 < reach) {
-                reach = reach.max(rows[end].span().1);
-                end += 1;
-            }
-            self.blocks.push(Block { start, len: end - start, offset: self.entries.len() });
+        let Response { blocks, starts, entries, pull, .. } = self;
+        let mut add_block = |start: usize, end: usize| {
+            blocks.push(Block { start, len: end - start, offset: entries.len() });
             for i in start..end {
                 for j in start..end {
                     let mut entry = rows[i].coupling(&rows[j]);
                     if inside {
-                        entry -= pull_factor * (self.pull[i] * self.pull[j]);
+                        entry -= pull_factor * (pull[i] * pull[j]);
                     }
                     if i == j {
                         entry += rows[i].own_mobility();
                     }
-                    self.entries.push(entry);
+                    entries.push(entry);
                 }
             }
-            start = end;
+        };
+        if inside && count > 0 {
+            add_block(0, count);
+        } else {
+            split(starts, count, |i| rows[i].span(), add_block);
         }
     }
 }
@@ -227,5 +281,75 @@ fn solve_any(room: &mut Vec<f64>, entries: &[f64], roots: &[f64], y: &mut [f64])
         }
         // Overflow only; the caller's energy test then falls back on a stiffer secant.
         None => *room = Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::{Grid, Reading};
+
+    struct Point(Reading);
+
+    impl Row for Point {
+        fn span(&self) -> (usize, usize) {
+            self.0.span()
+        }
+        fn coupling(&self, other: &Self) -> f64 {
+            self.0.overlap(&other.0)
+        }
+        fn own_mobility(&self) -> f64 {
+            0.0
+        }
+        fn pull(&self) -> f64 {
+            self.0.centre()
+        }
+    }
+
+    /// Numbers from 0 to 1 that look random (the constants of Knuth's MMIX generator).
+    fn random(state: &mut u64) -> f64 {
+        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*state >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Points of a board that ends somewhere, of frets and of fingers, all in order of place.
+    fn points(grid: &Grid, fingers: usize, state: &mut u64) -> (Vec<Reading>, Vec<Reading>) {
+        let board = (random(state) * grid.intervals as f64) as usize;
+        let crowd = random(state);
+        let places = (0..(random(state) * 20.0) as usize).map(|_| 0.01 + 0.98 * random(state) * crowd);
+        let mut fixed: Vec<_> = places.map(|place| grid.reading(place)).collect();
+        fixed.extend((1..=board.min(grid.intervals - 1)).map(|node| Reading::at_node(grid, node)));
+        let mut all = fixed.clone();
+        all.extend((0..fingers).map(|_| grid.reading(0.01 + 0.98 * random(state) * crowd)));
+        for readings in [&mut fixed, &mut all] {
+            readings.sort_by(|a, b| a.centre().total_cmp(&b.centre()));
+        }
+        (fixed, all)
+    }
+
+    #[test]
+    fn room_is_enough_and_blocks_share_nothing() {
+        let mut state = 1;
+        for run in 0..3000 {
+            let grid = Grid::new(1.0, 4 + run % 60, 1e-5);
+            let fingers = run % 5;
+            let (fixed, all) = points(&grid, fingers, &mut state);
+            let spans: Vec<_> = fixed.iter().map(Reading::span).collect();
+            let mut response = Response::with_capacity(&spans, fingers);
+            let room = (response.entries.capacity(), response.matrix.capacity());
+            let kept: Vec<_> =
+                all.iter().filter(|_| random(&mut state) < 0.9).map(|&reading| Point(reading)).collect();
+            response.gather(&kept, 1.0);
+            assert_eq!(response.entries.capacity(), room.0);
+            let block_of = |row: usize| response.blocks.iter().find(|block| row < block.start + block.len);
+            for (i, point) in kept.iter().enumerate() {
+                let block = block_of(i).expect("every contact is in a block");
+                assert!(block.len * block.len <= room.1);
+                for (j, other) in kept.iter().enumerate() {
+                    let apart = j < block.start || j >= block.start + block.len;
+                    assert!(!apart || point.coupling(other) == 0.0, "{i} and {j} of run {run}");
+                }
+            }
+        }
     }
 }

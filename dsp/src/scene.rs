@@ -234,6 +234,10 @@ impl<'de> Deserialize<'de> for ListeningPoint {
 /// The most strings, plucks or fingers of a scene, a limit against descriptions that fill the memory.
 const MOST_THINGS: usize = 1000;
 
+/// The most fingers on one string: all that touch each other are solved together, in memory that grows
+/// with their square.
+const MOST_FINGERS: usize = 100;
+
 impl Scene {
     /// Reads and checks a scene.
     ///
@@ -284,6 +288,13 @@ impl Scene {
             let name = format!("finger[{}]", i + 1);
             let length = self.length_of(&name, finger.string)?;
             finger.check(&name, length)?;
+        }
+        for number in 1..=self.string.len() {
+            let count = self.finger.iter().filter(|finger| finger.string == number).count();
+            if count > MOST_FINGERS {
+                let accepted = format!("there must be at most {MOST_FINGERS}");
+                return Err(Error::range(format!("number of fingers on string[{number}]"), count, accepted));
+            }
         }
         if let ListeningPoint::At(place) = self.output.position {
             for string in &self.string {

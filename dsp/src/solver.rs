@@ -72,7 +72,7 @@ impl Active {
 impl Row for Active {
     #[inline]
     fn span(&self) -> (usize, usize) {
-        (self.reading.first, self.reading.first + 4)
+        self.reading.span()
     }
     #[inline]
     fn coupling(&self, other: &Self) -> f64 {
@@ -174,10 +174,11 @@ const LINE_SEARCHES: usize = 12;
 const FALLBACKS: u32 = 200;
 
 impl Solver {
-    /// Room for so many contacts.
-    pub fn with_capacity(contacts: usize) -> Self {
+    /// Room for fixed contacts with these spans, in order of place, and so many fingers.
+    pub fn with_capacity(spans: &[(usize, usize)], fingers: usize) -> Self {
+        let contacts = spans.len() + fingers;
         Solver {
-            response: Response::with_capacity(contacts),
+            response: Response::with_capacity(spans, fingers),
             room: Vec::with_capacity(ARRAYS * contacts),
             aside: Vec::with_capacity(contacts),
         }

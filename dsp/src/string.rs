@@ -38,6 +38,7 @@ impl Scratch {
         let contacts = model.contacts.len() + model.finger_slots;
         let grid = || vec![0.0; model.grid.padded_len()];
         let stiffness = model.stiffness(model.string.tension);
+        let spans: Vec<_> = model.contacts.iter().map(|contact| contact.reading.span()).collect();
         Scratch {
             kernel: Kernel::new(model),
             weights: Weights::new(model, &stiffness),
@@ -47,7 +48,7 @@ impl Scratch {
             prediction: grid(),
             motion: grid(),
             displacement: grid(),
-            solver: Solver::with_capacity(contacts),
+            solver: Solver::with_capacity(&spans, model.finger_slots),
             active: Vec::with_capacity(contacts),
             held: vec![0; contacts],
             near_room: Vec::with_capacity(model.contacts.len()),
