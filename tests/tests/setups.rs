@@ -150,7 +150,7 @@ fn wrong_setups_are_refused_in_one_line() {
         ("action = 0.0016", "action = nan", &["neck.action", "NaN"]),
         ("scale_length = 0.6477", "scale_length = -1.0", &["neck.scale_length", "-1"]),
         ("max_bend = 3.0", "max_bend = 13", &["max_bend", "13", "semitones"]),
-        ("gain = 0.21", "gain = 0.0", &["gain", "0"]),
+        ("gain = 0.22", "gain = 0.0", &["gain", "0"]),
         ("pitch = 64.0", "pitch = 640.0", &["string[1].pitch", "640"]),
         ("level = 0.24", "level = -1.0", &["string[1].level", "-1"]),
         ("linear_density = 3.956e-4", "linear_density = 0.0", &["string[1].linear_density"]),
