@@ -56,7 +56,9 @@ enum Command {
 
 /// Arguments of `low-action render`.
 #[derive(Debug, Clone, Args)]
-#[command(after_help = "\
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
 Examples:
   low-action render                            the built-in demo, to demo.wav
   low-action render song.mid                   to song.wav in the current folder
@@ -68,7 +70,8 @@ Examples:
 Notes go to the string and fret nearest to the hand; those no string can give move by octaves.
 Channel 10 is percussion and left out unless asked for with --channel 10.
 
-Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept).")]
+Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept)."
+)]
 pub struct RenderArgs {
     /// MIDI file to play, - for standard input; without it, the built-in demo.
     pub song: Option<PathBuf>,
@@ -82,7 +85,7 @@ pub struct RenderArgs {
     #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live)]
     pub quality: Quality,
     /// Samples per second, 8000 to 384000.
-    #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = clap::value_parser!(u32).range(8_000..=384_000))]
+    #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate)]
     pub sample_rate: u32,
     /// Sample format: 16 or 24 bit whole numbers, or 32f for floating point.
     #[arg(short, long, value_name = "16|24|32f", default_value_t = BitDepth::Int24)]
@@ -113,7 +116,9 @@ pub struct RenderArgs {
 
 /// Arguments of `low-action scene`.
 #[derive(Debug, Clone, Args)]
-#[command(after_help = "\
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
 Examples:
   low-action scene scene.toml                          computed, checked, summed up
   low-action scene scene.toml --wav out.wav
@@ -135,7 +140,8 @@ the energies half a sample later.
 The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to
 1e-9 of the largest energy.
 
-Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check.")]
+Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check."
+)]
 pub struct SceneArgs {
     /// Scene file (TOML, SI units), - for standard input.
     pub file: PathBuf,

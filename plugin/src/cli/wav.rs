@@ -115,10 +115,16 @@ impl WavFile {
 
     /// Completes the file and lets it appear.
     pub(super) fn finish(self) -> Result<Findings> {
-        let Self { path, draft, writer, findings, .. } = self;
-        writer.finalize().map_err(plain).with_context(|| format!("cannot write {}", path.display()))?;
+        let (draft, findings) = self.complete()?;
         draft.publish()?;
         Ok(findings)
+    }
+
+    /// Completes the file without letting it appear yet, so that several can appear together.
+    pub(super) fn complete(self) -> Result<(Draft, Findings)> {
+        let Self { path, draft, writer, findings, .. } = self;
+        writer.finalize().map_err(plain).with_context(|| format!("cannot write {}", path.display()))?;
+        Ok((draft, findings))
     }
 
     fn refused(&self, error: hound::Error) -> anyhow::Error {

@@ -1,0 +1,74 @@
+//! Values of options that are more than a number.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// Longest tail that `auto` waits for, s; open strings of a guitar are down 60 dB after 10 to 20 s.
+const LONGEST_TAIL: f64 = 30.0;
+
+/// How long to go on after the last event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tail {
+    /// Until it is quiet: 72 dB below the song's peak for 50 ms, at least 0.1 s, at most 30 s.
+    Auto,
+    /// So many seconds, 0 to 3,600.
+    Seconds(f64),
+}
+
+impl Tail {
+    /// The most it can last, s.
+    pub(super) fn longest(self) -> f64 {
+        match self {
+            Self::Auto => LONGEST_TAIL,
+            Self::Seconds(seconds) => seconds,
+        }
+    }
+}
+
+impl fmt::Display for Tail {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => out.write_str("auto"),
+            Self::Seconds(seconds) => write!(out, "{seconds}"),
+        }
+    }
+}
+
+impl FromStr for Tail {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "auto" => Ok(Self::Auto),
+            "none" => Ok(Self::Seconds(0.0)),
+            _ => match text.parse::<f64>() {
+                Ok(seconds) if (0.0..=3_600.0).contains(&seconds) => Ok(Self::Seconds(seconds)),
+                _ => Err("must be auto, none or 0 to 3600 seconds".into()),
+            },
+        }
+    }
+}
+
+/// Reads `--sample-rate`.
+pub(in crate::cli) fn parse_rate(text: &str) -> Result<u32, String> {
+    match text.parse::<u32>() {
+        Ok(rate) if (8_000..=384_000).contains(&rate) => Ok(rate),
+        _ => Err("must be a whole number of Hz from 8000 to 384000".into()),
+    }
+}
+
+/// Reads `--max-length`.
+pub(in crate::cli) fn parse_minutes(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(minutes) if minutes > 0.0 && minutes <= 1e6 => Ok(minutes),
+        _ => Err("must be above 0 and at most 1000000 minutes".into()),
+    }
+}
+
+/// Reads `--variation`.
+pub(in crate::cli) fn parse_variation(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(amount) if (0.0..=1.0).contains(&amount) => Ok(amount),
+        _ => Err("must be 0 to 1".into()),
+    }
+}

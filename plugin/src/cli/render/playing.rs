@@ -1,0 +1,117 @@
+//! A song on its way through the engine into files.
+
+use anyhow::Result;
+
+use super::files::Files;
+use super::options::Tail;
+use crate::cli::wav::Findings;
+use crate::cli::{RenderArgs, progress};
+use crate::engine::Engine;
+use crate::midi_file::Song;
+use crate::performance::Compromises;
+
+/// Samples computed at a time.
+const BLOCK: usize = 512;
+/// Shortest tail of `auto`, s: as far back as the engine's level looks, and once more.
+const SHORTEST_TAIL: f64 = 0.1;
+/// `auto` ends when the sound has stayed below this part of the song's peak: −72 dB.
+const QUIET: f64 = 2.5e-4;
+/// `auto` ends in any case below this level: −120 dBFS, under the last bit of 16.
+const INAUDIBLE: f64 = 1e-6;
+
+/// What came of it.
+pub(super) struct Rendered {
+    /// Of the stereo file.
+    pub mix: Findings,
+    /// Of the strings' own files.
+    pub stems: Findings,
+    pub compromises: Compromises,
+    pub lost_events: u64,
+    pub seconds: f64,
+}
+
+/// A song on its way through the engine.
+pub(super) struct Playing<'a> {
+    pub engine: Engine,
+    pub song: &'a Song,
+    pub arguments: &'a RenderArgs,
+    pub files: Files,
+}
+
+impl Playing<'_> {
+    /// Plays it to its end and its tail, and lets the files appear.
+    pub(super) fn play(mut self) -> Result<Rendered> {
+        let rate = self.arguments.sample_rate;
+        let bar = progress::bar(self.song.duration());
+        let mut buffers = Buffers::new(self.files.stems.len());
+        let mut peak = 0.0_f64;
+        let mut events =
+            self.song.events.iter().map(|event| (event.time.sample(rate), event.event)).peekable();
+        // Blocks end at events, so that any number of them may share a sample.
+        loop {
+            while let Some((_, event)) = events.next_if(|&(time, _)| time <= self.engine.now()) {
+                self.engine.event(0, event);
+            }
+            let Some(&(next, _)) = events.peek() else { break };
+            let frames = (next - self.engine.now()).min(BLOCK as u64);
+            self.block(&mut buffers, frames as usize)?;
+            peak = peak.max(self.engine.level());
+            bar.set_position(self.engine.now() / u64::from(rate));
+        }
+        let end = self.engine.now();
+        let last = end + (self.arguments.tail.longest() * f64::from(rate)).round() as u64;
+        let earliest = end + (SHORTEST_TAIL * f64::from(rate)).round() as u64;
+        while self.engine.now() < last {
+            let now = self.engine.now();
+            peak = peak.max(self.engine.level());
+            let quiet = self.engine.level() <= (QUIET * peak).max(INAUDIBLE);
+            if self.arguments.tail == Tail::Auto && now >= earliest && quiet {
+                break;
+            }
+            self.block(&mut buffers, (last - now).min(BLOCK as u64) as usize)?;
+        }
+        bar.finish_and_clear();
+        self.finish()
+    }
+
+    /// Computes and writes so many samples.
+    fn block(&mut self, buffers: &mut Buffers, frames: usize) -> Result<()> {
+        let Buffers { left, right, stems } = buffers;
+        let (left, right) = (&mut left[..frames], &mut right[..frames]);
+        if stems.is_empty() {
+            self.engine.process(left, right);
+        } else {
+            let mut parts: Vec<&mut [f32]> = stems.iter_mut().map(|stem| &mut stem[..frames]).collect();
+            self.engine.process_stems(&mut parts, left, right);
+        }
+        self.files.mix.write(left.iter().zip(right.iter()).flat_map(|(&left, &right)| [left, right]))?;
+        for (file, stem) in self.files.stems.iter_mut().zip(stems) {
+            file.write(stem[..frames].iter().copied())?;
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Result<Rendered> {
+        let [mix, stems] = self.files.finish()?;
+        Ok(Rendered {
+            mix,
+            stems,
+            compromises: self.engine.compromises(),
+            lost_events: self.engine.lost_events(),
+            seconds: self.engine.now() as f64 / f64::from(self.arguments.sample_rate),
+        })
+    }
+}
+
+/// Room for one block.
+struct Buffers {
+    left: Vec<f32>,
+    right: Vec<f32>,
+    stems: Vec<Vec<f32>>,
+}
+
+impl Buffers {
+    fn new(stems: usize) -> Self {
+        Self { left: vec![0.0; BLOCK], right: vec![0.0; BLOCK], stems: vec![vec![0.0; BLOCK]; stems] }
+    }
+}

@@ -1,0 +1,384 @@
+//! The promise of `low-action render`: it plays what can be played, refuses the rest in one clear line
+//! with the right exit code, and never leaves half a file. Run on the program itself.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use hound::{SampleFormat, WavReader};
+use tempfile::TempDir;
+
+/// A folder to work in, with a short song.
+struct Room {
+    folder: TempDir,
+}
+
+/// A MIDI file of format 0 with 96 ticks a beat, half a second each.
+fn midi(events: &[(u8, &[u8])]) -> Vec<u8> {
+    let mut track = Vec::new();
+    for (delta, event) in events {
+        track.push(*delta);
+        track.extend_from_slice(event);
+    }
+    track.extend([0, 0xFF, 0x2F, 0]);
+    let mut bytes = b"MThd\0\0\0\x06\0\0\0\x01\0\x60MTrk".to_vec();
+    bytes.extend((track.len() as u32).to_be_bytes());
+    bytes.extend(track);
+    bytes
+}
+
+/// Two notes within a quarter of a second.
+fn song() -> Vec<u8> {
+    midi(&[(0, &[0x90, 52, 90]), (24, &[0x90, 59, 90]), (24, &[0x80, 52, 0]), (0, &[0x80, 59, 0])])
+}
+
+impl Room {
+    fn new() -> Self {
+        let room = Self { folder: TempDir::new().unwrap() };
+        fs::write(room.path("song.mid"), song()).unwrap();
+        room
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_low-action"));
+        command.current_dir(self.folder.path()).args(arguments).stdin(Stdio::null());
+        command
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().unwrap()
+    }
+
+    /// Renders and expects success; returns what was said.
+    fn renders(&self, arguments: &[&str]) -> String {
+        let output = self.run(&[&["render"], arguments].concat());
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(output.stdout.is_empty());
+        said
+    }
+
+    /// Runs and expects an exit code, one line of error, and no new file.
+    fn refuses(&self, code: i32, arguments: &[&str]) -> String {
+        let before = self.files();
+        let output = self.run(arguments);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+        assert!(said.starts_with("error: ") && said.trim_end().lines().count() == 1, "{arguments:?}: {said}");
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+        assert_eq!(self.files(), before, "{arguments:?} left something behind");
+        said
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        let mut files: Vec<PathBuf> =
+            fs::read_dir(self.folder.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
+        files.sort();
+        files
+    }
+}
+
+fn peak(path: &Path) -> f64 {
+    let mut reader = WavReader::open(path).unwrap();
+    let full = f64::from(1_u32 << (reader.spec().bits_per_sample - 1));
+    match reader.spec().sample_format {
+        SampleFormat::Int => {
+            reader.samples::<i32>().map(|sample| f64::from(sample.unwrap()).abs() / full).fold(0.0, f64::max)
+        }
+        SampleFormat::Float => {
+            reader.samples::<f32>().map(|sample| f64::from(sample.unwrap()).abs()).fold(0.0, f64::max)
+        }
+    }
+}
+
+#[test]
+fn a_song_becomes_a_24_bit_stereo_file_named_after_it() {
+    let room = Room::new();
+    fs::create_dir(room.path("songs")).unwrap();
+    fs::rename(room.path("song.mid"), room.path("songs/two.notes.mid")).unwrap();
+    let said = room.renders(&["songs/two.notes.mid"]);
+    assert!(said.starts_with("two.notes.wav: ") && said.lines().count() == 1, "{said}");
+    let reader = WavReader::open(room.path("two.notes.wav")).unwrap();
+    let spec = reader.spec();
+    assert_eq!((spec.channels, spec.sample_rate, spec.bits_per_sample), (2, 48_000, 24));
+    assert_eq!(spec.sample_format, SampleFormat::Int);
+    // A quarter of a second and the tail of damped strings.
+    let seconds = f64::from(reader.duration()) / 48_000.0;
+    assert!((0.35..1.5).contains(&seconds), "{seconds} s");
+    assert!(peak(&room.path("two.notes.wav")) > 0.01);
+    // Nothing else is left in the folder, and the file has ordinary permissions.
+    assert_eq!(room.files(), [room.path("songs"), room.path("two.notes.wav")]);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        fs::write(room.path("ordinary"), "").unwrap();
+        let mode = |name| fs::metadata(room.path(name)).unwrap().permissions().mode();
+        assert_eq!(mode("two.notes.wav"), mode("ordinary"));
+    }
+}
+
+#[test]
+fn formats_rates_and_tails_are_as_asked() {
+    let room = Room::new();
+    room.renders(&[
+        "song.mid",
+        "-o",
+        "a.wav",
+        "--bit-depth",
+        "16",
+        "--sample-rate",
+        "44100",
+        "--tail",
+        "none",
+    ]);
+    let reader = WavReader::open(room.path("a.wav")).unwrap();
+    assert_eq!((reader.spec().bits_per_sample, reader.spec().sample_rate), (16, 44_100));
+    assert_eq!(reader.duration(), 11_025, "a quarter of a second and not a sample more");
+
+    room.renders(&["song.mid", "-o", "b.wav", "--bit-depth", "32f", "--tail", "0.5"]);
+    let reader = WavReader::open(room.path("b.wav")).unwrap();
+    assert_eq!(reader.spec().sample_format, SampleFormat::Float);
+    assert_eq!(reader.duration(), 36_000);
+
+    for (quality, rate) in [("draft", "8000"), ("studio", "22050"), ("reference", "22050")] {
+        room.renders(&["song.mid", "-o", "c.wav", "--quality", quality, "--sample-rate", rate]);
+        assert!(peak(&room.path("c.wav")) > 0.01, "{quality}");
+    }
+}
+
+#[test]
+fn the_same_bits_on_every_run_and_others_with_another_seed() {
+    let room = Room::new();
+    let render = |options: &[&str]| {
+        room.renders(&[&["song.mid", "-o", "out.wav"], options].concat());
+        fs::read(room.path("out.wav")).unwrap()
+    };
+    let usual = render(&[]);
+    assert!(render(&[]) == usual);
+    assert!(render(&["--seed", "1"]) != usual);
+    assert!(render(&["--variation", "0"]) == render(&["--variation", "0", "--seed", "1"]));
+}
+
+#[test]
+fn stems_are_each_strings_own_sound() {
+    let room = Room::new();
+    room.renders(&["song.mid", "-o", "mix.wav", "--stems", "deep/stems"]);
+    let mut names: Vec<String> = fs::read_dir(room.path("deep/stems"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["1-E4.wav", "2-B3.wav", "3-G3.wav", "4-D3.wav", "5-A2.wav", "6-E2.wav"]);
+    let length = |path: PathBuf| WavReader::open(path).unwrap().duration();
+    for name in &names {
+        assert_eq!(length(room.path("deep/stems").join(name)), length(room.path("mix.wav")));
+    }
+    // B3 is the open second string, and only the two strings that were plucked sound.
+    assert!(peak(&room.path("deep/stems/2-B3.wav")) > 0.01);
+    let sounding = names.iter().filter(|name| peak(&room.path("deep/stems").join(name)) > 0.0).count();
+    assert_eq!(sounding, 2);
+    // With stems or without, the mix is the same.
+    room.renders(&["song.mid", "-o", "alone.wav"]);
+    assert!(fs::read(room.path("mix.wav")).unwrap() == fs::read(room.path("alone.wav")).unwrap());
+}
+
+#[test]
+fn standard_input_and_output_work() {
+    let room = Room::new();
+    room.renders(&["song.mid", "-o", "file.wav"]);
+    let mut child = room
+        .command(&["render", "-", "-o", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(&song()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stdout == fs::read(room.path("file.wav")).unwrap());
+    assert!(String::from_utf8(output.stderr).unwrap().starts_with("standard output: "));
+}
+
+#[test]
+fn the_demo_plays_without_a_song() {
+    let room = Room::new();
+    let said = room.renders(&["--quality", "draft", "--sample-rate", "8000"]);
+    assert!(said.contains("demo.wav"), "{said}");
+    assert!(!said.contains("moved") && !said.contains("left out"), "{said}");
+    let reader = WavReader::open(room.path("demo.wav")).unwrap();
+    assert!((20 * 8_000..40 * 8_000).contains(&reader.duration()));
+}
+
+#[test]
+fn what_plays_differently_from_the_page_is_said_once() {
+    let room = Room::new();
+    let events: [(u8, &[u8]); 7] = [
+        (0, &[0x90, 20, 90]),
+        (0, &[0x90, 120, 90]),
+        (0, &[0x99, 36, 90]),
+        (0, &[0x99, 38, 90]),
+        (24, &[0x80, 20, 0]),
+        (0, &[0x80, 120, 0]),
+        (0, &[0x99, 38, 0]),
+    ];
+    fs::write(room.path("odd.mid"), midi(&events)).unwrap();
+    let said = room.renders(&["odd.mid"]);
+    let warnings: Vec<&str> = said.lines().filter(|line| line.starts_with("warning: ")).collect();
+    assert_eq!(warnings.len(), 2, "{said}");
+    assert!(warnings[0].contains("channel 10") && warnings[0].contains("2 of its notes"), "{said}");
+    assert!(warnings[1].contains("2 notes were moved by octaves"), "{said}");
+
+    fs::write(room.path("empty.mid"), midi(&[])).unwrap();
+    let said = room.renders(&["empty.mid"]);
+    assert!(said.contains("warning: no notes") && said.contains("silent"), "{said}");
+    assert_eq!(peak(&room.path("empty.wav")), 0.0);
+
+    let chord: Vec<[u8; 3]> = (14..114).map(|key| [0x90, key, 60]).collect();
+    let chord: Vec<(u8, &[u8])> = chord.iter().map(|event| (0, &event[..])).collect();
+    fs::write(room.path("hundred.mid"), midi(&chord)).unwrap();
+    let said = room.renders(&["hundred.mid", "--tail", "0.2"]);
+    assert!(said.contains("94 notes were left out"), "{said}");
+}
+
+#[test]
+fn clipping_is_said_and_saturates() {
+    let room = Room::new();
+    let setup = include_str!("../../dsp/instruments/electric.toml");
+    let gain = setup.lines().find(|line| line.starts_with("gain")).unwrap();
+    fs::write(room.path("loud.toml"), setup.replace(gain, "gain = 1000.0")).unwrap();
+    let arguments = ["song.mid", "-o", "loud.wav", "--instrument", "loud.toml"];
+    let said = room.renders(&arguments);
+    assert!(said.contains("warning: the sound peaks at +") && said.contains("clipped"), "{said}");
+    assert_eq!(peak(&room.path("loud.wav")), 1.0);
+    let said = room.renders(&[&arguments[..], &["--bit-depth", "32f"]].concat());
+    assert!(!said.contains("warning"), "{said}");
+    assert!(peak(&room.path("loud.wav")) > 1.0);
+}
+
+#[test]
+fn wrong_usage_is_code_2() {
+    let room = Room::new();
+    for (arguments, expected) in [
+        (&["render", "song.mid", "--sample-rate", "0"][..], "8000 to 384000"),
+        (&["render", "song.mid", "--sample-rate", "-48000"], "8000 to 384000"),
+        (&["render", "song.mid", "--sample-rate", "1e12"], "'1e12' for '--sample-rate <HZ>': must be"),
+        (&["render", "song.mid", "--bit-depth", "20"], "16, 24 or 32f"),
+        (&["render", "song.mid", "--tail", "-1"], "auto, none or 0 to 3600"),
+        (&["render", "song.mid", "--tail", "nan"], "auto, none or 0 to 3600"),
+        (&["render", "song.mid", "--tail", "1e18"], "auto, none or 0 to 3600"),
+        (&["render", "song.mid", "--quality", "best"], "draft, live, studio or reference"),
+        (&["render", "song.mid", "--channel", "17"], "1..=16"),
+        (&["render", "song.mid", "--track", "0"], "--track"),
+        (&["render", "song.mid", "--max-length", "0"], "above 0"),
+        (&["render", "song.mid", "--variation", "2"], "0 to 1"),
+        (&["render", "song.mid", "--instrument", "banjo"], "electric, classical, steel, bass"),
+        (&["render", "song.mid", "more.mid"], "more.mid"),
+        (&["render", "song.mid", "--seed", "-1"], "--seed"),
+        (&["render", "--bogus"], "--bogus"),
+        (&["sing"], "sing"),
+    ] {
+        let said = room.refuses(2, arguments);
+        assert!(said.contains(expected), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
+    let room = Room::new();
+    let whole = song();
+    fs::write(room.path("cut.mid"), &whole[..whole.len() - 9]).unwrap();
+    fs::write(room.path("text.mid"), "not music").unwrap();
+    fs::write(room.path("empty"), "").unwrap();
+    fs::create_dir(room.path("folder")).unwrap();
+    fs::write(room.path("bad.toml"), "name = \"x\"\nbogus = 1\n").unwrap();
+    let electric = include_str!("../../dsp/instruments/electric.toml");
+    fs::write(room.path("heavy.toml"), electric.replace("mass = ", "mass = -")).unwrap();
+    for (arguments, expected) in [
+        (&["render", "missing.mid"][..], "cannot read missing.mid"),
+        (&["render", "folder"], "folder"),
+        (&["render", "text.mid"], "not a MIDI file"),
+        (&["render", "empty"], "not a MIDI file"),
+        (&["render", "cut.mid"], "truncated MIDI file"),
+        (&["render", "song.mid", "--track", "2"], "--track takes 1 to 1"),
+        (&["render", "song.mid", "-o", "no/such/folder/x.wav"], "cannot write no/such/folder/x.wav"),
+        (&["render", "song.mid", "-o", "text.mid/x.wav"], "cannot write text.mid/x.wav"),
+        (&["render", "song.mid", "-o", "folder"], "it is a folder"),
+        (&["render", "song.mid", "-o", "song.mid"], "the song itself"),
+        (&["render", "song.mid", "--stems", "text.mid"], "cannot make the folder text.mid"),
+        (&["render", "song.mid", "--instrument", "missing.toml"], "missing.toml"),
+        (&["render", "song.mid", "--instrument", "bad.toml"], "bogus"),
+        (&["render", "song.mid", "--instrument", "heavy.toml"], "mass"),
+        (&["render", "song.mid", "--instrument", "song.mid"], "song.mid"),
+    ] {
+        let said = room.refuses(1, arguments);
+        assert!(said.contains(expected), "{arguments:?}: {said}");
+    }
+    assert_eq!(fs::read(room.path("song.mid")).unwrap(), whole);
+}
+
+#[test]
+fn an_hour_is_the_limit_unless_another_is_named() {
+    let room = Room::new();
+    // 17 seconds a beat, and two notes 240 beats apart: 68 minutes.
+    let slow: [u8; 6] = [0xFF, 0x51, 3, 0xFF, 0xFF, 0xFF];
+    let mut events: Vec<(u8, &[u8])> = vec![(0, &slow), (0, &[0x90, 60, 90])];
+    events.extend(std::iter::repeat_n((96, &[0xB0, 7, 100][..]), 242));
+    events.push((96, &[0x80, 60, 0]));
+    fs::write(room.path("long.mid"), midi(&events)).unwrap();
+    let said = room.refuses(1, &["render", "long.mid"]);
+    assert!(
+        said.contains("minutes") && said.contains("limit of 60") && said.contains("--max-length"),
+        "{said}"
+    );
+    // More than a WAV file holds, whatever is allowed.
+    let most =
+        ["render", "long.mid", "--max-length", "1000", "--sample-rate", "384000", "--bit-depth", "32f"];
+    assert!(room.refuses(1, &most).contains("do not fit in a WAV file"));
+    // The limit can be lowered, too.
+    let said = room.refuses(1, &["render", "song.mid", "--max-length", "0.001"]);
+    assert!(said.contains("limit of 0.001"), "{said}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn devices_are_written_directly() {
+    let room = Room::new();
+    room.renders(&["song.mid", "-o", "/dev/null"]);
+    let said = room.refuses(1, &["render", "song.mid", "-o", "/dev/full"]);
+    assert!(said.contains("cannot write /dev/full") && said.contains("space"), "{said}");
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let output = room.command(&["render", "song.mid", "-o", "-"]).stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    // An endless source ends and is refused.
+    assert!(room.refuses(1, &["render", "/dev/zero"]).contains("at most"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link() {
+    let room = Room::new();
+    fs::write(room.path("real.wav"), "old").unwrap();
+    std::os::unix::fs::symlink("real.wav", room.path("link.wav")).unwrap();
+    room.renders(&["song.mid", "-o", "link.wav"]);
+    assert!(fs::symlink_metadata(room.path("link.wav")).unwrap().is_symlink());
+    assert!(peak(&room.path("real.wav")) > 0.01);
+}
+
+#[test]
+fn without_a_command_it_says_how_to_get_the_instrument() {
+    let room = Room::new();
+    if !cfg!(feature = "standalone") {
+        assert!(room.refuses(2, &[]).contains("--features standalone"));
+    }
+    for arguments in [&["--help"][..], &["render", "--help"], &["scene", "--help"], &["--version"]] {
+        let output = room.run(arguments);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(output.stderr.is_empty() && !output.stdout.is_empty());
+    }
+}
