@@ -2,7 +2,9 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use clack_host::events::event_types::{MidiEvent, NoteOffEvent, NoteOnEvent, ParamValueEvent};
+use clack_host::events::event_types::{
+    MidiEvent, NoteChokeEvent, NoteOffEvent, NoteOnEvent, ParamValueEvent,
+};
 use clack_host::prelude::*;
 
 /// What a performer or a host does to the plugin.
@@ -14,7 +16,7 @@ pub enum Action {
         channel: u8,
         /// MIDI key, 0 to 127.
         key: u8,
-        /// How hard, 1 to 127.
+        /// How hard, 0 to 127; 0 is the softest a host can ask for, not a release.
         velocity: u8,
     },
     /// A key goes up.
@@ -24,6 +26,8 @@ pub enum Action {
         /// MIDI key, 0 to 127.
         key: u8,
     },
+    /// Every note is cut short.
+    ChokeAll,
     /// Three bytes of MIDI.
     Midi([u8; 3]),
     /// A parameter is set, by its CLAP identifier, in the units CLAP shows to a host.
@@ -149,6 +153,7 @@ fn events_between(score: &Score, start: u64, end: u64) -> EventBuffer {
             Action::NoteOff { channel, key } => {
                 events.push(&NoteOffEvent::new(time, note(channel, key), 0.0));
             }
+            Action::ChokeAll => events.push(&NoteChokeEvent::new(time, Pckn::match_all())),
             Action::Midi(bytes) => events.push(&MidiEvent::new(time, 0, bytes)),
             Action::Parameter(id, value) => {
                 events.push(&ParamValueEvent::new(time, ClapId::new(id), Pckn::match_all(), value));

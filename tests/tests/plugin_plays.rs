@@ -44,9 +44,11 @@ fn player_event(action: Action) -> PlayerEvent {
     let unit = |byte: u8| f32::from(byte) / 127.0;
     match action {
         Action::NoteOn { channel, key, velocity } => {
-            PlayerEvent::NoteOn { channel, key, velocity: unit(velocity) }
+            // In a host's terms a velocity of 0 is a soft note.
+            PlayerEvent::NoteOn { channel, key, velocity: unit(velocity.max(1)) }
         }
         Action::NoteOff { channel, key } => PlayerEvent::NoteOff { channel, key },
+        Action::ChokeAll => PlayerEvent::AllNotesOff,
         Action::Midi([status, first, second]) => {
             let channel = status & 15;
             match status >> 4 {
@@ -117,6 +119,22 @@ fn the_plugin_plays_what_the_engine_plays() {
         assert_same_bits(&expected, &found, &format!("blocks of {blocks:?}"));
     }
     assert!(!host.take_restart_request());
+}
+
+#[test]
+fn hosts_can_cut_everything_and_play_softest() {
+    let score = vec![
+        (0, Action::Midi([0xB3, 64, 127])),
+        (10, Action::NoteOn { channel: 3, key: 50, velocity: 100 }),
+        (20, Action::NoteOn { channel: 5, key: 59, velocity: 100 }),
+        (6000, Action::ChokeAll),
+        (24_000, Action::NoteOn { channel: 0, key: 57, velocity: 0 }),
+    ];
+    let expected = engine_alone(&options("electric", RATE), &score, 36_000);
+    let found = Host::new().play(RATE, &score, 36_000, &[512]);
+    assert_same_bits(&expected, &found, "chokes and velocity 0");
+    assert!(rms(&found[0][22_000..24_000]) < 0.02 * rms(&found[0][4000..6000]), "the choke left sound");
+    assert!(rms(&found[0][26_000..]) > rms(&found[0][22_000..24_000]), "the softest note is not heard");
 }
 
 #[test]
