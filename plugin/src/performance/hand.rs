@@ -16,13 +16,14 @@
 //! Everything is a function of the hand's place and the strings' use, so the same notes always
 //! fall on the same strings.
 
+mod search;
+
+use search::Search;
+
 /// Frets under the hand without reaching: one for each finger.
 const SPAN: usize = 4;
 /// Most notes considered at one instant; of more, the last to arrive are left out.
 pub(crate) const LARGEST_CHORD: usize = 128;
-/// Nodes of the search for one place of the hand. Six notes on six strings take a few hundred
-/// after pruning; the bound is for instruments with very many strings.
-const SEARCH_LIMIT: usize = 2_000;
 
 // Costs, in frets of hand movement. Only their order and rough size matter.
 /// Moving the hand by a fret.
@@ -283,147 +284,5 @@ impl Hand {
     }
 }
 
-/// Depth-first search for the cheapest assignment, pruned by the least the rest can cost.
-struct Search<'a> {
-    strings: usize,
-    costs: &'a [f64],
-    bounds: &'a [f64],
-    taken: &'a mut [bool],
-    path: &'a mut [Option<usize>],
-    best_path: &'a mut [Option<usize>],
-    best_cost: f64,
-    visits: usize,
-}
-
-impl Search<'_> {
-    fn descend(&mut self, row: usize, cost: f64) {
-        self.visits += 1;
-        if cost + self.bounds[row] >= self.best_cost || self.visits > SEARCH_LIMIT {
-            return;
-        }
-        if row == self.path.len() {
-            self.best_cost = cost;
-            self.best_path.copy_from_slice(self.path);
-            return;
-        }
-        for string in 0..self.strings {
-            let step = self.costs[row * self.strings + string];
-            if !self.taken[string] && step < LEAVE_OUT {
-                self.taken[string] = true;
-                self.path[row] = Some(string);
-                self.descend(row + 1, cost + step);
-                self.taken[string] = false;
-            }
-        }
-        self.path[row] = None;
-        self.descend(row + 1, cost + LEAVE_OUT);
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// E4 B3 G3 D3 A2 E2 with 22 frets, string 0 the highest.
-    fn guitar() -> Hand {
-        let pitches = [64.0, 59.0, 55.0, 50.0, 45.0, 40.0];
-        Hand::new(pitches.map(|open_pitch| Range { open_pitch, frets: 22 }).to_vec())
-    }
-
-    fn play(hand: &mut Hand, keys: &[u8], uses: &[Use]) -> Vec<Option<(usize, usize)>> {
-        let wanted: Vec<Wanted> =
-            keys.iter().map(|&key| Wanted { channel: 0, key, pitch: f64::from(key) }).collect();
-        let mut placements = vec![None; keys.len()];
-        hand.place(&wanted, uses, &mut placements);
-        placements.iter().map(|place| place.map(|place| (place.string, place.fret))).collect()
-    }
-
-    const FREE: [Use; 6] = [Use::Free; 6];
-
-    #[test]
-    fn open_chords_take_their_usual_shape() {
-        let c_major = play(&mut guitar(), &[48, 52, 55, 60, 64], &FREE);
-        assert_eq!(c_major, [Some((4, 3)), Some((3, 2)), Some((2, 0)), Some((1, 1)), Some((0, 0))]);
-        let f_major = play(&mut guitar(), &[65, 60, 57, 53, 48, 41], &FREE);
-        let barre = [(0, 1), (1, 1), (2, 2), (3, 3), (4, 3), (5, 1)].map(Some);
-        assert_eq!(f_major, barre);
-    }
-
-    #[test]
-    fn an_order_of_arrival_that_traps_a_greedy_hand() {
-        // The E4 must leave the first string to the E5.
-        let placed = play(&mut guitar(), &[64, 67, 71, 76], &FREE);
-        let mut strings: Vec<usize> = placed.iter().map(|place| place.expect("all fit").0).collect();
-        strings.dedup();
-        assert_eq!(strings.len(), 4, "{placed:?}");
-    }
-
-    #[test]
-    fn a_melody_stays_in_position() {
-        let mut hand = guitar();
-        play(&mut hand, &[69], &FREE);
-        play(&mut hand, &[72], &FREE);
-        let here = hand.position;
-        assert_eq!(play(&mut hand, &[67], &FREE), [Some((1, 8))]);
-        assert_eq!(hand.position, here);
-    }
-
-    #[test]
-    fn a_pedal_note_gives_way_before_any_held_key() {
-        let taken = |key, since, key_down| Use::Taken { channel: 0, key, since, key_down };
-        let mut uses = [
-            taken(64, 10, true),
-            taken(59, 2, true),
-            taken(55, 30, false),
-            taken(50, 20, true),
-            taken(45, 5, true),
-            taken(40, 6, true),
-        ];
-        // G4 is nearest on string 0, but only the third string's note is kept by the pedal alone.
-        assert_eq!(play(&mut guitar(), &[67], &uses), [Some((2, 12))]);
-        uses[2] = taken(55, 30, true);
-        assert_eq!(play(&mut guitar(), &[67], &uses), [Some((0, 3))]);
-        // Of two notes equally near, the older one.
-        uses[0] = Use::Untouchable;
-        uses[1] = taken(59, 40, false);
-        uses[2] = taken(55, 39, false);
-        assert_eq!(play(&mut guitar(), &[64], &uses), [Some((1, 5))]);
-        uses[1] = Use::Untouchable;
-        assert_eq!(play(&mut guitar(), &[64], &uses), [Some((2, 9))]);
-    }
-
-    #[test]
-    fn a_sounding_key_is_struck_again_where_it_is() {
-        let mut uses = FREE;
-        uses[2] = Use::Taken { channel: 0, key: 64, since: 0, key_down: true };
-        assert_eq!(play(&mut guitar(), &[64], &uses), [Some((2, 9))]);
-    }
-
-    #[test]
-    fn of_too_many_notes_the_outer_ones_stay() {
-        let keys: Vec<u8> = (45..77).collect();
-        let placed = play(&mut guitar(), &keys, &FREE);
-        let played: Vec<u8> =
-            keys.iter().zip(&placed).filter_map(|(&key, place)| place.map(|_| key)).collect();
-        assert!(played.contains(&76) && played.contains(&45), "{played:?}");
-        assert!(played.len() <= 6);
-    }
-
-    #[test]
-    fn keys_out_of_range_move_by_octaves() {
-        let hand = guitar();
-        assert_eq!(hand.playable_pitch(60), Some(60.0));
-        assert_eq!(hand.playable_pitch(39), Some(51.0));
-        assert_eq!(hand.playable_pitch(0), Some(48.0));
-        assert_eq!(hand.playable_pitch(127), Some(79.0));
-        assert_eq!(hand.playable_pitch(87), Some(75.0));
-    }
-
-    #[test]
-    fn an_instant_never_takes_a_string_twice() {
-        let mut uses = FREE;
-        uses[0] = Use::Untouchable;
-        let placed = play(&mut guitar(), &[86], &uses);
-        assert_eq!(placed, [None]);
-    }
-}
+mod tests;

@@ -8,15 +8,17 @@
 //! construction, and the result depends only on the events and their times, not on how the time
 //! between them is cut into blocks.
 
+mod bend;
 mod channel;
 mod event;
+mod fingers;
 mod hand;
 mod string;
 mod technique;
 mod variation;
 
 use low_action_dsp::setup::{Player, Setup};
-use low_action_dsp::{Instrument, StringGeometry, TimedGesture};
+use low_action_dsp::{Gesture, Instrument, StringGeometry, TimedGesture};
 
 use channel::{Channel, Request};
 pub use event::PlayerEvent;
@@ -37,6 +39,31 @@ pub trait GestureSink {
 impl GestureSink for Vec<TimedGesture> {
     fn gesture(&mut self, gesture: TimedGesture) {
         self.push(gesture);
+    }
+}
+
+/// A sample at which gestures are made on one string.
+pub(crate) struct Moment<'a, S: GestureSink> {
+    time: u64,
+    string: usize,
+    sample_rate: f64,
+    out: &'a mut S,
+}
+
+impl<S: GestureSink> Moment<'_, S> {
+    /// Makes a gesture now.
+    fn does(&mut self, gesture: Gesture) {
+        self.does_later(0.0, gesture);
+    }
+
+    /// Makes a gesture so many seconds from now.
+    fn does_later(&mut self, seconds: f64, gesture: Gesture) {
+        self.out.gesture(TimedGesture { time: self.after(seconds), string: self.string, gesture });
+    }
+
+    /// The sample so many seconds from now.
+    fn after(&self, seconds: f64) -> u64 {
+        self.time + (seconds * self.sample_rate).round() as u64
     }
 }
 

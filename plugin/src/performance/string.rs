@@ -6,13 +6,14 @@
 //! makes no sound. What is to happen later is kept here as deadlines, because the next note may come
 //! first and call it off.
 
-use low_action_dsp::setup::{Damper, Fretting, Player};
-use low_action_dsp::{FINGERS_PER_STRING, FingerSlot, Gesture, StringGeometry, TimedGesture, Touch};
+use low_action_dsp::setup::Player;
 
+use super::bend::Bend;
+use super::fingers::Fingers;
 use super::hand::Use;
 use super::technique::*;
 use super::variation::Deviation;
-use super::{GestureSink, PlayedString};
+use super::{GestureSink, Moment, PlayedString};
 
 /// A note to begin.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,88 +42,52 @@ struct Note {
     pressed_again: Option<u64>,
 }
 
-/// A finger behind a fret.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Finger {
-    slot: FingerSlot,
-    fret: usize,
-    /// Whether its force has been eased off.
-    eased: bool,
-}
-
 /// The steps by which a note is ended, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Ending {
     /// The dampers come to rest on the string.
     Damp,
     /// The string is quiet: the fretting finger eases off.
-    EaseFinger,
-    /// The fretting finger has left: the dampers ease off.
-    EaseDampers,
-    /// The dampers have left too.
-    Free,
+    EaseOff,
+    /// The fretting finger goes, and the dampers ease off.
+    Leave,
+    /// The dampers have gone too.
+    Gone,
 }
 
 /// The player's dealings with one string.
 #[derive(Debug, Clone)]
 pub(crate) struct StringPlayer {
     index: usize,
-    geometry: StringGeometry,
-    leaving_forces: Vec<f64>,
-    hands: Player,
     sample_rate: f64,
+    fingers: Fingers,
+    bend: Bend,
     note: Option<Note>,
-    finger: Option<Finger>,
-    next_slot: FingerSlot,
-    /// Which slots hold a damper that rests on the string.
-    resting: [bool; FINGERS_PER_STRING],
     /// The next step of the last note's ending, and when.
     ending: Option<(u64, Ending)>,
-    /// When the bend is to be changed.
-    bend_due: Option<u64>,
-    /// Channel whose wheel bends the string: that of its last note.
-    channel: Option<u8>,
-    /// Bend asked for and bend last sent, semitones.
-    bend: (f64, f64),
-    /// Earliest time of the next change of bend.
-    bend_ready: u64,
     plucked_at: Option<u64>,
 }
 
 impl StringPlayer {
     /// A string nobody touches.
     pub(crate) fn new(index: usize, string: PlayedString, hands: Player, sample_rate: f64) -> Self {
-        let PlayedString { geometry, leaving_forces } = string;
         Self {
             index,
-            geometry,
-            leaving_forces,
-            hands,
             sample_rate,
+            fingers: Fingers::new(string, hands),
+            bend: Bend::new(),
             note: None,
-            finger: None,
-            next_slot: 0,
-            resting: [false; FINGERS_PER_STRING],
             ending: None,
-            bend_due: None,
-            channel: None,
-            bend: (0.0, 0.0),
-            bend_ready: 0,
             plucked_at: None,
         }
     }
 
     /// Back to the start.
     pub(crate) fn reset(&mut self) {
+        self.fingers.reset();
+        self.bend = Bend::new();
         self.note = None;
-        self.finger = None;
-        self.next_slot = 0;
-        self.resting = [false; FINGERS_PER_STRING];
         self.ending = None;
-        self.bend_due = None;
-        self.channel = None;
-        self.bend = (0.0, 0.0);
-        self.bend_ready = 0;
         self.plucked_at = None;
     }
 
@@ -143,12 +108,14 @@ impl StringPlayer {
             .map(|_| time);
         self.note =
             Some(Note { channel: start.channel, key: start.key, since: time, key_down: true, pressed_again });
-        self.channel = Some(start.channel);
+        self.bend.follow(start.channel);
         self.plucked_at = Some(time);
         self.ending = None;
-        self.lift_dampers(time, out);
-        self.finger_fret(time, start.fret, out);
-        self.pluck(time, start, out);
+        let mut at = self.moment(time, out);
+        self.fingers.stop(start.fret, &mut at);
+        let strength = libm::pow(start.velocity, VELOCITY_EXPONENT) * start.deviation.force;
+        let pluck = self.fingers.pluck(strength, start.deviation.place);
+        at.does_later(start.deviation.delay, pluck);
     }
 
     /// Lets go of a key, if it is this string's. Under the pedal the note goes on.
@@ -195,26 +162,21 @@ impl StringPlayer {
 
     /// Bends the string if its last note is of that channel.
     pub(crate) fn bend(&mut self, time: u64, channel: u8, semitones: f64) {
-        if self.channel == Some(channel) {
-            self.bend.0 = semitones;
-            if self.bend.0 != self.bend.1 && self.bend_due.is_none() {
-                self.bend_due = Some(time.max(self.bend_ready));
-            }
-        }
+        self.bend.ask(time, channel, semitones);
     }
 
     /// Does what has fallen due before `until`, in order of time.
     pub(crate) fn advance(&mut self, until: u64, out: &mut impl GestureSink) {
         loop {
             let ending = self.ending.filter(|&(time, _)| time < until);
-            let bend = self.bend_due.filter(|&time| time < until);
-            match (ending, bend) {
-                (None, None) => return,
-                (Some((time, step)), bend) if bend.is_none_or(|bend| time <= bend) => {
-                    self.end_by(time, step, out)
-                }
-                (_, Some(time)) => self.send_bend(time, out),
-                (Some(_), None) => unreachable!("without a bend, the ending comes first"),
+            let bend = self.bend.due().filter(|&time| time < until);
+            if let Some((time, step)) = ending.filter(|&(time, _)| bend.is_none_or(|bend| time <= bend)) {
+                self.end_by(step, self.moment(time, out));
+            } else if let Some(time) = bend {
+                let mut at = self.moment(time, out);
+                self.bend.send(self.fingers.geometry(), &mut at);
+            } else {
+                return;
             }
         }
     }
@@ -226,161 +188,31 @@ impl StringPlayer {
     }
 
     /// Takes one step of an ending and plans the next.
-    fn end_by(&mut self, time: u64, step: Ending, out: &mut impl GestureSink) {
+    fn end_by(&mut self, step: Ending, mut at: Moment<impl GestureSink>) {
         let next = match step {
             Ending::Damp => {
-                self.rest_dampers(time, out);
-                let holding = HOLDING * self.finger.map_or(0.0, |finger| self.leaving_force(finger.fret));
-                self.ease_finger(time, holding, QUIET_AFTER, out);
-                Some((QUIET_AFTER, Ending::EaseFinger))
+                self.fingers.damp(&mut at);
+                let next = if self.fingers.frets() { Ending::EaseOff } else { Ending::Leave };
+                Some((QUIET_AFTER, next))
             }
-            Ending::EaseFinger => {
-                if let Some(finger) = &mut self.finger {
-                    finger.eased = true;
-                    let slot = finger.slot;
-                    self.lift(time, slot, self.hands.fretting.touch, FINGER_EASING, out);
-                }
-                Some((self.finger.map_or(0.0, |_| FINGER_EASING.turning), Ending::EaseDampers))
+            Ending::EaseOff => {
+                self.fingers.ease_off(&mut at);
+                Some((FINGER_EASING.turning, Ending::Leave))
             }
-            Ending::EaseDampers => {
-                self.finger = None;
-                for slot in self.resting_slots() {
-                    self.lift(time, slot, self.hands.damper.touch, DAMPER_EASING, out);
-                }
-                Some((DAMPER_EASING.turning, Ending::Free))
+            Ending::Leave => {
+                self.fingers.leave(&mut at);
+                Some((DAMPER_EASING.turning, Ending::Gone))
             }
-            Ending::Free => {
-                self.resting = [false; FINGERS_PER_STRING];
+            Ending::Gone => {
+                self.fingers.gone();
                 None
             }
         };
-        self.ending = next.map(|(delay, step)| (time + self.samples(delay), step));
+        self.ending = next.map(|(delay, step)| (at.after(delay), step));
     }
 
-    /// Eases the fretting finger off to a force (N), if it presses harder.
-    fn ease_finger(&mut self, time: u64, force: f64, duration: f64, out: &mut impl GestureSink) {
-        if let Some(finger) = &mut self.finger
-            && force < self.hands.fretting.force
-        {
-            finger.eased = true;
-            let finger = finger.slot;
-            self.emit(time, Gesture::Press { finger, force, duration }, out);
-        }
-    }
-
-    /// Force of a finger behind a fret under which the string leaves the fret, N.
-    fn leaving_force(&self, fret: usize) -> f64 {
-        fret.checked_sub(1).and_then(|index| self.leaving_forces.get(index)).copied().unwrap_or(0.0)
-    }
-
-    /// Puts a finger behind a fret, or takes it off for an open string.
-    fn finger_fret(&mut self, time: u64, fret: usize, out: &mut impl GestureSink) {
-        let Fretting { touch, force, hover, landing, .. } = self.hands.fretting;
-        match &mut self.finger {
-            Some(finger) if finger.fret == fret => {
-                if std::mem::take(&mut finger.eased) {
-                    let finger = finger.slot;
-                    self.emit(time, Gesture::Press { finger, force, duration: landing }, out);
-                }
-                return;
-            }
-            Some(finger) => {
-                let slot = finger.slot;
-                self.lift(time, slot, touch, QUICK_LIFT, out);
-                self.finger = None;
-            }
-            None => {}
-        }
-        if fret > 0 {
-            let slot = self.next_slot;
-            self.next_slot = (slot + 1) % FRETTING_SLOTS;
-            self.finger = Some(Finger { slot, fret, eased: false });
-            let position = self.geometry.finger_position(fret);
-            self.emit(time, Gesture::Place { finger: slot, touch, position, clearance: hover }, out);
-            self.emit(time, Gesture::Press { finger: slot, force, duration: landing }, out);
-        }
-    }
-
-    fn pluck(&mut self, time: u64, start: Start, out: &mut impl GestureSink) {
-        let Player { pluck_position, pluck_duration, pluck_force, .. } = self.hands;
-        let farthest = FARTHEST_PLUCK * self.sounding_length();
-        let from_saddle = (pluck_position + start.deviation.place).max(NEAREST_PLUCK).min(farthest);
-        let strength = libm::pow(start.velocity, VELOCITY_EXPONENT) * start.deviation.force;
-        let gesture = Gesture::Pluck {
-            position: self.geometry.length - from_saddle,
-            force: pluck_force * strength,
-            duration: pluck_duration,
-        };
-        self.emit(time + self.samples(start.deviation.delay), gesture, out);
-    }
-
-    /// Lays the edge of the hand near the saddle, and a finger of the other hand behind a fretting
-    /// one.
-    fn rest_dampers(&mut self, time: u64, out: &mut impl GestureSink) {
-        let near_saddle = self.hands.damper.position.min(FARTHEST_DAMPER * self.sounding_length());
-        for (slot, part) in DAMPERS {
-            self.rest_damper(time, slot, self.geometry.length - part * near_saddle, out);
-        }
-        let behind = BEHIND_FINGER * (self.geometry.length - self.sounding_length());
-        if behind >= NEAREST_NUT {
-            self.rest_damper(time, self.next_slot, behind, out);
-        }
-    }
-
-    fn rest_damper(&mut self, time: u64, finger: FingerSlot, position: f64, out: &mut impl GestureSink) {
-        let Damper { touch, force, landing, .. } = self.hands.damper;
-        let clearance = self.hands.fretting.hover;
-        self.resting[finger] = true;
-        self.emit(time, Gesture::Place { finger, touch, position, clearance }, out);
-        self.emit(time, Gesture::Press { finger, force, duration: landing }, out);
-    }
-
-    /// Takes the dampers off because the next note is about to sound.
-    fn lift_dampers(&mut self, time: u64, out: &mut impl GestureSink) {
-        for slot in self.resting_slots() {
-            self.lift(time, slot, self.hands.damper.touch, QUICK_LIFT, out);
-        }
-        self.resting = [false; FINGERS_PER_STRING];
-    }
-
-    fn resting_slots(&self) -> impl Iterator<Item = FingerSlot> + use<> {
-        let resting = self.resting;
-        (0..FINGERS_PER_STRING).filter(move |&slot| resting[slot])
-    }
-
-    /// Length that sounds: from the fretting finger, or the nut, to the saddle, m.
-    fn sounding_length(&self) -> f64 {
-        self.geometry.length - self.finger.map_or(0.0, |finger| self.geometry.finger_position(finger.fret))
-    }
-
-    fn send_bend(&mut self, time: u64, out: &mut impl GestureSink) {
-        self.bend_due = None;
-        self.bend_ready = time + self.samples(BEND_INTERVAL);
-        let (asked, sent) = self.bend;
-        if asked != sent {
-            self.bend.1 = asked;
-            let tension_ratio = self.geometry.tension_ratio(asked).min(self.geometry.highest_ratio);
-            let duration = ((asked - sent).abs() / BEND_SPEED).max(BEND_RAMP);
-            self.emit(time, Gesture::Bend { tension_ratio, duration }, out);
-        }
-    }
-
-    /// Lifts a finger.
-    fn lift(
-        &self,
-        time: u64,
-        finger: FingerSlot,
-        touch: Touch,
-        Leaving { speed, turning }: Leaving,
-        out: &mut impl GestureSink,
-    ) {
-        // The hand's damping takes one part of the force, the finger's inertia the other.
-        let force = touch.hand_damping * speed + touch.mass * speed / turning;
-        self.emit(time, Gesture::Lift { finger, force, duration: turning }, out);
-    }
-
-    fn emit(&self, time: u64, gesture: Gesture, out: &mut impl GestureSink) {
-        out.gesture(TimedGesture { time, string: self.index, gesture });
+    fn moment<'a, S: GestureSink>(&self, time: u64, out: &'a mut S) -> Moment<'a, S> {
+        Moment { time, string: self.index, sample_rate: self.sample_rate, out }
     }
 
     /// A time in samples, rounded.
