@@ -49,6 +49,9 @@ const PITCH_TOLERANCE: f64 = 1e-6;
 
 /// Tunes one string of a set-up on its grid and, if the set-up asks for it, places its frets.
 ///
+/// Where the grid is too coarse to tell a fret from its neighbours (high strings below 22 kHz) the best
+/// place found is kept.
+///
 /// # Errors
 /// When the string is too short for its grid or a contact too stiff for the sample rate.
 pub fn intonate(
@@ -117,36 +120,40 @@ impl Bench<'_> {
                 Ok::<f64, Error>(found.0 / target - 1.0)
             };
             // The secant method, started where the fret before leads to, with the ideal string's law:
-            // pitch goes with 1/(L − x).
-            let (low, high) = self.limits(frets, fret, string.length);
+            // pitch goes with 1/(L − x). On a grid too coarse for the fret the best place is kept.
+            let (low, high) = self.limits(frets, fret);
             let mut place = (frets[fret] + shift).clamp(low, high);
             let mut off = sharpness(place, frets, &mut rest)?;
             let mut slope = 1.0 / (string.length - place);
+            let mut best = (place, off);
             for _ in 0..MOST_STEPS {
-                if off.abs() < PITCH_TOLERANCE {
+                let next = (place - off / slope).clamp(low, high);
+                if off.abs() < PITCH_TOLERANCE || next == place {
                     break;
                 }
-                let next = (place - off / slope).clamp(low, high);
                 let next_off = sharpness(next, frets, &mut rest)?;
                 let secant = (next_off - off) / (next - place);
-                if secant.is_finite() && secant > 0.0 {
+                if secant > 0.0 {
                     slope = secant;
                 }
                 (place, off) = (next, next_off);
+                if off.abs() < best.1.abs() {
+                    best = (place, off);
+                }
             }
-            frets[fret] = place;
-            shift = place - self.neck.equal_place((fret + 1) as f64);
+            frets[fret] = best.0;
+            shift = best.0 - self.neck.equal_place((fret + 1) as f64);
             rest = None;
         }
         Ok(())
     }
 
-    /// How far a fret may move: frets keep their order.
-    fn limits(&self, frets: &[f64], fret: usize, length: f64) -> (f64, f64) {
+    /// How far a fret may move: less than to where its neighbours would be, and not past the one below.
+    fn limits(&self, frets: &[f64], fret: usize) -> (f64, f64) {
+        let number = (fret + 1) as f64;
+        let (here, low) = (self.neck.equal_place(number), self.neck.equal_place(number - 0.9));
         let below = if fret == 0 { 0.0 } else { frets[fret - 1] };
-        let above = frets.get(fret + 1).copied().unwrap_or(length);
-        let here = self.neck.equal_place((fret + 1) as f64);
-        (below + 0.1 * (here - below), here + 0.9 * (above - here))
+        (low.max(below + 0.1 * (here - low)), self.neck.equal_place(number + 0.9))
     }
 
     /// Angular frequency (1/s) of the string stopped at a fret, near `target`, and its shape at rest.

@@ -180,3 +180,70 @@ pub(super) fn weights(at: &Reading) -> impl Iterator<Item = (usize, f64)> + '_ {
     let present = at.weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
     present.map(|(i, &weight)| (at.first + i - NUT - 1, weight))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GRID: [f64; 3] = [0.65, 12.0, 1.0 / 48_000.0];
+    const STIFFNESS: Stiffness = Stiffness { tension: 70.0, kappa_2: 0.6, kappa_6: 3e-5 };
+    const LINEAR_DENSITY: f64 = 1e-3;
+
+    fn grid() -> Grid {
+        Grid::new(GRID[0], GRID[1] as usize, GRID[2])
+    }
+
+    /// Sines are the modes of a string with free-turning ends, exactly so on a grid too.
+    #[test]
+    fn sines_are_eigenvectors() {
+        let grid = grid();
+        let matrix: Band<f64> = Band::of_string(&grid, LINEAR_DENSITY, &STIFFNESS);
+        for partial in 1..grid.intervals {
+            let angle = std::f64::consts::PI * partial as f64 / grid.intervals as f64;
+            let mode: Vec<f64> = (1..grid.intervals).map(|node| (angle * node as f64).sin()).collect();
+            let s = (2.0 * (0.5 * angle).sin() / grid.spacing).powi(2);
+            let bending = LINEAR_DENSITY * s * s * (STIFFNESS.kappa_2 + s * STIFFNESS.kappa_6);
+            let expected = grid.spacing * (STIFFNESS.tension * s + bending);
+            for (found, u) in matrix.times(&mode).iter().zip(&mode) {
+                assert!((found - expected * u).abs() < 1e-12 * expected, "partial {partial}");
+            }
+        }
+    }
+
+    /// Solving undoes multiplying, with springs and a rank-one part, real and complex.
+    #[test]
+    fn solutions_satisfy_their_system() {
+        use nalgebra::Complex;
+        let grid = grid();
+        let mut matrix: Band<Complex<f64>> = Band::of_string(&grid, LINEAR_DENSITY, &STIFFNESS);
+        matrix.add_spring(&grid.reading(0.02), Complex::from(1e6));
+        matrix.add_spring(&grid.reading(0.31), Complex::new(2e3, 5e2));
+        matrix.shift(Complex::from(-40.0));
+        let vector: Vec<_> = (0..grid.unknowns()).map(|i| Complex::from(1.0 / (1.0 + i as f64))).collect();
+        let right: Vec<_> = (0..grid.unknowns()).map(|i| Complex::new(i as f64, 1.0)).collect();
+        let strength = Complex::from(300.0);
+        let x = RankOne::new(matrix.clone().factor(), vector.clone(), strength).solve(&right);
+        let along = strength * dot(&vector, &x);
+        for ((product, v), b) in matrix.times(&x).iter().zip(&vector).zip(&right) {
+            assert!((product + along * v - b).norm() < 1e-9);
+        }
+    }
+
+    /// A spring at a point answers the point's displacement and nothing else.
+    #[test]
+    fn springs_act_where_they_are() {
+        let grid = grid();
+        let at = grid.reading(0.123);
+        let u: Vec<f64> = (0..grid.unknowns()).map(|i| (i as f64).cos()).collect();
+        let plain: Band<f64> = Band::of_string(&grid, LINEAR_DENSITY, &STIFFNESS);
+        let mut sprung = plain.clone();
+        sprung.add_spring(&at, 7.0);
+        let force = 7.0 * read(&at, &u);
+        let mut difference = sprung.times(&u);
+        difference.iter_mut().zip(plain.times(&u)).for_each(|(a, b)| *a -= b);
+        for (i, weight) in weights(&at) {
+            difference[i] -= weight * force;
+        }
+        assert!(difference.iter().all(|left| left.abs() < 1e-9));
+    }
+}
