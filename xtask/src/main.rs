@@ -43,6 +43,12 @@ const COMMANDS: &[Command] = &[
         summary: "draws the pictures of the documentation, or those named, into docs/figures",
         run: |names| figures::run(&names),
     },
+    Command {
+        name: "measure",
+        arguments: "NAME [ARGUMENTS]",
+        summary: "measures what the documentation states; `measure help` lists what there is",
+        run: xtask::measure::run,
+    },
 ];
 
 /// Hands a bundling command to the plugin framework, which reads `bundler.toml`.

@@ -1,0 +1,63 @@
+//! `cargo xtask measure NAME`: measurements whose results stand in the documentation.
+//!
+//! Each is one entry of [`MEASUREMENTS`] and one module; it reads its own arguments.
+
+pub mod extremes;
+
+use anyhow::{Result, bail};
+
+/// One measurement.
+struct Measurement {
+    /// The word that selects it.
+    name: &'static str,
+    /// What it measures, in one line.
+    summary: &'static str,
+    /// Measures it, given the arguments after its name.
+    run: fn(Vec<String>) -> Result<()>,
+}
+
+/// Everything that can be measured, in the order of the help text.
+const MEASUREMENTS: &[Measurement] = &[Measurement {
+    name: "extremes",
+    summary: "random absurd scenes and event streams: nothing blows up and every balance closes",
+    run: extremes::run,
+}];
+
+/// The list of measurements, one line each.
+fn help() -> String {
+    let mut text = String::from("usage: cargo xtask measure NAME [ARGUMENTS]\n\nmeasurements:\n");
+    for measurement in MEASUREMENTS {
+        text += &format!("  {}\n      {}\n", measurement.name, measurement.summary);
+    }
+    text + "\n`cargo xtask measure NAME --help` lists the arguments of one.\n"
+}
+
+/// Finds the measurement named first and runs it with the rest.
+pub fn run(arguments: Vec<String>) -> Result<()> {
+    let mut arguments = arguments.into_iter();
+    let Some(name) = arguments.next() else { bail!("no measurement named\n\n{}", help()) };
+    if matches!(name.as_str(), "help" | "-h" | "--help") {
+        print!("{}", help());
+        return Ok(());
+    }
+    match MEASUREMENTS.iter().find(|measurement| measurement.name == name) {
+        Some(measurement) => (measurement.run)(arguments.collect()),
+        None => bail!("unknown measurement `{name}`\n\n{}", help()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MEASUREMENTS, run};
+
+    #[test]
+    fn unknown_measurements_are_answered_with_the_list() {
+        let message = run(vec!["extrems".into()]).expect_err("not a measurement").to_string();
+        assert!(message.starts_with("unknown measurement `extrems`"), "{message}");
+        for measurement in MEASUREMENTS {
+            assert!(message.contains(measurement.name), "{message}");
+        }
+        assert!(run(vec![]).is_err());
+        assert!(run(vec!["help".into()]).is_ok());
+    }
+}
