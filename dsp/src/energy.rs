@@ -82,25 +82,33 @@ pub struct Ledger {
 impl Ledger {
     /// Opens the ledger of a string in its present state, at the model's own tension or the one given.
     pub fn new(model: &Model, state: &State, tension: f64) -> Ledger {
+        let mut ledger = Ledger {
+            energies: Energies::default(),
+            board: 0.0,
+            tension,
+            finger_changes: 0,
+            initial: 0.0,
+            largest: 0.0,
+            put_in: 0.0,
+            residual_sum: 0.0,
+            worst_residual: 0.0,
+        };
+        ledger.look(model, state, tension);
+        let initial = ledger.energies.total();
+        Ledger { initial, largest: initial, put_in: initial, ..ledger }
+    }
+
+    /// Looks at what there is, without a step that would lead to it.
+    fn look(&mut self, model: &Model, state: &State, tension: f64) {
         let past: Vec<f64> = state.displacement.iter().zip(&state.motion).map(|(u, d)| u - d).collect();
         let stiffness = model.stiffness(tension);
         let (string, stretched) = string_energy(model, &stiffness, &past, state);
-        let board = board_energy(model, &state.heights, &state.displacement, &past, state);
-        let contact = board + fingers_energy(&state.fingers, &state.displacement, &past);
-        let energies =
-            Energies { string, tension: stretched, contact, finger: fingers_motion(model, &state.fingers) };
-        let initial = energies.total();
-        Ledger {
-            energies,
-            board,
-            tension,
-            finger_changes: state.finger_changes,
-            initial,
-            largest: initial,
-            put_in: initial,
-            residual_sum: 0.0,
-            worst_residual: 0.0,
-        }
+        self.board = board_energy(model, &state.heights, &state.displacement, &past, state);
+        let contact = self.board + fingers_energy(&state.fingers, &state.displacement, &past);
+        let finger = fingers_motion(model, &state.fingers);
+        self.energies = Energies { string, tension: stretched, contact, finger };
+        self.tension = tension;
+        self.finger_changes = state.finger_changes;
     }
 
     /// Books the step that has just been taken under `drive`.
@@ -162,6 +170,17 @@ impl Ledger {
         self.residual_sum += residual;
         self.worst_residual = self.worst_residual.max(residual.abs() / self.largest.max(f64::MIN_POSITIVE));
         Entry { energies, power_loss: loss, power_solver: solver, power_in: input, residual }
+    }
+
+    /// Books what was done to the string beside its steps, such as another model put under its motion: what
+    /// it holds now less what it held counts as put in. Gives that back, J.
+    pub fn rebook(&mut self, model: &Model, state: &State, tension: f64) -> f64 {
+        let before = self.energies.total();
+        self.look(model, state, tension);
+        let entered = self.energies.total() - before;
+        self.put_in += entered;
+        self.largest = self.largest.max(self.energies.total());
+        entered
     }
 
     /// Stored energies at the last sample booked.

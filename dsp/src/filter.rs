@@ -55,6 +55,11 @@ impl Biquad {
         still
     }
 
+    /// Takes over another filter's past.
+    pub fn take_over(&mut self, other: &Biquad) {
+        self.state = other.state;
+    }
+
     /// Forgets the past.
     pub fn reset(&mut self) {
         self.state = [0.0; 2];

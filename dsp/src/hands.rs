@@ -19,18 +19,20 @@ const LEAST_TENSION: f64 = 0.05;
 
 /// A pluck under way.
 #[derive(Debug, Clone, Copy)]
-struct Pluck {
-    reading: Reading,
-    force: f64,
-    done: u64,
-    duration: f64,
+pub(crate) struct Pluck {
+    /// m from the nut.
+    pub position: f64,
+    pub reading: Reading,
+    pub force: f64,
+    pub done: u64,
+    pub duration: f64,
 }
 
 /// A finger of the hands, as far as it is not in the string's state.
 #[derive(Debug, Clone, Copy)]
-struct Held {
+pub(crate) struct Held {
     force: Ramp,
-    position: Ramp,
+    pub position: Ramp,
     leaving: bool,
 }
 
@@ -38,9 +40,9 @@ struct Held {
 #[derive(Debug, Clone)]
 pub(crate) struct Hands {
     sample_rate: f64,
-    plucks: Vec<Pluck>,
-    fingers: [Option<Held>; FINGERS_PER_STRING],
-    tension: Ramp,
+    pub plucks: Vec<Pluck>,
+    pub fingers: [Option<Held>; FINGERS_PER_STRING],
+    pub tension: Ramp,
 }
 
 impl Hands {
@@ -66,7 +68,18 @@ impl Hands {
         self.plucks.is_empty() && self.tension.rests() && self.fingers.iter().all(Option::is_none)
     }
 
-    fn samples(&self, seconds: f64) -> u64 {
+    /// Present tension of the string, N.
+    pub fn tension(&self) -> f64 {
+        self.tension.value()
+    }
+
+    /// The largest tension a bend may reach, as a multiple of the string's own.
+    pub fn highest_ratio(model: &Model) -> f64 {
+        model.string.tension_limit / model.string.tension
+    }
+
+    /// A time in samples, rounded.
+    pub fn samples(&self, seconds: f64) -> u64 {
         // A hostile duration counts as at once; `as` saturates at the other end.
         (seconds * self.sample_rate).round().max(0.0) as u64
     }
@@ -84,8 +97,15 @@ impl Hands {
         match gesture {
             Gesture::Pluck { position, force, duration } => {
                 if self.plucks.len() < PUSHES && force.is_finite() && duration.is_finite() {
-                    let reading = model.grid.reading(inside(position));
-                    self.plucks.push(Pluck { reading, force, done: 0, duration: duration.max(0.0) });
+                    let position = inside(position);
+                    let reading = model.grid.reading(position);
+                    self.plucks.push(Pluck {
+                        position,
+                        reading,
+                        force,
+                        done: 0,
+                        duration: duration.max(0.0),
+                    });
                 }
             }
             Gesture::Place { finger, touch, position, clearance } => {
@@ -123,7 +143,7 @@ impl Hands {
                 }
             }
             Gesture::Bend { tension_ratio, duration } => {
-                let most = model.string.tension_limit / model.string.tension;
+                let most = Self::highest_ratio(model);
                 let ratio = if tension_ratio.is_finite() { tension_ratio } else { 1.0 };
                 let samples = self.samples(duration);
                 self.tension.go(model.string.tension * ratio.clamp(LEAST_TENSION, most), samples);

@@ -4,19 +4,17 @@
 //! a whole run of samples at a time; gestures cut runs at their exact samples, and so the samples are the
 //! same however they are asked for.
 
-use crate::drive::Drive;
 use crate::error::Error;
-use crate::gesture::{FINGERS_PER_STRING, TimedGesture};
-use crate::hands::Hands;
-use crate::intonation::{finger_place, intonate};
+use crate::gesture::TimedGesture;
+use crate::intonation::finger_place;
 use crate::model::Model;
-use crate::pickup::Listener;
 use crate::queue::Queue;
 pub use crate::queue::QueueFull;
+use crate::ramp::Ramp;
 use crate::scene::{SolverSettings, Stencil};
 use crate::setup::{Setup, tension_ratio};
 use crate::state::State;
-use crate::string::Scratch;
+use crate::voice::{RUN, Voice};
 
 /// How an instrument is computed: speed against accuracy.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +42,7 @@ pub struct StringGeometry {
     pub highest_ratio: f64,
     /// Wave impedance √(Tρ), kg/s.
     pub wave_impedance: f64,
-    behind: f64,
+    pub(crate) behind: f64,
 }
 
 impl StringGeometry {
@@ -65,34 +63,17 @@ impl StringGeometry {
 /// A playable instrument.
 #[derive(Debug, Clone)]
 pub struct Instrument {
-    voices: Vec<Voice>,
-    queue: Queue,
-    now: u64,
-    level: Level,
+    pub(crate) voices: Vec<Voice>,
+    pub(crate) queue: Queue,
+    pub(crate) now: u64,
+    pub(crate) level: Level,
+    /// Hz.
+    pub(crate) sample_rate: f64,
+    /// The instrument that this one has taken over from, until it is fetched.
+    pub(crate) before: Option<Box<Instrument>>,
+    /// How much of this instrument is heard, 0 to 1; the rest is the one before.
+    pub(crate) fade: Ramp,
 }
-
-/// One string with all that belongs to it.
-#[derive(Debug, Clone)]
-struct Voice {
-    model: Model,
-    state: State,
-    scratch: Scratch,
-    drive: Drive,
-    hands: Hands,
-    listener: Listener,
-    geometry: StringGeometry,
-    gain: f64,
-    pan: [f64; 2],
-    asleep: bool,
-    run: [f64; RUN],
-}
-
-/// Samples a string is stepped through at a time, at most.
-const RUN: usize = 64;
-
-/// A string nobody touches sleeps once its energy is below this, J: a soft pluck holds 1e-6 J, so this
-/// is 140 dB under it.
-const SILENCE: f64 = 1e-20;
 
 /// The time over which [`Instrument::level`] looks back, s.
 const LEVEL_TIME: f64 = 0.05;
@@ -114,7 +95,15 @@ impl Instrument {
         let voices = (0..setup.string.len())
             .map(|index| Voice::new(setup, index, solver, settings.sample_rate))
             .collect::<Result<Vec<_>, Error>>()?;
-        Ok(Instrument { voices, queue: Queue::new(), now: 0, level: Level::new(settings.sample_rate) })
+        Ok(Instrument {
+            voices,
+            queue: Queue::new(),
+            now: 0,
+            level: Level::new(settings.sample_rate),
+            sample_rate: settings.sample_rate,
+            before: None,
+            fade: Ramp::at(1.0),
+        })
     }
 
     /// Number of strings.
@@ -164,6 +153,10 @@ impl Instrument {
                 if let Some(voice) = self.voices.get_mut(due.string) {
                     voice.begin(due.gesture);
                 }
+                // What fades out is played on, so that an attack does not fade in.
+                if let Some(voice) = self.fading().and_then(|before| before.voices.get_mut(due.string)) {
+                    voice.begin(due.gesture);
+                }
             }
             let until_gesture = self.queue.next_time().map_or(RUN as u64, |time| time - self.now);
             let run = (count - done).min(RUN).min(usize::try_from(until_gesture).unwrap_or(RUN));
@@ -176,18 +169,31 @@ impl Instrument {
                 }
             }
             for i in 0..run {
-                let (mut l, mut r) = (0.0, 0.0);
-                for voice in &self.voices {
-                    l += voice.pan[0] * voice.run[i];
-                    r += voice.pan[1] * voice.run[i];
-                }
-                self.level.see(l, r);
+                let [l, r] = self.stereo(i);
                 left[done + i] = l as f32;
                 right[done + i] = r as f32;
+            }
+            if !self.fade.rests() {
+                let end = done + run;
+                self.fade_from_before(done..end, stems, left, right);
+            }
+            for i in done..done + run {
+                self.level.see(f64::from(left[i]), f64::from(right[i]));
             }
             self.now += run as u64;
             done += run;
         }
+    }
+
+    /// Both channels at a sample of the present run.
+    #[inline]
+    pub(crate) fn stereo(&self, i: usize) -> [f64; 2] {
+        let (mut l, mut r) = (0.0, 0.0);
+        for voice in &self.voices {
+            l += voice.pan[0] * voice.run[i];
+            r += voice.pan[1] * voice.run[i];
+        }
+        [l, r]
     }
 
     /// The largest |output| of the last 50 to 100 ms.
@@ -200,92 +206,14 @@ impl Instrument {
         self.voices.iter_mut().for_each(Voice::reset);
         self.queue.clear();
         self.level.reset();
+        self.fade = Ramp::at(1.0);
         self.now = 0;
-    }
-}
-
-impl Voice {
-    fn new(setup: &Setup, index: usize, solver: SolverSettings, rate: f64) -> Result<Voice, Error> {
-        let spec = &setup.string[index];
-        let name = format!("string[{}]", index + 1);
-        let placed = intonate(setup, spec, solver.stencil, rate).map_err(|error| error.under(&name))?;
-        let barrier = setup.neck.barrier(&placed.frets)?;
-        let model = Model::new(placed.string, Some(&barrier), FINGERS_PER_STRING, solver, rate)
-            .map_err(|error| error.under(&name))?;
-        for (name, touch) in
-            [("player.fretting", setup.player.fretting.touch), ("player.damper", setup.player.damper.touch)]
-        {
-            model.finger_law(&touch).map_err(|error| error.under(name))?;
-        }
-        let angle = 0.25 * std::f64::consts::PI * (spec.pan + 1.0);
-        Ok(Voice {
-            geometry: StringGeometry {
-                open_pitch: spec.pitch,
-                length: placed.string.length,
-                frets: placed.frets,
-                highest_ratio: placed.string.tension_limit / placed.string.tension,
-                wave_impedance: (placed.string.tension * placed.string.linear_density).sqrt(),
-                behind: setup.player.fretting.behind,
-            },
-            state: State::new(&model),
-            scratch: Scratch::new(&model),
-            drive: Drive::new(&model),
-            hands: Hands::new(&model, rate),
-            listener: Listener::new(&setup.pickup, &model, rate),
-            gain: setup.gain * spec.level,
-            pan: [libm::cos(angle), libm::sin(angle)],
-            asleep: true,
-            run: [0.0; RUN],
-            model,
-        })
-    }
-
-    fn begin(&mut self, gesture: crate::gesture::Gesture) {
-        self.asleep = false;
-        self.hands.begin(gesture, &self.model, &mut self.state);
-    }
-
-    /// Steps the string through so many samples into `run`.
-    fn run(&mut self, samples: usize) {
-        for i in 0..samples {
-            self.run[i] = self.gain * self.next();
-        }
-    }
-
-    #[inline]
-    fn next(&mut self) -> f64 {
-        if self.asleep {
-            return self.listener.hear_nothing();
-        }
-        self.hands.drive(&mut self.state, &mut self.drive);
-        self.state.step(&self.model, &self.drive, &mut self.scratch);
-        let signal = self.listener.hear(&self.model, &self.state, &self.scratch);
-        if self.hands.idle() && self.scratch.string_energy(&self.model) < SILENCE {
-            self.fall_asleep();
-        }
-        signal
-    }
-
-    /// Brings the string to rest; nobody could hear what is left of its motion.
-    #[cold]
-    fn fall_asleep(&mut self) {
-        self.state.reset(&self.model);
-        self.scratch.reset();
-        self.asleep = true;
-    }
-
-    fn reset(&mut self) {
-        self.state.reset(&self.model);
-        self.scratch.reset();
-        self.hands.reset(&self.model);
-        self.listener.reset();
-        self.asleep = true;
     }
 }
 
 /// The largest output of the last while.
 #[derive(Debug, Clone)]
-struct Level {
+pub(crate) struct Level {
     window: u64,
     left: u64,
     present: f64,

@@ -39,6 +39,7 @@ struct Bench<'a> {
     fretting: &'a Fretting,
     settings: SolverSettings,
     sample_rate: f64,
+    tension_modulation: bool,
 }
 
 /// Steps of a search for one number; each gains several digits.
@@ -65,8 +66,9 @@ pub fn intonate(
         fretting: &setup.player.fretting,
         settings: SolverSettings { stencil, ..SolverSettings::default() },
         sample_rate,
+        tension_modulation: setup.tension_modulation,
     };
-    let target = std::f64::consts::TAU * frequency(string.pitch);
+    let target = std::f64::consts::TAU * frequency(string.pitch + setup.tuning);
     let tuned = bench.tuned(string, setup.highest_tension_ratio(), target)?;
     let mut frets = setup.neck.equal_places();
     if setup.intonation == Intonation::Compensated {
@@ -95,7 +97,7 @@ impl Bench<'_> {
             core_radius: string.core_radius,
             loss_0: string.loss_0,
             loss_1: string.loss_1,
-            tension_modulation: true,
+            tension_modulation: self.tension_modulation,
         };
         for _ in 0..MOST_STEPS {
             let off = open_frequency(&self.model(&tuned, &[])?, 1) / target;

@@ -71,6 +71,7 @@ pub mod error;
 mod filter;
 pub mod gesture;
 pub mod grid;
+mod handover;
 mod hands;
 pub mod instrument;
 pub mod intonation;
@@ -87,6 +88,7 @@ pub mod simulation;
 mod solver;
 pub mod state;
 pub mod string;
+mod voice;
 
 pub use drive::Drive;
 pub use energy::{Energies, Entry, Ledger};

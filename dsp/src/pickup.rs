@@ -2,8 +2,8 @@
 
 use crate::filter::Biquad;
 use crate::grid::NUT;
-use crate::model::Model;
-use crate::setup::Pickup;
+use crate::model::{Model, StringParameters};
+use crate::setup::{Pickup, Setup};
 use crate::state::State;
 use crate::string::Scratch;
 
@@ -32,10 +32,43 @@ pub fn stretch_tension(model: &Model, scratch: &Scratch) -> f64 {
     string.axial_stiffness() / (2.0 * string.length * model.grid.spacing) * scratch.steepness()
 }
 
-/// What a pickup hears of one string.
+/// The pickups of a set-up over one string, and how much of each is heard.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PickupMix {
+    /// The set-up's own and the other kind, each with its share of the sound.
+    parts: [(Pickup, f64); 2],
+}
+
+/// The coil that is mixed to the force on the bridge: a single coil a quarter of the string from the saddle,
+/// where guitars have the neck pickup.
+const COIL: (f64, f64, f64, f64) = (0.25, 0.02, 4500.0, 2.0);
+
+impl PickupMix {
+    /// The pickups over a string of a set-up. The velocity at a coil and the force on the bridge are
+    /// brought to one scale by the string's wave impedance √(Tρ).
+    pub fn of(setup: &Setup, string: &StringParameters) -> Self {
+        let impedance = (string.tension * string.linear_density).sqrt();
+        let (place, aperture, resonance, quality) = COIL;
+        let position = place * setup.neck.scale_length;
+        let (other, scale) = match setup.pickup {
+            Pickup::Magnetic { .. } => (Pickup::Bridge, 1.0 / impedance),
+            Pickup::Bridge => (Pickup::Magnetic { position, aperture, resonance, quality }, impedance),
+        };
+        PickupMix { parts: [(setup.pickup, 1.0 - setup.blend), (other, setup.blend * scale)] }
+    }
+}
+
+/// What is heard of one string.
 #[derive(Debug, Clone)]
 pub(crate) struct Listener {
+    ears: [Option<Ear>; 2],
+}
+
+/// One pickup over one string.
+#[derive(Debug, Clone)]
+struct Ear {
     source: Source,
+    share: f64,
     coil: Biquad,
     block: Biquad,
 }
@@ -64,11 +97,50 @@ const FIELD: [(f64, f64); 5] = [
 const LOWEST: f64 = 18.0;
 
 impl Listener {
-    /// The pickup of a set-up over one string.
-    pub fn new(pickup: &Pickup, model: &Model, sample_rate: f64) -> Self {
+    /// The pickups of a set-up over one string; those that are not heard are left out.
+    pub fn new(mix: &PickupMix, model: &Model, sample_rate: f64) -> Self {
+        let ears = mix
+            .parts
+            .map(|(pickup, share)| (share != 0.0).then(|| Ear::new(&pickup, share, model, sample_rate)));
+        Listener { ears }
+    }
+
+    /// The signal after a step: volts of an arbitrary coil, or newtons.
+    #[inline]
+    pub fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch) -> f64 {
+        self.ears.iter_mut().flatten().map(|ear| ear.hear(model, state, scratch)).fold(0.0, |a, b| a + b)
+    }
+
+    /// The signal of a string at rest.
+    #[inline]
+    pub fn hear_nothing(&mut self) -> f64 {
+        self.ears.iter_mut().flatten().map(Ear::hear_nothing).fold(0.0, |a, b| a + b)
+    }
+
+    /// Takes over what the filters of another listener remember.
+    pub fn take_over(&mut self, old: &Listener) {
+        for (ear, old) in self.ears.iter_mut().zip(&old.ears) {
+            if let (Some(ear), Some(old)) = (ear, old) {
+                ear.coil.take_over(&old.coil);
+                ear.block.take_over(&old.block);
+            }
+        }
+    }
+
+    /// Forgets the past.
+    pub fn reset(&mut self) {
+        for ear in self.ears.iter_mut().flatten() {
+            ear.coil.reset();
+            ear.block.reset();
+        }
+    }
+}
+
+impl Ear {
+    fn new(pickup: &Pickup, share: f64, model: &Model, sample_rate: f64) -> Self {
         let block = Biquad::high_pass(LOWEST, sample_rate);
         match *pickup {
-            Pickup::Bridge => Listener { source: Source::Bridge, coil: Biquad::through(), block },
+            Pickup::Bridge => Ear { source: Source::Bridge, share, coil: Biquad::through(), block },
             Pickup::Magnetic { position, aperture, resonance, quality } => {
                 let end = model.grid.length;
                 let middle = end - position;
@@ -82,14 +154,13 @@ impl Listener {
                 let last = sum.iter().rposition(|w| *w != 0.0).unwrap_or(0);
                 let weights = sum[first..=last].to_vec();
                 let coil = Biquad::resonance(resonance, quality, sample_rate);
-                Listener { source: Source::Field { first, weights }, coil, block }
+                Ear { source: Source::Field { first, weights }, share, coil, block }
             }
         }
     }
 
-    /// The signal after a step: volts of an arbitrary coil, or newtons.
     #[inline]
-    pub fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch) -> f64 {
+    fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch) -> f64 {
         let signal = match &self.source {
             Source::Bridge => bridge_force(model, scratch),
             Source::Field { first, weights } => {
@@ -97,21 +168,14 @@ impl Listener {
                 motion.iter().zip(weights).map(|(d, w)| d * w).sum()
             }
         };
-        self.block.next(self.coil.next(signal))
+        self.share * self.block.next(self.coil.next(signal))
     }
 
-    /// The signal of a string at rest.
     #[inline]
-    pub fn hear_nothing(&mut self) -> f64 {
+    fn hear_nothing(&mut self) -> f64 {
         if self.coil.is_still() && self.block.is_still() {
             return 0.0;
         }
-        self.block.next(self.coil.next(0.0))
-    }
-
-    /// Forgets the past.
-    pub fn reset(&mut self) {
-        self.coil.reset();
-        self.block.reset();
+        self.share * self.block.next(self.coil.next(0.0))
     }
 }

@@ -43,6 +43,12 @@ impl Queue {
         if self.next_time()? <= now { self.waiting.pop() } else { None }
     }
 
+    /// Takes over all that waits in another queue.
+    pub fn take_over(&mut self, other: &Queue) {
+        self.waiting.clear();
+        self.waiting.extend_from_slice(&other.waiting);
+    }
+
     /// Forgets everything that waits.
     pub fn clear(&mut self) {
         self.waiting.clear();

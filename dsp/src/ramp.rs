@@ -47,6 +47,21 @@ impl Ramp {
         self.value()
     }
 
+    /// Where it goes.
+    pub fn goal(&self) -> f64 {
+        self.to
+    }
+
+    /// Samples until it has arrived.
+    pub fn left(&self) -> u64 {
+        self.total - self.done
+    }
+
+    /// The same ramp with all values multiplied by a factor.
+    pub fn scaled(self, factor: f64) -> Self {
+        Ramp { from: self.from * factor, to: self.to * factor, ..self }
+    }
+
     /// Whether it has arrived.
     #[inline]
     pub fn rests(&self) -> bool {

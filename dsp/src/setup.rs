@@ -25,6 +25,16 @@ pub struct Setup {
     pub max_bend: f64,
     /// Output per unit of pickup signal, above 0.
     pub gain: f64,
+    /// How much higher everything sounds than written, semitones, −12 to 12: another concert pitch.
+    #[serde(default)]
+    pub tuning: f64,
+    /// Whether stretching raises the tension of the strings.
+    #[serde(default = "yes")]
+    pub tension_modulation: bool,
+    /// How much of the sound is heard by a pickup of the other kind, 0 to 1: the force on the bridge beside
+    /// a coil, or a coil beside the bridge.
+    #[serde(default)]
+    pub blend: f64,
     /// Frets and board.
     pub neck: Neck,
     /// The player's hands.
@@ -76,6 +86,10 @@ pub struct SetupString {
 
 fn alike() -> f64 {
     1.0
+}
+
+fn yes() -> bool {
+    true
 }
 
 /// How the hands act.
@@ -236,6 +250,8 @@ impl Setup {
         }
         within("max_bend", self.max_bend, 0.0, 12.0, "semitones")?;
         within("gain", self.gain, 1e-9, 1e9, "")?;
+        within("tuning", self.tuning, -12.0, 12.0, "semitones")?;
+        within("blend", self.blend, 0.0, 1.0, "")?;
         self.neck.check()?;
         self.player.check(self.neck.scale_length)?;
         self.pickup.check(self.neck.scale_length)?;

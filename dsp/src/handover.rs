@@ -1,0 +1,253 @@
+//! Another model under strings that ring: what one instrument hands to the next, without a click and
+//! without allocating.
+//!
+//! The new instrument is built beforehand, elsewhere. It takes over displacement and motion of each
+//! string (read between the grid points where the grids differ), the fingers with the depth to which
+//! they are pressed in, plucks under way and the gestures that wait. A finger or fret that was in touch
+//! stays in touch just as deep; board and frets go on from there to their new places as a luthier's
+//! wrench would move them, and the tension from the old to the new. The step from one set of numbers to
+//! the other changes the energy that the same motion holds: the [`Ledger`] books it, and all work done
+//! by what moves afterwards. For a moment both are computed and the one sound fades into the other,
+//! because what a pickup at another place hears cannot be carried over.
+
+use std::ops::Range;
+
+use crate::energy::Ledger;
+use crate::gesture::FINGERS_PER_STRING;
+use crate::grid::NUT;
+use crate::hands::Hands;
+use crate::instrument::Instrument;
+use crate::model::{Contact, ContactKind, Model};
+use crate::ramp::Ramp;
+use crate::state::State;
+
+/// The time in which one sound fades into the other, s.
+const FADE: f64 = 0.02;
+
+impl Instrument {
+    /// Puts `successor`, which must be built for the same sample rate, in the place of this instrument.
+    /// If its strings are much the same the sound goes on; otherwise the old sound fades away and the new
+    /// instrument is silent. Either way the sound is continuous, and nothing is allocated
+    /// or given back: the old instrument stays inside until [`Instrument::take_before`] fetches it.
+    ///
+    /// # Errors
+    /// While the instrument before has not been fetched; `successor` comes back unused.
+    pub fn hand_over(&mut self, mut successor: Box<Instrument>) -> Result<(), Box<Instrument>> {
+        if self.before.is_some() {
+            return Err(successor);
+        }
+        successor.now = self.now;
+        successor.level.clone_from(&self.level);
+        if self.continues_in(&successor) {
+            successor.queue.take_over(&self.queue);
+            for (voice, old) in successor.voices.iter_mut().zip(&mut self.voices) {
+                voice.take_over(old);
+            }
+        }
+        std::mem::swap(self, &mut successor);
+        let samples = (FADE * self.sample_rate).round() as u64;
+        self.fade = Ramp::at(0.0);
+        self.fade.go(1.0, samples);
+        self.before = Some(successor);
+        Ok(())
+    }
+
+    /// Whether the strings of another instrument can take over the motion of this one's: as many of them,
+    /// nearly as long and as heavy, that bear the tension. The same motion of another string would be
+    /// another sound, beginning with a blow.
+    pub fn continues_in(&self, other: &Instrument) -> bool {
+        let near = |new: f64, old: f64| (0.8..=1.25).contains(&(new / old));
+        self.voices.len() == other.voices.len()
+            && self.voices.iter().zip(&other.voices).all(|(old, new)| {
+                let (old, new) = (&old.model.string, &new.model.string);
+                near(new.linear_density, old.linear_density)
+                    && near(new.length, old.length)
+                    && old.tension <= new.tension_limit
+            })
+    }
+
+    /// Whether the sound of the instrument before is still fading.
+    pub fn is_fading(&self) -> bool {
+        !self.fade.rests()
+    }
+
+    /// Samples until the instrument before has faded, 0 if there is none.
+    pub fn fading_left(&self) -> u64 {
+        self.fade.left()
+    }
+
+    /// The instrument this one took over from, once it has faded; to be dropped where that does no harm.
+    pub fn take_before(&mut self) -> Option<Box<Instrument>> {
+        if self.is_fading() { None } else { self.before.take() }
+    }
+
+    /// How exactly contacts are solved from the next sample on: Newton iterations at most, and the change
+    /// of penetration, m, at which they stop.
+    pub fn set_effort(&mut self, max_iterations: usize, tolerance: f64) {
+        for voice in &mut self.voices {
+            voice.model.settings.max_iterations = max_iterations;
+            voice.model.settings.tolerance = tolerance;
+        }
+    }
+
+    /// Opens a ledger for each string; allocates. Ledgers go on through a hand-over, which they book.
+    pub fn open_ledgers(&mut self) {
+        self.voices.iter_mut().for_each(crate::voice::Voice::open_ledger);
+    }
+
+    /// The ledger of a string, if it was opened.
+    pub fn ledger(&self, string: usize) -> Option<&Ledger> {
+        self.voices[string].ledger.as_ref()
+    }
+
+    /// What is fading, if anything is.
+    pub(crate) fn fading(&mut self) -> Option<&mut Instrument> {
+        if self.fade.rests() { None } else { self.before.as_deref_mut() }
+    }
+
+    /// Steps the instrument before through the samples `span` and mixes its sound into theirs.
+    #[cold]
+    pub(crate) fn fade_from_before(
+        &mut self,
+        span: Range<usize>,
+        stems: &mut [&mut [f32]],
+        left: &mut [f32],
+        right: &mut [f32],
+    ) {
+        let Some(before) = &mut self.before else { return };
+        let run = span.len();
+        before.voices.iter_mut().for_each(|voice| voice.run(run));
+        for (i, at) in span.enumerate() {
+            let part = self.fade.value();
+            self.fade.step();
+            let mix = |new: &mut f32, old: f64| *new = (old + (f64::from(*new) - old) * part) as f32;
+            let [l, r] = before.stereo(i);
+            mix(&mut left[at], l);
+            mix(&mut right[at], r);
+            for (index, stem) in stems.iter_mut().enumerate() {
+                mix(&mut stem[at], before.voices.get(index).map_or(0.0, |voice| voice.run[i]));
+            }
+        }
+    }
+}
+
+impl State {
+    /// Takes over the motion of a string on another model of the same time step, and the fingers on it;
+    /// one whose pad is too stiff for this model is left out.
+    pub(crate) fn take_over(&mut self, model: &Model, old: &State, old_model: &Model) {
+        let (grid, old_grid) = (&model.grid, &old_model.grid);
+        let same_grid = grid == old_grid;
+        let scale = grid.length / old_grid.length;
+        if same_grid {
+            self.displacement.copy_from_slice(&old.displacement);
+            self.motion.copy_from_slice(&old.motion);
+        } else {
+            self.displacement.fill(0.0);
+            self.motion.fill(0.0);
+            for node in 1..grid.intervals {
+                let reading = old_grid.reading(grid.place(node) / scale);
+                self.displacement[NUT + node] = reading.of(&old.displacement);
+                self.motion[NUT + node] = reading.of(&old.motion);
+            }
+        }
+        for slot in 0..self.fingers.len() {
+            self.fingers[slot] = old.fingers[slot].and_then(|mut finger| {
+                finger.law = model.finger_law(&finger.touch).ok()?;
+                if same_grid {
+                    return Some(finger);
+                }
+                // Under it the string reads a little differently now; the pad goes with it.
+                let height_before = old.displacement_at(&finger.reading);
+                let motion_before = finger.reading.of(&old.motion);
+                finger.position *= scale;
+                finger.reading = grid.reading(finger.position);
+                finger.reading_before = finger.reading;
+                finger.height += self.displacement_at(&finger.reading) - height_before;
+                finger.motion += finger.reading.of(&self.motion) - motion_before;
+                Some(finger)
+            });
+        }
+        self.finger_changes = old.finger_changes;
+        self.steps = old.steps;
+        self.solver_balance = old.solver_balance;
+        self.energy_scale = old.energy_scale;
+        self.take_over_heights(model, old, old_model, same_grid);
+        self.heights_next.copy_from_slice(&self.heights);
+        self.settling = 2;
+        self.forces.fill(Default::default());
+        self.watch.near.clear();
+        self.watch.near.extend(0..model.contacts.len() as u32);
+        self.watch.budget = -1.0;
+    }
+
+    /// Puts every contact that was in touch where it is just as deep in touch, and every other one under
+    /// the string.
+    fn take_over_heights(&mut self, model: &Model, old: &State, old_model: &Model, same_grid: bool) {
+        let same = |a: &Contact, b: &Contact| match a.kind {
+            ContactKind::Fret { .. } => a.kind == b.kind,
+            ContactKind::Board { .. } => same_grid && a.kind == b.kind,
+        };
+        let count = old_model.contacts.len();
+        // Both lists are in order of place, so the partner of a contact follows that of the one before.
+        let mut next = 0;
+        for (index, contact) in model.contacts.iter().enumerate() {
+            let now = contact.reading.of(&self.displacement);
+            let before = now - contact.reading.of(&self.motion);
+            let partner = (0..count)
+                .map(|step| (next + step) % count)
+                .find(|&candidate| same(contact, &old_model.contacts[candidate]));
+            let (mut depth, mut depth_before) = (0.0, 0.0);
+            if let Some(partner) = partner {
+                next = partner + 1;
+                let reading = &old_model.contacts[partner].reading;
+                let string = reading.of(&old.displacement);
+                depth = old.heights[partner] - string;
+                depth_before = old.heights_before[partner] - (string - reading.of(&old.motion));
+            }
+            if depth.max(depth_before) > 0.0 {
+                self.heights[index] = now + depth;
+                self.heights_before[index] = before + depth_before;
+            } else {
+                let free = contact.height.min(now).min(before);
+                self.heights[index] = free;
+                self.heights_before[index] = free;
+            }
+        }
+    }
+}
+
+impl Hands {
+    /// Takes over what the hands on another string of the same sample rate are doing.
+    pub(crate) fn take_over(&mut self, old: &Hands, model: &Model, old_model: &Model) {
+        let scale = model.grid.length / old_model.grid.length;
+        self.plucks.clear();
+        for pluck in &old.plucks {
+            let position = pluck.position * scale;
+            let reading = model.grid.reading(position);
+            self.plucks.push(crate::hands::Pluck { position, reading, ..*pluck });
+        }
+        for (held, before) in self.fingers.iter_mut().zip(&old.fingers) {
+            *held = *before;
+            if let Some(held) = held {
+                held.position = held.position.scaled(scale);
+            }
+        }
+        // From the tension there is, as far as this string bears it, to the same bend of the new one.
+        let ratio = (old.tension.goal() / old_model.string.tension).min(Self::highest_ratio(model));
+        self.tension = Ramp::at(old.tension.value().min(model.string.tension_limit));
+        let goal = model.string.tension * ratio;
+        if self.tension.value() != goal {
+            let left = old.tension.left().max(self.samples(FADE));
+            self.tension.go(goal, left);
+        }
+    }
+
+    /// Lets go of fingers that the string's state has not.
+    pub(crate) fn keep_only(&mut self, state: &State) {
+        for slot in 0..FINGERS_PER_STRING {
+            if state.fingers()[slot].is_none() {
+                self.fingers[slot] = None;
+            }
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! One string of an instrument: its model, its motion, the hands on it and what is heard of it.
+
+use crate::drive::Drive;
+use crate::energy::Ledger;
+use crate::error::Error;
+use crate::gesture::{FINGERS_PER_STRING, Gesture};
+use crate::hands::Hands;
+use crate::instrument::StringGeometry;
+use crate::intonation::intonate;
+use crate::model::Model;
+use crate::pickup::{Listener, PickupMix};
+use crate::ramp::Ramp;
+use crate::scene::SolverSettings;
+use crate::setup::Setup;
+use crate::state::State;
+use crate::string::Scratch;
+
+/// One string with all that belongs to it.
+#[derive(Debug, Clone)]
+pub(crate) struct Voice {
+    pub model: Model,
+    pub state: State,
+    scratch: Scratch,
+    drive: Drive,
+    hands: Hands,
+    listener: Listener,
+    pub geometry: StringGeometry,
+    gain: f64,
+    pub pan: [f64; 2],
+    asleep: bool,
+    /// The last samples stepped through, up to [`RUN`].
+    pub run: [f64; RUN],
+    settling: Settling,
+    /// What the string holds, gets and loses, if anybody wants to know.
+    pub ledger: Option<Ledger>,
+}
+
+/// Frets and board on their way to where the model has them.
+#[derive(Debug, Clone)]
+struct Settling {
+    /// Heights from which they started, m, in the model's order.
+    from: Vec<f64>,
+    /// How far they have come, 0 to 1.
+    part: Ramp,
+}
+
+/// Samples a string is stepped through at a time, at most.
+pub(crate) const RUN: usize = 64;
+
+/// A string nobody touches sleeps once its energy is below this, J: a soft pluck holds 1e-6 J, so this
+/// is 140 dB under it.
+const SILENCE: f64 = 1e-20;
+
+/// The time frets and board take from where the string of another model left them to their own place, s:
+/// a millimetre at the speed of a slow finger.
+const SETTLING: f64 = 0.04;
+
+impl Voice {
+    /// Tunes the string, places its frets, compiles its model; allocates.
+    pub fn new(setup: &Setup, index: usize, solver: SolverSettings, rate: f64) -> Result<Voice, Error> {
+        let spec = &setup.string[index];
+        let name = format!("string[{}]", index + 1);
+        let placed = intonate(setup, spec, solver.stencil, rate).map_err(|error| error.under(&name))?;
+        let barrier = setup.neck.barrier(&placed.frets)?;
+        let model = Model::new(placed.string, Some(&barrier), FINGERS_PER_STRING, solver, rate)
+            .map_err(|error| error.under(&name))?;
+        for (name, touch) in
+            [("player.fretting", setup.player.fretting.touch), ("player.damper", setup.player.damper.touch)]
+        {
+            model.finger_law(&touch).map_err(|error| error.under(name))?;
+        }
+        let angle = 0.25 * std::f64::consts::PI * (spec.pan + 1.0);
+        Ok(Voice {
+            geometry: StringGeometry {
+                open_pitch: spec.pitch,
+                length: placed.string.length,
+                frets: placed.frets,
+                highest_ratio: placed.string.tension_limit / placed.string.tension,
+                wave_impedance: (placed.string.tension * placed.string.linear_density).sqrt(),
+                behind: setup.player.fretting.behind,
+            },
+            state: State::new(&model),
+            scratch: Scratch::new(&model),
+            drive: Drive::new(&model),
+            hands: Hands::new(&model, rate),
+            listener: Listener::new(&PickupMix::of(setup, &placed.string), &model, rate),
+            gain: setup.gain * spec.level,
+            pan: [libm::cos(angle), libm::sin(angle)],
+            asleep: true,
+            run: [0.0; RUN],
+            settling: Settling { from: Vec::with_capacity(model.contacts.len()), part: Ramp::at(1.0) },
+            ledger: None,
+            model,
+        })
+    }
+
+    /// Begins a gesture.
+    pub fn begin(&mut self, gesture: Gesture) {
+        self.asleep = false;
+        self.hands.begin(gesture, &self.model, &mut self.state);
+    }
+
+    /// Steps the string through so many samples into `run`.
+    pub fn run(&mut self, samples: usize) {
+        for i in 0..samples {
+            self.run[i] = self.gain * self.next();
+        }
+    }
+
+    #[inline]
+    fn next(&mut self) -> f64 {
+        if self.asleep {
+            return self.listener.hear_nothing();
+        }
+        self.hands.drive(&mut self.state, &mut self.drive);
+        if !self.settling.part.rests() {
+            self.settle();
+        } else if !self.drive.heights.is_empty() {
+            self.drive.heights.clear();
+        }
+        self.state.step(&self.model, &self.drive, &mut self.scratch);
+        if let Some(ledger) = &mut self.ledger {
+            ledger.record(&self.model, &self.state, &self.scratch, &self.drive);
+        }
+        let signal = self.listener.hear(&self.model, &self.state, &self.scratch);
+        if self.hands.idle()
+            && self.settling.part.rests()
+            && self.scratch.string_energy(&self.model) < SILENCE
+        {
+            self.fall_asleep();
+        }
+        signal
+    }
+
+    /// Brings the string to rest; nobody could hear what is left of its motion.
+    #[cold]
+    fn fall_asleep(&mut self) {
+        self.state.reset(&self.model);
+        self.scratch.reset();
+        self.asleep = true;
+        self.rebook();
+    }
+
+    /// Moves frets and board by a sample's share of their way.
+    #[cold]
+    fn settle(&mut self) {
+        let part = self.settling.part.step();
+        let way = self.settling.from.iter().zip(&self.model.contacts);
+        self.drive.heights.clear();
+        if part < 1.0 {
+            self.drive.heights.extend(way.map(|(from, contact)| from + (contact.height - from) * part));
+        } else {
+            // The last move ends exactly there; afterwards the barrier rests.
+            self.drive.heights.extend(way.map(|(_, contact)| contact.height));
+        }
+    }
+
+    /// Has the ledger, if there is one, book what was done to the string beside its steps.
+    fn rebook(&mut self) {
+        if let Some(ledger) = &mut self.ledger {
+            ledger.rebook(&self.model, &self.state, self.hands.tension());
+        }
+    }
+
+    /// Opens the ledger of the string in its present state; allocates.
+    pub fn open_ledger(&mut self) {
+        self.ledger = Some(Ledger::new(&self.model, &self.state, self.hands.tension()));
+    }
+
+    /// Takes over from another string, built for the same sample rate: its motion, the fingers on it, the
+    /// plucks under way, and its ledger. Nothing is allocated.
+    pub fn take_over(&mut self, old: &mut Voice) {
+        self.ledger = old.ledger.take();
+        self.asleep = old.asleep;
+        self.hands.take_over(&old.hands, &self.model, &old.model);
+        self.listener.take_over(&old.listener);
+        if self.asleep {
+            return self.rebook();
+        }
+        self.state.take_over(&self.model, &old.state, &old.model);
+        self.hands.keep_only(&self.state);
+        self.settling.from.clear();
+        self.settling.from.extend_from_slice(self.state.heights());
+        self.settling.part = Ramp::at(0.0);
+        self.settling.part.go(1.0, (SETTLING / self.model.grid.time_step).round() as u64);
+        self.rebook();
+    }
+
+    /// Silence, with nobody near.
+    pub fn reset(&mut self) {
+        self.state.reset(&self.model);
+        self.scratch.reset();
+        self.hands.reset(&self.model);
+        self.listener.reset();
+        self.settling.part = Ramp::at(1.0);
+        self.drive.heights.clear();
+        self.asleep = true;
+        self.rebook();
+    }
+}

@@ -1,0 +1,198 @@
+//! Promise: another set-up can be put under ringing strings. The sound goes on without a click, the ledger
+//! books what the change does to the energy and closes in every sample, nothing is allocated, and nothing
+//! blows up, whatever the two set-ups are.
+
+// The allocator that keeps watch comes with the plugin.
+use low_action as _;
+use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture};
+use nice_assert_no_alloc::assert_no_alloc;
+use proptest::prelude::*;
+
+const RATE: f64 = 48_000.0;
+
+fn settings() -> EngineSettings {
+    EngineSettings { sample_rate: RATE, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 }
+}
+
+fn build(setup: &Setup) -> Instrument {
+    Instrument::new(setup, &settings()).expect("the set-up can be built")
+}
+
+/// Presses every other string behind fret 5 and plucks them all.
+fn strike(instrument: &mut Instrument, setup: &Setup) {
+    let player = &setup.player;
+    for string in 0..instrument.string_count() {
+        let time = instrument.now();
+        let length = instrument.geometry(string).length;
+        let mut does = |time, gesture| {
+            instrument.schedule(TimedGesture { time, string, gesture }).expect("there is room");
+        };
+        if string % 2 == 0 {
+            let position = 0.22 * length;
+            let (touch, force) = (player.fretting.touch, player.fretting.force);
+            does(time, Gesture::Place { finger: 0, touch, position, clearance: 1e-4 });
+            does(time, Gesture::Press { finger: 0, force, duration: 0.004 });
+        }
+        let position = length - player.pluck_position;
+        let force = player.pluck_force;
+        does(time + 240, Gesture::Pluck { position, force, duration: player.pluck_duration });
+    }
+}
+
+/// Appends so many samples of the left channel.
+fn play(instrument: &mut Instrument, samples: usize, sound: &mut Vec<f32>) {
+    let mut block = [vec![0.0; samples], vec![0.0; samples]];
+    let [left, right] = &mut block;
+    instrument.process(left, right);
+    sound.extend_from_slice(left);
+}
+
+fn peak(sound: &[f32]) -> f32 {
+    sound.iter().fold(0.0, |most, sample| most.max(sample.abs()))
+}
+
+/// The sharpest corner: the largest second difference.
+fn corner(sound: &[f32]) -> f32 {
+    sound.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).abs()).fold(0.0, f32::max)
+}
+
+/// A set-up as a player would change it, near another.
+fn changed(setup: &Setup, action: f64, loss: f64, pickup: f64, tuning: f64) -> Setup {
+    let mut setup = setup.clone();
+    setup.neck.action *= action;
+    setup.neck.nut_clearance *= action;
+    setup.string.iter_mut().for_each(|string| {
+        string.loss_0 *= loss;
+        string.loss_1 *= loss;
+    });
+    if let low_action_dsp::setup::Pickup::Magnetic { position, .. } = &mut setup.pickup {
+        *position += pickup;
+    }
+    setup.tuning += tuning;
+    setup
+}
+
+#[test]
+fn the_same_setup_changes_nothing() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let mut alone = build(&setup);
+    strike(&mut alone, &setup);
+    let mut handed = alone.clone();
+    let (mut expected, mut found) = (Vec::new(), Vec::new());
+    play(&mut alone, 12_000, &mut expected);
+    play(&mut handed, 6_000, &mut found);
+    assert!(handed.hand_over(Box::new(build(&setup))).is_ok());
+    play(&mut handed, 6_000, &mut found);
+    let off = expected.iter().zip(&found).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    // Contacts are solved to 1e-12 m of a motion of 1e-5 m a sample; the strings ring 0.1 s more.
+    assert!(off <= 1e-4 * peak(&expected), "{off:e} of {}", peak(&expected));
+}
+
+#[test]
+fn there_is_no_click() {
+    let electric = Setup::builtin("electric").expect("it is built in");
+    let changes = [
+        ("action up", changed(&electric, 1.5, 1.0, 0.0, 0.0)),
+        ("action down", changed(&electric, 0.7, 1.0, 0.0, 0.0)),
+        ("more loss", changed(&electric, 1.0, 4.0, 0.0, 0.0)),
+        ("pickup moved", changed(&electric, 1.0, 1.0, 0.08, 0.0)),
+        ("a tone down", changed(&electric, 1.0, 1.0, 0.0, -2.0)),
+        ("other strings", Setup::builtin("classical").expect("it is built in")),
+        ("another number of strings", Setup::builtin("bass").expect("it is built in")),
+    ];
+    changes.iter().for_each(|(what, new)| assert_no_click(what, &electric, new));
+}
+
+fn assert_no_click(what: &str, old: &Setup, new: &Setup) {
+    let mut instrument = build(old);
+    strike(&mut instrument, old);
+    let mut sound = Vec::new();
+    play(&mut instrument, 12_000, &mut sound);
+    assert!(instrument.hand_over(Box::new(build(new))).is_ok());
+    play(&mut instrument, 9600, &mut sound);
+    // What either sound does by itself in the 50 ms before, and from 100 ms after on.
+    let usual = corner(&sound[9600..12_000]).max(corner(&sound[16_800..]));
+    let here = corner(&sound[11_990..16_800]);
+    assert!(here <= 2.0 * usual, "{what}: a corner of {here:e} where {usual:e} is usual");
+}
+
+#[test]
+fn another_instrument_begins_in_silence() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let mut instrument = build(&setup);
+    strike(&mut instrument, &setup);
+    let mut sound = Vec::new();
+    play(&mut instrument, 4_800, &mut sound);
+    assert!(instrument.hand_over(Box::new(build(&Setup::builtin("bass").expect("it is built in")))).is_ok());
+    let left = instrument.fading_left() as usize;
+    assert!(instrument.take_before().is_none(), "it still sounds");
+    play(&mut instrument, left, &mut sound);
+    let mut rest = Vec::new();
+    play(&mut instrument, 4_800, &mut rest);
+    assert_eq!(peak(&rest), 0.0);
+    assert_eq!(instrument.take_before().expect("it has faded").string_count(), 6);
+}
+
+#[test]
+fn nothing_is_allocated() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let mut instrument = build(&setup);
+    strike(&mut instrument, &setup);
+    let new = Box::new(build(&changed(&setup, 0.8, 2.0, 0.01, 0.3)));
+    let (mut left, mut right) = (vec![0.0; 2400], vec![0.0; 2400]);
+    let before = assert_no_alloc(|| {
+        instrument.process(&mut left, &mut right);
+        let refused = instrument.hand_over(new);
+        instrument.process(&mut left, &mut right);
+        (refused, instrument.take_before())
+    });
+    assert!(before.0.is_ok() && before.1.is_some());
+}
+
+/// A set-up out of numbers from 0 to 1.
+fn any_setup(which: usize, numbers: &[f64]) -> Setup {
+    let mut setup = Setup::builtin(Setup::BUILTIN[which]).expect("it is built in");
+    setup.neck.nut_clearance = 5e-5 + 1e-3 * numbers[0];
+    setup.neck.action = setup.neck.nut_clearance + 5e-3 * numbers[1];
+    setup.neck.relief = 1e-3 * numbers[2];
+    setup.neck.fret_height = 2e-3 * numbers[3];
+    setup.tuning = 0.5 * numbers[4] - 0.25;
+    setup.tension_modulation = numbers[5] > 0.3;
+    setup.blend = numbers[6];
+    for string in &mut setup.string {
+        string.loss_0 *= 4.0 * numbers[7];
+        string.linear_density *= 0.97 + 0.06 * numbers[8];
+    }
+    setup
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 16, failure_persistence: None, ..ProptestConfig::default() })]
+    #[test]
+    fn the_ledger_closes(
+        which in 0_usize..3,
+        setups in proptest::collection::vec(proptest::collection::vec(0.0..1.0_f64, 9), 3),
+        samples in 300_usize..3000,
+    ) {
+        let setups: Vec<Setup> = setups.iter().map(|numbers| any_setup(which, numbers)).collect();
+        let mut instrument = build(&setups[0]);
+        instrument.open_ledgers();
+        strike(&mut instrument, &setups[0]);
+        let mut sound = Vec::new();
+        play(&mut instrument, samples, &mut sound);
+        for setup in &setups[1..] {
+            prop_assert!(instrument.hand_over(Box::new(build(setup))).is_ok());
+            play(&mut instrument, samples.max(960), &mut sound);
+            instrument.take_before();
+        }
+        prop_assert!(sound.iter().all(|sample| sample.is_finite()));
+        for string in 0..instrument.string_count() {
+            let ledger = instrument.ledger(string).expect("it is open");
+            prop_assert!(ledger.worst_residual <= 1e-13, "string {string}: {:e}", ledger.worst_residual);
+            let sum = ledger.residual_sum.abs();
+            prop_assert!(sum <= 1e-12 * ledger.largest, "string {string}: {sum:e} of {:e}", ledger.largest);
+            let energy = ledger.energies().total();
+            prop_assert!(energy <= ledger.put_in * (1.0 + 1e-9) + 1e-15, "string {string}: {energy:e}");
+        }
+    }
+}
