@@ -78,13 +78,13 @@ fn the_first_sound_comes_within_three_milliseconds_and_no_second_attack_follows(
     everywhere(|mut string| {
         for fret in [0, 2, 7, 12] {
             for velocity in [30, 100] {
-                let sound = string.note(fret, velocity, 0.3, 0.0);
+                let sound = string.note(fret, velocity, 0.5, 0.0);
                 let name = format!("{} fret {fret} at {velocity}", string.name);
-                // The time in which a finger sets down the highest string of all.
-                let attack = peak(&sound[..samples(0.06)]);
+                // The time in which a finger sets the string down on the fret.
+                let attack = peak(&sound[..samples(0.04)]);
                 let first = sound.iter().position(|sample| f64::from(sample.abs()) > 0.01 * attack);
                 assert!(first.is_some_and(|first| first < samples(0.003)), "{name}: first at {first:?}");
-                let later = peak(&sound[samples(0.06)..]);
+                let later = peak(&sound[samples(0.04)..]);
                 assert!(later < 1.12 * attack, "{name}: {:.1} dB later", decibels(later / attack));
             }
         }
@@ -97,7 +97,7 @@ fn a_released_note_is_down_40_db_within_150_ms_without_a_click() {
     let (off, quiet) = (samples(held), samples(held + 0.15));
     everywhere(|mut string| {
         for fret in [0, 1, 5, 12] {
-            for velocity in [70, 120] {
+            for velocity in [50, 100, 127] {
                 let sound = string.note(fret, velocity, held, 1.0);
                 let name = format!("{} fret {fret} at {velocity}", string.name);
                 let before = &sound[off - samples(0.03)..off];
@@ -107,14 +107,18 @@ fn a_released_note_is_down_40_db_within_150_ms_without_a_click() {
                 let attack = peak(&sound[..samples(0.05)]);
                 let later = decibels(peak(&sound[quiet..]) / attack);
                 assert!(later < -40.0, "{name}: {later:.1} dB later");
-                // The hand comes down without a jump. The string may brush it for a few periods, which makes
-                // the sound up to twice as steep; a click would be many times steeper.
+                // The hand comes down without a jump: nothing is steeper than in the last 0.1 s, four periods
+                // of the lowest note. The partials of a stiff string are not in step, so a fifth is left to
+                // chance; a click would be many times steeper.
                 let slope = |sound: &[f32]| {
                     sound.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0_f32, f32::max)
                 };
                 let after = &sound[off..quiet];
                 assert!(peak(after) < 1.2 * peak(before), "{name}: louder when released");
-                assert!(slope(after) < 2.5 * slope(before), "{name}: a click when released");
+                assert!(
+                    slope(after) < 1.2 * slope(&sound[samples(held - 0.1)..off]),
+                    "{name}: a click when released"
+                );
             }
         }
     });

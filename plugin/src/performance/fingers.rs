@@ -11,6 +11,7 @@ use super::{GestureSink, Moment, PlayedString};
 struct Finger {
     slot: FingerSlot,
     fret: usize,
+    touch: Touch,
     /// Whether its force has been eased off.
     eased: bool,
 }
@@ -53,14 +54,15 @@ impl Fingers {
         self.fretting.is_some()
     }
 
-    /// Makes way for a note: dampers off, a finger behind the fret (0: none). One that is there already
-    /// stays; any other leaves for a new one, at once because the pluck covers its sound.
-    pub(crate) fn stop(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
+    /// Makes way for a note of some strength (0 to 1): dampers off, a finger behind the fret (0: none).
+    /// One that is there already stays; any other leaves for a new one, at once because the pluck covers
+    /// its sound.
+    pub(crate) fn stop(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
         for slot in self.resting_slots() {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
         self.resting = [false; FINGERS_PER_STRING];
-        let Fretting { touch, force, hover, landing, .. } = self.hands.fretting;
+        let Fretting { mut touch, force, hover, landing, .. } = self.hands.fretting;
         if let Some(finger) = self.fretting.as_mut().filter(|finger| finger.fret == fret) {
             if std::mem::take(&mut finger.eased) {
                 at.does(Gesture::Press { finger: finger.slot, force, duration: landing });
@@ -68,12 +70,13 @@ impl Fingers {
             return;
         }
         if let Some(old) = self.fretting.take() {
-            at.does(lifting(old.slot, touch, QUICK_LIFT));
+            at.does(lifting(old.slot, old.touch, QUICK_LIFT));
         }
         if fret > 0 {
+            touch.hand_damping /= 1.0 + HASTE * strength;
             let slot = self.next_slot;
             self.next_slot = (slot + 1) % FRETTING_SLOTS;
-            self.fretting = Some(Finger { slot, fret, eased: false });
+            self.fretting = Some(Finger { slot, fret, touch, eased: false });
             let position = self.geometry.finger_position(fret);
             at.does(Gesture::Place { finger: slot, touch, position, clearance: hover });
             at.does(Gesture::Press { finger: slot, force, duration: landing });
@@ -106,21 +109,22 @@ impl Fingers {
         let leaving = self.fretting.and_then(|finger| self.leaving_forces.get(finger.fret - 1));
         let holding = HOLDING * leaving.copied().unwrap_or(0.0);
         if holding < self.hands.fretting.force {
-            self.ease(holding, QUIET_AFTER, at);
+            self.ease(holding, RELAXING, at);
         }
     }
 
     /// The fretting finger eases off until the string is free of it.
     pub(crate) fn ease_off(&mut self, at: &mut Moment<impl GestureSink>) {
-        let Leaving { turning, .. } = FINGER_EASING;
         // It is not lifted yet: the next note may want it back.
-        self.ease(-lift_force(self.hands.fretting.touch, FINGER_EASING), turning, at);
+        if let Some(finger) = self.fretting {
+            self.ease(-lift_force(finger.touch, FINGER_EASING), FINGER_EASING.turning, at);
+        }
     }
 
     /// The fretting finger goes, and the dampers ease off and go.
     pub(crate) fn leave(&mut self, at: &mut Moment<impl GestureSink>) {
         if let Some(finger) = self.fretting.take() {
-            at.does(lifting(finger.slot, self.hands.fretting.touch, FINGER_EASING));
+            at.does(lifting(finger.slot, finger.touch, FINGER_EASING));
         }
         for slot in self.resting_slots() {
             at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));

@@ -112,8 +112,8 @@ impl StringPlayer {
         self.plucked_at = Some(time);
         self.ending = None;
         let mut at = self.moment(time, out);
-        self.fingers.stop(start.fret, &mut at);
         let strength = libm::pow(start.velocity, VELOCITY_EXPONENT) * start.deviation.force;
+        self.fingers.stop(start.fret, strength, &mut at);
         let pluck = self.fingers.pluck(strength, start.deviation.place);
         at.does_later(start.deviation.delay, pluck);
     }
@@ -193,7 +193,7 @@ impl StringPlayer {
             Ending::Damp => {
                 self.fingers.damp(&mut at);
                 let next = if self.fingers.frets() { Ending::EaseOff } else { Ending::Leave };
-                Some((QUIET_AFTER, next))
+                Some((RELAXING, next))
             }
             Ending::EaseOff => {
                 self.fingers.ease_off(&mut at);

@@ -41,8 +41,14 @@ pub(crate) struct Leaving {
 
 /// How it leaves when the next note is about to sound: 1 mm away after 3 ms.
 pub(crate) const QUICK_LIFT: Leaving = Leaving { speed: 0.5, turning: 0.001 };
-/// How long the dampers rest before the fretting finger begins to leave, s: 40 dB take at most 0.15 s.
-pub(crate) const QUIET_AFTER: f64 = 0.15;
+/// How fast fingers are when they play loud: the hand damps the finger that stops the hardest note
+/// this many times less, and one, than the softest. Setting a string down within 10 ms is a hammer-on,
+/// which a loud pluck covers and a soft one does not; setting it down slowly lets the open string be
+/// heard before the stopped one.
+pub(crate) const HASTE: f64 = 5.0;
+/// How long the dampers rest before the fretting finger begins to leave, s, while it relaxes: 40 dB
+/// take 0.15 s, and a hand that relaxes as fast as that is itself heard through a bridge.
+pub(crate) const RELAXING: f64 = 0.4;
 /// What a fretting finger goes on pressing with when a note has ended, as a multiple of the force at
 /// which the string would leave the fret.
 pub(crate) const HOLDING: f64 = 1.25;
