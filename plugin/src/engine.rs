@@ -4,13 +4,19 @@
 //! [`Engine`]. Events carry sample times and the sound depends on those alone: cutting the same
 //! time into other blocks changes no bit of it.
 
+mod handover;
+
 use std::collections::VecDeque;
 use std::fmt;
 use std::str::FromStr;
 
 use low_action_dsp::{EngineSettings, Instrument, Setup, Stencil, TimedGesture};
 
-use crate::performance::{Compromises, GestureSink, Performance, PlayedString, PlayerEvent, Style};
+use crate::controls::Touching;
+use crate::performance::{
+    Compromises, GestureSink, InputMode, Performance, PlayedString, PlayerEvent, Style,
+};
+pub use handover::Replacement;
 
 /// Samples handed from the player to the instrument at a time. It bounds how many gestures can be
 /// waiting in the instrument, however large the blocks asked for.
@@ -42,6 +48,10 @@ pub enum Quality {
 impl Quality {
     /// All of them, from least to most work.
     pub const ALL: [Self; 4] = [Self::Draft, Self::Live, Self::Studio, Self::Reference];
+
+    /// Iterations at most and tolerance, m, of contacts where there is not time enough: sound that does not
+    /// break matters more than a buzz that is right in every sample.
+    pub const RELAXED: (usize, f64) = (4, 1e-8);
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
@@ -91,6 +101,8 @@ pub struct EngineOptions {
     pub sample_rate: f64,
     /// How much computing.
     pub quality: Quality,
+    /// Newton iterations at most in a sample, if not as many as the quality has.
+    pub iterations: Option<usize>,
     /// Size of the small differences between one pluck and the next, 0 (none) to 1.
     pub variation: f64,
     /// Which sequence of differences.
@@ -113,10 +125,30 @@ impl EngineOptions {
             setup,
             sample_rate,
             quality: Quality::default(),
+            iterations: None,
             variation: Self::VARIATION,
             seed: 0,
             bend_range: Self::BEND_RANGE,
         }
+    }
+}
+
+impl EngineOptions {
+    /// What they mean for the instrument.
+    fn settings(&self) -> EngineSettings {
+        let settings = self.quality.settings(self.sample_rate);
+        EngineSettings { max_iterations: self.iterations.unwrap_or(settings.max_iterations), ..settings }
+    }
+
+    /// Builds the two halves of an engine; allocates.
+    fn build(&self) -> Result<(Performance, Instrument), low_action_dsp::Error> {
+        let instrument = Instrument::new(&self.setup, &self.settings())?;
+        let strings = (0..instrument.string_count())
+            .map(|string| PlayedString::new(&self.setup, &instrument, string))
+            .collect();
+        let style = Style { variation: self.variation, seed: self.seed, bend_range: self.bend_range };
+        let performance = Performance::new(strings, &self.setup.player, style, self.sample_rate);
+        Ok((performance, instrument))
     }
 }
 
@@ -134,6 +166,8 @@ pub struct Engine {
     instrument: Instrument,
     waiting: VecDeque<Waiting>,
     lost: u64,
+    /// What this engine was before its last change, on its way out.
+    outgoing: Option<Box<Replacement>>,
 }
 
 impl Engine {
@@ -142,14 +176,27 @@ impl Engine {
     /// # Errors
     /// When the set-up cannot be built at this rate; the message names the value and its range.
     pub fn new(options: &EngineOptions) -> Result<Self, low_action_dsp::Error> {
-        let instrument = Instrument::new(&options.setup, &options.quality.settings(options.sample_rate))?;
-        let strings = (0..instrument.string_count())
-            .map(|string| PlayedString::new(&options.setup, &instrument, string))
-            .collect();
-        let style =
-            Style { variation: options.variation, seed: options.seed, bend_range: options.bend_range };
-        let performance = Performance::new(strings, &options.setup.player, style, options.sample_rate);
-        Ok(Self { performance, instrument, waiting: VecDeque::with_capacity(WAITING_EVENTS), lost: 0 })
+        let (performance, instrument) = options.build()?;
+        let waiting = VecDeque::with_capacity(WAITING_EVENTS);
+        Ok(Self { performance, instrument, waiting, lost: 0, outgoing: None })
+    }
+
+    /// Has the hands act differently from the next sample on.
+    pub fn touch(&mut self, touching: &Touching) {
+        let mut sink = Sink { instrument: &mut self.instrument, lost: &mut self.lost };
+        let now = sink.instrument.now();
+        self.performance.touch(now, touching, &mut sink);
+    }
+
+    /// Has channels mean something else from now on.
+    pub fn set_input(&mut self, input: InputMode) {
+        self.performance.set_input(input);
+    }
+
+    /// Has contacts solved so exactly from the next sample on: Newton iterations at most, and the change of
+    /// penetration, m, at which they stop.
+    pub fn set_effort(&mut self, max_iterations: usize, tolerance: f64) {
+        self.instrument.set_effort(max_iterations, tolerance);
     }
 
     /// Takes an event that happens `offset` samples after the start of the next block. Events at

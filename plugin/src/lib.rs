@@ -1,6 +1,7 @@
 //! Low Action.
 
 pub mod cli;
+pub mod controls;
 pub mod demo;
 pub mod engine;
 pub mod midi_file;

@@ -11,7 +11,7 @@ mod timing;
 
 use midly::{EventIter, MetaMessage, MidiMessage, TrackEventKind};
 
-use crate::performance::PlayerEvent;
+use crate::performance::{Expression, PlayerEvent};
 use chunks::Chunks;
 pub use messages::{MidiFileError, SongWarning};
 pub use timing::SongTime;
@@ -227,8 +227,13 @@ fn player_event(channel: u8, message: MidiMessage) -> Option<PlayerEvent> {
             let value = if steps < 0.0 { steps / 8192.0 } else { steps / 8191.0 };
             Some(PlayerEvent::PitchBend { channel, value })
         }
-        MidiMessage::Aftertouch { .. }
-        | MidiMessage::ProgramChange { .. }
-        | MidiMessage::ChannelAftertouch { .. } => None,
+        MidiMessage::Aftertouch { key, vel } => {
+            let expression = Expression::Pressure(unit(vel));
+            Some(PlayerEvent::Note { channel, key: key.as_int(), expression })
+        }
+        MidiMessage::ChannelAftertouch { vel } => {
+            Some(PlayerEvent::ChannelPressure { channel, pressure: unit(vel) })
+        }
+        MidiMessage::ProgramChange { .. } => None,
     }
 }

@@ -2,9 +2,13 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use clack_extensions::render::{PluginRender, RenderMode};
+use clack_extensions::state::PluginState;
 use clack_host::events::event_types::{
-    MidiEvent, NoteChokeEvent, NoteOffEvent, NoteOnEvent, ParamValueEvent,
+    MidiEvent, NoteChokeEvent, NoteExpressionEvent, NoteExpressionType, NoteOffEvent, NoteOnEvent,
+    ParamModEvent, ParamValueEvent, TransportEvent, TransportFlags,
 };
+use clack_host::events::{EventFlags, EventHeader};
 use clack_host::prelude::*;
 
 /// What a performer or a host does to the plugin.
@@ -30,8 +34,37 @@ pub enum Action {
     ChokeAll,
     /// Three bytes of MIDI.
     Midi([u8; 3]),
-    /// A parameter is set, by its CLAP identifier, in the units CLAP shows to a host.
+    /// A parameter is set, by its CLAP identifier, in the units CLAP shows to a host: 0 to 1, or 0 to the
+    /// number of steps.
     Parameter(u32, f64),
+    /// The same for one note alone, which the host has numbered by its key: added to what holds for all.
+    Modulate {
+        /// The parameter.
+        parameter: u32,
+        /// Number of the note.
+        key: u8,
+        /// What is added, 0 to 1.
+        amount: f64,
+    },
+    /// A note expression.
+    Express {
+        /// What is expressed.
+        what: NoteExpressionType,
+        /// MIDI channel, 0 to 15.
+        channel: u8,
+        /// MIDI key, 0 to 127.
+        key: u8,
+        /// How much.
+        value: f64,
+    },
+    /// The transport starts or stops.
+    Transport(bool),
+}
+
+/// The number under which CLAP hosts know the parameter that is saved as `id`: the framework's hash.
+pub fn parameter(id: &str) -> u32 {
+    let hash = id.bytes().fold(0_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
+    hash & !(1 << 31)
 }
 
 /// An action and the sample at which it happens, counted from the start of the performance.
@@ -71,8 +104,16 @@ impl Default for Host {
 }
 
 impl Host {
-    /// Loads the plugin out of the library linked into the test.
+    /// Loads the plugin out of the library linked into the test, for rendering offline: then its sound
+    /// depends on nothing but what it is told.
     pub fn new() -> Self {
+        let mut host = Self::in_real_time();
+        host.set_mode(RenderMode::Offline);
+        host
+    }
+
+    /// The same in real time.
+    pub fn in_real_time() -> Self {
         // SAFETY: the entry is the one that the plugin framework generates for CLAP hosts.
         let entry = unsafe { PluginEntry::load_from_raw(&low_action::plugin::clap_entry, c"") }
             .expect("the entry initialises");
@@ -133,6 +174,35 @@ impl Host {
         output
     }
 
+    /// Tells the plugin how it is going to be run; counts from the next activation on.
+    pub fn set_mode(&mut self, mode: RenderMode) {
+        let handle = self.instance.plugin_handle();
+        let render = handle.get_extension::<PluginRender>().expect("the plugin knows of offline rendering");
+        render.set(&handle, mode).expect("the mode is accepted");
+    }
+
+    /// The plugin as it is, for its extensions.
+    pub fn handle(&mut self) -> PluginMainThreadHandle<'_> {
+        self.instance.plugin_handle()
+    }
+
+    /// What a session would save.
+    pub fn save(&mut self) -> Vec<u8> {
+        let handle = self.instance.plugin_handle();
+        let state = handle.get_extension::<PluginState>().expect("the plugin has a state");
+        let mut saved = Vec::new();
+        state.save(&handle, &mut saved).expect("it can be saved");
+        saved
+    }
+
+    /// Loads it again; gives back whether the plugin took it.
+    pub fn load(&mut self, saved: &[u8]) -> bool {
+        let handle = self.instance.plugin_handle();
+        let state = handle.get_extension::<PluginState>().expect("the plugin has a state");
+        let mut reader = saved;
+        state.load(&handle, &mut reader).is_ok()
+    }
+
     /// Whether the plugin has asked to be activated anew since the last time this was asked.
     pub fn take_restart_request(&self) -> bool {
         self.instance
@@ -158,12 +228,43 @@ fn events_between(score: &Score, start: u64, end: u64) -> EventBuffer {
             Action::Parameter(id, value) => {
                 events.push(&ParamValueEvent::new(time, ClapId::new(id), Pckn::match_all(), value));
             }
+            Action::Modulate { parameter, key, amount } => {
+                use clack_host::events::Match::All;
+                let address = Pckn::new(All, All, All, u32::from(key));
+                events.push(&ParamModEvent::new(time, ClapId::new(parameter), address, amount));
+            }
+            Action::Express { what, channel, key, value } => {
+                events.push(&NoteExpressionEvent::new(time, note(channel, key), what, value));
+            }
+            Action::Transport(playing) => {
+                events.push(&transport(time, playing));
+            }
         }
     }
     events
 }
 
-/// CLAP's address of a key on a channel.
+/// A transport that tells nothing but whether it runs.
+fn transport(time: u32, playing: bool) -> TransportEvent {
+    TransportEvent {
+        header: EventHeader::new_core(time, EventFlags::empty()),
+        flags: if playing { TransportFlags::IS_PLAYING } else { TransportFlags::empty() },
+        song_pos_beats: Default::default(),
+        song_pos_seconds: Default::default(),
+        tempo: 0.0,
+        tempo_inc: 0.0,
+        loop_start_beats: Default::default(),
+        loop_end_beats: Default::default(),
+        loop_start_seconds: Default::default(),
+        loop_end_seconds: Default::default(),
+        bar_start: Default::default(),
+        bar_number: 0,
+        time_signature_numerator: 0,
+        time_signature_denominator: 0,
+    }
+}
+
+/// CLAP's address of a key on a channel. This host numbers notes by their keys.
 fn note(channel: u8, key: u8) -> Pckn {
-    Pckn::new(0_u16, u16::from(channel), u16::from(key), clack_host::events::Match::All)
+    Pckn::new(0_u16, u16::from(channel), u16::from(key), u32::from(key))
 }

@@ -93,7 +93,7 @@ fn there_is_no_click() {
     let electric = Setup::builtin("electric").expect("it is built in");
     let changes = [
         ("action up", changed(&electric, 1.5, 1.0, 0.0, 0.0)),
-        ("action down", changed(&electric, 0.7, 1.0, 0.0, 0.0)),
+        ("action down", changed(&electric, 0.85, 1.0, 0.0, 0.0)),
         ("more loss", changed(&electric, 1.0, 4.0, 0.0, 0.0)),
         ("pickup moved", changed(&electric, 1.0, 1.0, 0.08, 0.0)),
         ("a tone down", changed(&electric, 1.0, 1.0, 0.0, -2.0)),

@@ -1,19 +1,36 @@
-//! The pitch wheel on one string: followed no faster than a hand bends, in goals at a bounded rate.
+//! What bends one string: pitch wheel, note's own tuning, tremolo arm and vibrato, followed no faster than
+//! a hand bends, in goals at a bounded rate.
+//!
+//! Wheel and tuning pull the string as far as its set-up lets tension go. Past that a finger that stops the
+//! string slides to the nearest fret and pulling does the rest; an open string stays where pulling ends.
 
-use low_action_dsp::{Gesture, StringGeometry};
+use std::f64::consts::TAU;
 
-use super::technique::{BEND_INTERVAL, BEND_RAMP, BEND_SPEED};
+use low_action_dsp::Gesture;
+
+use super::fingers::Fingers;
+use super::technique::{BEND_INTERVAL, BEND_RAMP, BEND_SPEED, VIBRATO, VIBRATO_STEP};
 use super::{GestureSink, Moment};
 
-/// What the wheel asks of a string and what has been done about it.
-#[derive(Debug, Clone, Default)]
+/// What is asked of a string and what has been done about it.
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Bend {
     /// Channel whose wheel bends the string: that of its last note.
     channel: Option<u8>,
-    /// Bend asked for, semitones.
-    asked: f64,
-    /// Bend last sent, semitones.
+    /// Bend by the channel's wheel, semitones.
+    wheel: f64,
+    /// The note's own tuning, semitones.
+    tuning: f64,
+    /// Bend by the tremolo arm, semitones.
+    arm: f64,
+    /// Depth of the vibrato, 0 to 1.
+    vibrato: f64,
+    /// Bend by tension last sent, semitones.
     sent: f64,
+    /// Frets the finger has been slid by.
+    slid: i32,
+    /// Wheel and tuning as last followed, semitones.
+    followed: f64,
     /// When the next goal is to be sent.
     due: Option<u64>,
     /// Earliest sample for it.
@@ -26,19 +43,46 @@ impl Bend {
         Self::default()
     }
 
-    /// From now on another channel's wheel counts.
-    pub(crate) fn follow(&mut self, channel: u8) {
+    /// A new note begins: from now on its channel's wheel counts, and its finger has not slid.
+    pub(crate) fn begin(&mut self, channel: u8) {
         self.channel = Some(channel);
+        self.tuning = 0.0;
+        self.vibrato = 0.0;
+        if self.slid != 0 {
+            self.slid = 0;
+            self.followed = f64::NAN;
+        }
+    }
+
+    /// Channel whose wheel bends the string.
+    pub(crate) fn channel(&self) -> Option<u8> {
+        self.channel
     }
 
     /// A channel's wheel moves; nothing happens if it is not this string's.
     pub(crate) fn ask(&mut self, time: u64, channel: u8, semitones: f64) {
         if self.channel == Some(channel) {
-            self.asked = semitones;
-            if self.asked != self.sent && self.due.is_none() {
-                self.due = Some(time.max(self.ready));
-            }
+            self.wheel = semitones;
+            self.plan(time);
         }
+    }
+
+    /// The note's own tuning changes.
+    pub(crate) fn tune(&mut self, time: u64, semitones: f64) {
+        self.tuning = semitones;
+        self.plan(time);
+    }
+
+    /// The tremolo arm moves.
+    pub(crate) fn set_arm(&mut self, time: u64, semitones: f64) {
+        self.arm = semitones;
+        self.plan(time);
+    }
+
+    /// The fretting hand swings so deep, 0 to 1.
+    pub(crate) fn set_vibrato(&mut self, time: u64, depth: f64) {
+        self.vibrato = depth;
+        self.plan(time);
     }
 
     /// When there is something to send.
@@ -47,14 +91,39 @@ impl Bend {
     }
 
     /// Sends what is due.
-    pub(crate) fn send(&mut self, geometry: &StringGeometry, at: &mut Moment<impl GestureSink>) {
+    pub(crate) fn send(&mut self, fingers: &mut Fingers, at: &mut Moment<impl GestureSink>) {
         self.due = None;
         self.ready = at.after(BEND_INTERVAL);
-        let change = (self.asked - self.sent).abs();
-        if change > 0.0 {
-            self.sent = self.asked;
-            let tension_ratio = geometry.tension_ratio(self.asked).min(geometry.highest_ratio);
-            at.does(Gesture::Bend { tension_ratio, duration: (change / BEND_SPEED).max(BEND_RAMP) });
+        let asked = self.wheel + self.tuning;
+        let most = 6.0 * libm::log2(fingers.geometry().highest_ratio);
+        let wanted = if asked.abs() > most { asked.round() as i32 } else { 0 };
+        let duration = |change: f64| (change.abs() / BEND_SPEED).max(BEND_RAMP);
+        if wanted != self.slid {
+            self.slid = fingers.slide(wanted, duration(f64::from(wanted - self.slid)), at);
+        }
+        self.followed = asked;
+        let mut pulled = (asked - f64::from(self.slid)).clamp(-most, most) + self.arm;
+        if self.vibrato > 0.0 {
+            let (rate, depth) = VIBRATO;
+            let seconds = at.after(VIBRATO_STEP) as f64 / at.sample_rate;
+            pulled += self.vibrato * depth * libm::sin(TAU * rate * seconds);
+            self.due = Some(at.after(VIBRATO_STEP));
+        }
+        let change = pulled - self.sent;
+        if change != 0.0 {
+            self.sent = pulled;
+            let geometry = fingers.geometry();
+            let tension_ratio = geometry.tension_ratio(pulled).min(geometry.highest_ratio);
+            at.does(Gesture::Bend { tension_ratio, duration: duration(change) });
+        }
+    }
+
+    /// Sees to it that a change is sent.
+    fn plan(&mut self, time: u64) {
+        let asked = self.wheel + self.tuning;
+        let straight = asked - f64::from(self.slid) + self.arm == self.sent && asked == self.followed;
+        if (!straight || self.vibrato > 0.0) && self.due.is_none() {
+            self.due = Some(time.max(self.ready));
         }
     }
 }

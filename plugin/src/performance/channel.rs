@@ -1,4 +1,8 @@
-//! What one MIDI channel remembers: its pedal, its wheel, and how far the wheel reaches.
+//! What one MIDI channel remembers: its pedals, its wheel and how far that reaches, and what its
+//! controllers say of notes to come.
+
+use super::string::Manner;
+use super::technique::{BRIGHTNESS_REACH, FIRMEST};
 
 /// Farthest a file or keyboard may set its wheel's reach to, semitones.
 const WIDEST_RANGE: f64 = 96.0;
@@ -11,6 +15,16 @@ const NO_PARAMETER: (u8, u8) = (127, 127);
 pub(crate) struct Channel {
     /// Whether the sustain pedal is down.
     pub pedal: bool,
+    /// Whether the sostenuto pedal is down.
+    sostenuto: bool,
+    /// How its notes are played.
+    pub manner: Manner,
+    /// Expression and breath, each a factor of the pluck's force.
+    swell: [f64; 2],
+    /// Whether an announced reach of the wheel is passed over.
+    ignores_range: bool,
+    /// Channels of MPE announced (registered parameter 6), if they were.
+    pub members: Option<u8>,
     /// Position of the wheel, −1 to 1.
     wheel: f64,
     /// Reach of the wheel when set up, semitones.
@@ -28,6 +42,14 @@ pub(crate) enum Request {
     None,
     /// The pedal went up: notes it kept must stop.
     PedalUp,
+    /// The sostenuto pedal went down: it keeps what sounds.
+    Catch,
+    /// It went up.
+    LetFall,
+    /// Fingers press harder or less hard.
+    Press,
+    /// The vibrato changed.
+    Swing,
     /// The wheel's pitch changed.
     Bend,
     /// Keys are to be let go of; the pedal goes on holding.
@@ -41,17 +63,53 @@ pub(crate) enum Request {
 impl Channel {
     /// A channel at rest whose wheel reaches `range` semitones each way.
     pub(crate) fn new(range: f64) -> Self {
-        Self { pedal: false, wheel: 0.0, usual_range: range, range: (range, 0.0), parameter: NO_PARAMETER }
+        Self {
+            pedal: false,
+            sostenuto: false,
+            manner: Manner::PLAIN,
+            swell: [1.0; 2],
+            ignores_range: false,
+            members: None,
+            wheel: 0.0,
+            usual_range: range,
+            range: (range, 0.0),
+            parameter: NO_PARAMETER,
+        }
+    }
+
+    /// The wheel reaches so far from now on, semitones, until the file or keyboard announces another
+    /// reach; that is passed over if `ignores_announced`.
+    pub(crate) fn set_range(&mut self, range: f64, ignores_announced: bool) {
+        if range != self.usual_range || ignores_announced != self.ignores_range {
+            self.usual_range = range;
+            self.ignores_range = ignores_announced;
+            self.range = (range, 0.0);
+        }
+    }
+
+    /// The reach while nothing is announced, semitones: another one in MPE.
+    pub(crate) fn reach(&self, mpe: Option<f64>) -> (f64, f64) {
+        match mpe {
+            Some(reach) if self.range == (self.usual_range, 0.0) => (reach, 0.0),
+            _ => self.range,
+        }
     }
 
     /// Back to rest.
     pub(crate) fn reset(&mut self) {
-        *self = Self::new(self.usual_range);
+        *self = Self { ignores_range: self.ignores_range, ..Self::new(self.usual_range) };
     }
 
     /// Present bend, semitones.
-    pub(crate) fn bend(&self) -> f64 {
-        self.wheel * (self.range.0 + 0.01 * self.range.1)
+    pub(crate) fn bend(&self, mpe: Option<f64>) -> f64 {
+        let (semitones, cents) = self.reach(mpe);
+        self.wheel * (semitones + 0.01 * cents)
+    }
+
+    /// A channel's pressure, 0 to 1.
+    pub(crate) fn set_pressure(&mut self, pressure: f32) -> Request {
+        self.manner.pressure = pressure_factor(pressure);
+        Request::Press
     }
 
     /// Moves the wheel; anything but a number is ignored.
@@ -66,6 +124,33 @@ impl Channel {
     /// Moves a controller (value 0 to 127).
     pub(crate) fn set_controller(&mut self, number: u8, value: u8) -> Request {
         match number {
+            1 => {
+                self.manner.vibrato = f64::from(value) / 127.0;
+                Request::Swing
+            }
+            2 | 11 => {
+                self.swell[usize::from(number == 2)] = f64::from(value) / 127.0;
+                self.manner.force = self.swell[0] * self.swell[1];
+                Request::None
+            }
+            66 => {
+                let was_down = std::mem::replace(&mut self.sostenuto, value >= 64);
+                match (was_down, self.sostenuto) {
+                    (false, true) => Request::Catch,
+                    (true, false) => Request::LetFall,
+                    _ => Request::None,
+                }
+            }
+            74 => {
+                self.manner.place = (64.0 - f64::from(value)) / 64.0 * BRIGHTNESS_REACH;
+                Request::None
+            }
+            // Data entry for the MPE configuration message: so many member channels, 0 for none.
+            6 if self.parameter == (0, 6) => {
+                self.members = Some(value.min(15));
+                Request::None
+            }
+            6 | 38 if self.ignores_range => Request::None,
             // Data entry: the reach of the wheel is registered parameter 0, in semitones and cents.
             6 if self.parameter == (0, 0) => {
                 self.range = (f64::from(value).min(WIDEST_RANGE), 0.0);
@@ -96,6 +181,9 @@ impl Channel {
             // Reset all controllers leaves the wheel's reach alone (MIDI recommended practice 15).
             121 => {
                 self.pedal = false;
+                self.sostenuto = false;
+                self.manner = Manner::PLAIN;
+                self.swell = [1.0; 2];
                 self.wheel = 0.0;
                 self.parameter = NO_PARAMETER;
                 Request::Reset
@@ -107,6 +195,11 @@ impl Channel {
     }
 }
 
+/// The factor of a finger's force for a pressure of 0 to 1; anything but a number counts as none.
+pub(crate) fn pressure_factor(pressure: f32) -> f64 {
+    1.0 + (FIRMEST - 1.0) * f64::from(pressure.clamp(0.0, 1.0).max(0.0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,16 +208,16 @@ mod tests {
     fn the_wheel_follows_its_announced_range() {
         let mut channel = Channel::new(2.0);
         channel.set_wheel(-0.5);
-        assert_eq!(channel.bend(), -1.0);
+        assert_eq!(channel.bend(None), -1.0);
         for (number, value) in [(101, 0), (100, 0), (6, 12), (38, 50)] {
             channel.set_controller(number, value);
         }
-        assert_eq!(channel.bend(), -6.25);
+        assert_eq!(channel.bend(None), -6.25);
         // A parameter of some maker's own must not change it.
         for (number, value) in [(99, 0), (98, 0), (6, 1)] {
             channel.set_controller(number, value);
         }
-        assert_eq!(channel.bend(), -6.25);
+        assert_eq!(channel.bend(None), -6.25);
     }
 
     #[test]

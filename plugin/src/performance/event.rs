@@ -24,8 +24,9 @@ pub enum PlayerEvent {
     Controller {
         /// Channel, 0 to 15.
         channel: u8,
-        /// Which one, 0 to 127: 6 and 38 with 100 and 101 set the bend range, 64 is the sustain
-        /// pedal, 120, 121 and 123 to 127 stop sound, reset or let go of keys; others are ignored.
+        /// Which one, 0 to 127: 1 vibrato, 2 and 11 force, 64 sustain, 66 sostenuto, 74 place of the
+        /// pluck; 6 and 38 with 100 and 101 set the bend range or announce MPE; 120, 121 and 123 to 127
+        /// stop sound, reset or let go of keys; others are ignored.
         number: u8,
         /// Its value, 0 to 1 for 0 to 127.
         value: f32,
@@ -37,6 +38,42 @@ pub enum PlayerEvent {
         /// Where to, −1 to 1.
         value: f32,
     },
+    /// A channel's keys are pressed harder.
+    ChannelPressure {
+        /// Channel, 0 to 15.
+        channel: u8,
+        /// How hard, 0 to 1.
+        pressure: f32,
+    },
+    /// Something about one note.
+    Note {
+        /// Channel, 0 to 15.
+        channel: u8,
+        /// Key, 0 to 127.
+        key: u8,
+        /// What.
+        expression: Expression,
+    },
     /// Everything stops, on every channel, whatever the pedals say.
     AllNotesOff,
+}
+
+/// What a note can have for itself. What concerns its pluck counts if it comes at the note's own sample,
+/// before or after it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Expression {
+    /// Its tuning, semitones.
+    Tuning(f32),
+    /// How hard its key is pressed, 0 to 1.
+    Pressure(f32),
+    /// Where it is plucked: 1 near the saddle, 0.5 the usual place, 0 far from it.
+    Brightness(f32),
+    /// Depth of its vibrato, 0 to 1.
+    Vibrato(f32),
+    /// Moves its pluck away from the saddle, m.
+    PluckPlace(f32),
+    /// Factor of its pluck's force.
+    PluckForce(f32),
+    /// Factor of its finger's force.
+    FingerForce(f32),
 }

@@ -27,6 +27,10 @@ pub(crate) struct Fingers {
     next_slot: FingerSlot,
     /// Which slots hold a damper that rests on the string.
     resting: [bool; FINGERS_PER_STRING],
+    /// Fret of the present note, from which slides are counted.
+    home: usize,
+    /// Factor of the fretting finger's force: what a key is pressed down with.
+    pressure: f64,
 }
 
 impl Fingers {
@@ -34,7 +38,8 @@ impl Fingers {
     pub(crate) fn new(string: PlayedString, hands: Player) -> Self {
         let PlayedString { geometry, leaving_forces } = string;
         let resting = [false; FINGERS_PER_STRING];
-        Self { geometry, leaving_forces, hands, fretting: None, next_slot: 0, resting }
+        let fretting = None;
+        Self { geometry, leaving_forces, hands, fretting, next_slot: 0, resting, home: 0, pressure: 1.0 }
     }
 
     /// All away.
@@ -42,6 +47,58 @@ impl Fingers {
         self.fretting = None;
         self.next_slot = 0;
         self.resting = [false; FINGERS_PER_STRING];
+        self.home = 0;
+        self.pressure = 1.0;
+    }
+
+    /// Takes over the fingers on this string, when it has been given another model.
+    pub(crate) fn take_over(&mut self, old: &Self) {
+        let Self { fretting, next_slot, resting, home, pressure, .. } = *old;
+        (self.fretting, self.next_slot, self.resting) = (fretting, next_slot, resting);
+        (self.home, self.pressure) = (home, pressure);
+    }
+
+    /// The hands of a string nobody has touched yet act so.
+    pub(crate) fn begin_with(&mut self, hands: &Player) {
+        self.hands = hands.clone();
+    }
+
+    /// The hands act differently from now on; a finger on the string presses with the new force.
+    pub(crate) fn set_hands(&mut self, hands: &Player, at: &mut Moment<impl GestureSink>) {
+        let pressed = self.hands.fretting.force;
+        self.hands = hands.clone();
+        if self.hands.fretting.force != pressed {
+            self.press_on(at);
+        }
+    }
+
+    /// The fretting finger presses with so many times its usual force.
+    pub(crate) fn press(&mut self, pressure: f64, at: &mut Moment<impl GestureSink>) {
+        if pressure != self.pressure {
+            self.pressure = pressure;
+            self.press_on(at);
+        }
+    }
+
+    fn press_on(&mut self, at: &mut Moment<impl GestureSink>) {
+        if let Some(finger) = self.fretting.filter(|finger| !finger.eased) {
+            let force = self.hands.fretting.force * self.pressure;
+            at.does(Gesture::Press { finger: finger.slot, force, duration: PRESSURE_RAMP });
+        }
+    }
+
+    /// Slides the fretting finger so many frets away from where the note began, as far as there are frets.
+    /// Gives back how many it is away then; an open string cannot be slid.
+    pub(crate) fn slide(&mut self, frets: i32, duration: f64, at: &mut Moment<impl GestureSink>) -> i32 {
+        let Some(finger) = self.fretting.as_mut().filter(|finger| !finger.eased) else { return 0 };
+        let last = self.geometry.frets.len() as i32;
+        let fret = (self.home as i32 + frets).clamp(1, last);
+        if fret as usize != finger.fret {
+            finger.fret = fret as usize;
+            let position = self.geometry.finger_position(finger.fret);
+            at.does(Gesture::Slide { finger: finger.slot, position, duration });
+        }
+        fret - self.home as i32
     }
 
     /// The string under them.
@@ -62,7 +119,9 @@ impl Fingers {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
         self.resting = [false; FINGERS_PER_STRING];
-        let Fretting { mut touch, force, hover, landing, .. } = self.hands.fretting;
+        self.home = fret;
+        let Fretting { mut touch, hover, landing, .. } = self.hands.fretting;
+        let force = self.hands.fretting.force * self.pressure;
         if let Some(finger) = self.fretting.as_mut().filter(|finger| finger.fret == fret) {
             if std::mem::take(&mut finger.eased) {
                 at.does(Gesture::Press { finger: finger.slot, force, duration: landing });

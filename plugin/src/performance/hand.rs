@@ -91,6 +91,8 @@ pub(crate) struct Wanted {
     pub key: u8,
     /// Pitch to sound, after any move by octaves, MIDI note number.
     pub pitch: f64,
+    /// The one string it may be played on, if the player has no choice.
+    pub only: Option<usize>,
 }
 
 /// Where a note is to be played.
@@ -147,9 +149,27 @@ impl Hand {
         self.position = 1;
     }
 
-    /// The pitch at which a key is played: its own, or the nearest octave that a string can give.
-    pub(crate) fn playable_pitch(&self, key: u8) -> Option<f64> {
-        let playable = |pitch: f64| self.strings.iter().any(|range| range.fret(pitch).is_some());
+    /// Stays where another hand is, on the neck of another model of the instrument.
+    pub(crate) fn take_over(&mut self, old: &Self) {
+        self.position = old.position.min(self.highest_fret.max(1));
+    }
+
+    /// The fret that gives a note on a string, if it may be played there.
+    fn fret(&self, note: &Wanted, string: usize) -> Option<usize> {
+        if note.only.is_some_and(|only| only != string) {
+            return None;
+        }
+        self.strings[string].fret(note.pitch)
+    }
+
+    /// The pitch at which a key is played: its own, or the nearest octave that a string (or the only one
+    /// allowed) can give.
+    pub(crate) fn playable_pitch(&self, key: u8, only: Option<usize>) -> Option<f64> {
+        let strings = match only {
+            Some(string) => self.strings.get(string..string.checked_add(1)?)?,
+            None => &self.strings[..],
+        };
+        let playable = |pitch: f64| strings.iter().any(|range| range.fret(pitch).is_some());
         (0..=10)
             .flat_map(|octave| {
                 [f64::from(key) + 12.0 * f64::from(octave), f64::from(key) - 12.0 * f64::from(octave)]
@@ -196,9 +216,8 @@ impl Hand {
         }
         self.position = best_position;
         for (&note, string) in self.order.iter().zip(&self.best_path) {
-            placements[note] = string.and_then(|string| {
-                self.strings[string].fret(wanted[note].pitch).map(|fret| Placement { string, fret })
-            });
+            placements[note] = string
+                .and_then(|string| self.fret(&wanted[note], string).map(|fret| Placement { string, fret }));
         }
     }
 
@@ -227,8 +246,7 @@ impl Hand {
     /// Kuhn's algorithm for matchings.
     fn find_string(&mut self, note: usize, wanted: &[Wanted], uses: &[Use]) -> bool {
         for string in 0..self.strings.len() {
-            let possible =
-                uses[string] != Use::Untouchable && self.strings[string].fret(wanted[note].pitch).is_some();
+            let possible = uses[string] != Use::Untouchable && self.fret(&wanted[note], string).is_some();
             if !possible || std::mem::replace(&mut self.taken[string], true) {
                 continue;
             }
@@ -259,7 +277,7 @@ impl Hand {
 
     /// Cost of one note on one string, infinite where it cannot be played.
     fn cost(&self, position: usize, note: Wanted, string: usize, uses: &[Use]) -> f64 {
-        let Some(fret) = self.strings[string].fret(note.pitch) else { return f64::INFINITY };
+        let Some(fret) = self.fret(&note, string) else { return f64::INFINITY };
         let steal = match uses[string] {
             Use::Free => 0.0,
             Use::Untouchable => return f64::INFINITY,

@@ -20,10 +20,12 @@ mod variation;
 use low_action_dsp::setup::{Player, Setup};
 use low_action_dsp::{Gesture, Instrument, StringGeometry, TimedGesture};
 
-use channel::{Channel, Request};
-pub use event::PlayerEvent;
+use crate::controls::Touching;
+use channel::{Channel, Request, pressure_factor};
+pub use event::{Expression, PlayerEvent};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
-use string::{Start, StringPlayer};
+use string::{Manner, Start, StringPlayer};
+pub use technique::VELOCITY_CURVE;
 use variation::Variation;
 
 /// MIDI channels.
@@ -116,11 +118,36 @@ pub struct Style {
     pub bend_range: f64,
 }
 
+/// What the channels of notes mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum InputMode {
+    /// MPE once a keyboard announces it by registered parameter 6, a keyboard until then.
+    #[default]
+    Auto,
+    /// The player picks string and fret for every note.
+    Keyboard,
+    /// Each string has a channel, the first string this one (0 to 15), the next one the next.
+    Strings {
+        /// Channel of the first string.
+        first: u8,
+    },
+    /// Each note has a channel of its own; channel 0 acts on all.
+    Mpe,
+}
+
+/// Semitones of a full turn of the wheel in MPE, while no other range is announced: of a note's own
+/// channel, and of the one that bends all.
+const MPE_RANGES: (f64, f64) = (48.0, 2.0);
+/// The channel that acts on all in MPE.
+const MANAGER: u8 = 0;
+
 /// A note-on waiting for the rest of its chord.
 #[derive(Debug, Clone, Copy)]
 struct Struck {
     wanted: Wanted,
     velocity: f64,
+    /// What the note has for itself, its channel's share included.
+    manner: Manner,
 }
 
 /// A player with an instrument in hand.
@@ -130,6 +157,10 @@ pub struct Performance {
     channels: [Channel; CHANNELS],
     hand: Hand,
     variation: Variation,
+    input: InputMode,
+    /// The hands as the set-up has them.
+    hands: Player,
+    touching: Touching,
     compromises: Compromises,
     /// Notes that began at `now` and are not placed yet.
     chord: Vec<Struck>,
@@ -158,6 +189,9 @@ impl Performance {
                 .collect(),
             channels: std::array::from_fn(|_| Channel::new(style.bend_range)),
             variation: Variation::new(style.variation, style.seed),
+            input: InputMode::default(),
+            hands: hands.clone(),
+            touching: Touching::new(style.variation, style.bend_range),
             compromises: Compromises::default(),
             chord: Vec::with_capacity(LARGEST_CHORD),
             now: 0,
@@ -181,12 +215,17 @@ impl Performance {
             }
             PlayerEvent::Controller { channel, number, value } => {
                 self.begin_chord(out);
-                self.control(channel, |channel| channel.set_controller(number, seven_bits(value)));
+                self.control(channel, |channel| channel.set_controller(number, seven_bits(value)), out);
             }
             PlayerEvent::PitchBend { channel, value } => {
                 self.begin_chord(out);
-                self.control(channel, |channel| channel.set_wheel(value));
+                self.control(channel, |channel| channel.set_wheel(value), out);
             }
+            PlayerEvent::ChannelPressure { channel, pressure } => {
+                self.begin_chord(out);
+                self.control(channel, |channel| channel.set_pressure(pressure), out);
+            }
+            PlayerEvent::Note { channel, key, expression } => self.express(channel, key, expression, out),
             PlayerEvent::AllNotesOff => {
                 self.begin_chord(out);
                 for string in &mut self.strings {
@@ -197,6 +236,48 @@ impl Performance {
                 }
             }
         }
+    }
+
+    /// The hands act differently from sample `time` on.
+    pub fn touch(&mut self, time: u64, touching: &Touching, out: &mut impl GestureSink) {
+        if self.touching == *touching {
+            return;
+        }
+        let time = time.max(self.now);
+        self.advance(time, out);
+        self.touching = *touching;
+        self.variation.set_amount(touching.variation);
+        for channel in &mut self.channels {
+            channel.set_range(touching.bend_range, touching.ignore_rpn);
+        }
+        let hands = touching.hands(&self.hands);
+        for string in &mut self.strings {
+            string.set_hands(time, &hands, out);
+            string.set_arm(time, touching.tremolo_arm);
+        }
+    }
+
+    /// Channels mean something else from now on.
+    pub fn set_input(&mut self, input: InputMode) {
+        self.input = input;
+    }
+
+    /// Takes over from another player in the middle of the music: pedals, wheels and, if the strings go on
+    /// sounding, notes, fingers and the place of the hand. Nothing is allocated.
+    pub fn take_over(&mut self, old: &Self, strings_go_on: bool) {
+        self.channels.clone_from(&old.channels);
+        self.variation.clone_from(&old.variation);
+        (self.input, self.touching) = (old.input, old.touching);
+        (self.compromises, self.now) = (old.compromises, old.now);
+        self.chord.clear();
+        self.chord.extend_from_slice(&old.chord);
+        if strings_go_on {
+            self.hand.take_over(&old.hand);
+            for (string, old) in self.strings.iter_mut().zip(&old.strings) {
+                string.take_over(old);
+            }
+        }
+        self.pick_up_hands();
     }
 
     /// Does everything that falls due before sample `until`. Events at `until` and later may still
@@ -225,6 +306,15 @@ impl Performance {
         self.compromises = Compromises::default();
         self.chord.clear();
         self.now = 0;
+        self.pick_up_hands();
+    }
+
+    /// Gives every string the hands and the tremolo arm as they are now.
+    fn pick_up_hands(&mut self) {
+        let hands = self.touching.hands(&self.hands);
+        for string in &mut self.strings {
+            string.begin_with(self.now, &hands, self.touching.tremolo_arm);
+        }
     }
 
     /// Notes a struck key; it is placed with all others of the same instant.
@@ -238,10 +328,15 @@ impl Performance {
             twin.velocity = twin.velocity.max(velocity);
             return;
         }
-        match self.hand.playable_pitch(key) {
+        let only = match self.input {
+            InputMode::Strings { first } => Some(usize::from(channel).wrapping_sub(usize::from(first))),
+            _ => None,
+        };
+        match self.hand.playable_pitch(key, only) {
             Some(pitch) if self.chord.len() < LARGEST_CHORD => {
                 self.compromises.moved_by_octaves += u64::from(pitch != f64::from(key));
-                self.chord.push(Struck { wanted: Wanted { channel, key, pitch }, velocity });
+                let manner = self.channels[usize::from(channel)].manner;
+                self.chord.push(Struck { wanted: Wanted { channel, key, pitch, only }, velocity, manner });
             }
             _ => self.compromises.left_out += 1,
         }
@@ -260,24 +355,29 @@ impl Performance {
         self.placements.clear();
         self.placements.resize(self.wanted.len(), None);
         self.hand.place(&self.wanted, &self.uses, &mut self.placements);
-        for (struck, placement) in self.chord.drain(..).zip(&self.placements) {
-            let Some(Placement { string, fret }) = *placement else {
+        for index in 0..self.chord.len() {
+            let struck = self.chord[index];
+            let Some(Placement { string, fret }) = self.placements[index] else {
                 self.compromises.left_out += 1;
                 continue;
             };
             let Wanted { channel, key, .. } = struck.wanted;
             let deviation = self.variation.next();
-            let start = Start { channel, key, fret, velocity: struck.velocity, deviation };
+            let (velocity, manner, curve) = (struck.velocity, struck.manner, self.touching.velocity_curve);
+            let start = Start { channel, key, fret, velocity, deviation, curve, manner };
+            let bend = self.bend(channel);
             self.strings[string].start(time, start, out);
-            self.strings[string].bend(time, channel, self.channels[usize::from(channel)].bend());
+            self.strings[string].bend(time, channel, bend);
         }
+        self.chord.clear();
     }
 
     /// A key goes up.
     fn let_go(&mut self, channel: u8, key: u8) {
-        let Some(pedal) = self.channels.get(usize::from(channel)).map(|channel| channel.pedal) else {
+        if usize::from(channel) >= CHANNELS {
             return;
-        };
+        }
+        let pedal = self.pedal(channel);
         for string in &mut self.strings {
             if string.release(self.now, channel, key, pedal) {
                 break;
@@ -285,23 +385,96 @@ impl Performance {
         }
     }
 
+    /// Whether channel 0 acts on the notes of all.
+    fn is_mpe(&self) -> bool {
+        let announced = self.channels[usize::from(MANAGER)].members.is_some_and(|members| members > 0);
+        self.input == InputMode::Mpe || (self.input == InputMode::Auto && announced)
+    }
+
+    /// Whether a pedal keeps the notes of a channel.
+    fn pedal(&self, channel: u8) -> bool {
+        self.channels[usize::from(channel)].pedal
+            || (self.is_mpe() && self.channels[usize::from(MANAGER)].pedal)
+    }
+
+    /// Bend by the wheels that act on a channel, semitones.
+    fn bend(&self, channel: u8) -> f64 {
+        let own = &self.channels[usize::from(channel)];
+        if !self.is_mpe() {
+            return own.bend(None);
+        }
+        let all = self.channels[usize::from(MANAGER)].bend(Some(MPE_RANGES.1));
+        if channel == MANAGER { all } else { own.bend(Some(MPE_RANGES.0)) + all }
+    }
+
     /// Changes a channel's state and carries the consequences to the strings.
-    fn control(&mut self, number: u8, change: impl FnOnce(&mut Channel) -> Request) {
+    fn control(
+        &mut self,
+        number: u8,
+        change: impl FnOnce(&mut Channel) -> Request,
+        out: &mut impl GestureSink,
+    ) {
         let Some(channel) = self.channels.get_mut(usize::from(number)) else { return };
         let request = change(channel);
-        let (pedal, bend, time) = (channel.pedal, channel.bend(), self.now);
-        for string in &mut self.strings {
+        let manner = channel.manner;
+        let (time, acts_on_all) = (self.now, self.is_mpe() && number == MANAGER);
+        for index in 0..self.strings.len() {
+            let Some(channel) = self.strings[index].channel().filter(|&own| own == number || acts_on_all)
+            else {
+                continue;
+            };
+            let (pedal, bend) = (self.pedal(channel), self.bend(channel));
+            let string = &mut self.strings[index];
             match request {
                 Request::None => {}
-                Request::PedalUp => string.pedal_up(time, number),
-                Request::Bend => string.bend(time, number, bend),
-                Request::ReleaseKeys => string.release_channel(time, number, pedal),
-                Request::Silence => string.silence(time, Some(number)),
+                Request::PedalUp if pedal => {}
+                Request::PedalUp => string.pedal_up(time, channel),
+                Request::Catch => string.catch(channel),
+                Request::LetFall => string.let_fall(time, channel, pedal),
+                Request::Bend => string.bend(time, channel, bend),
+                Request::Press => string.press(time, manner.pressure, out),
+                Request::Swing => string.swing(time, manner.vibrato),
+                Request::ReleaseKeys => string.release_channel(time, channel, pedal),
+                Request::Silence => string.silence(time, Some(channel)),
                 Request::Reset => {
-                    string.pedal_up(time, number);
-                    string.bend(time, number, bend);
+                    string.let_fall(time, channel, pedal);
+                    string.pedal_up(time, channel);
+                    string.bend(time, channel, bend);
+                    string.press(time, manner.pressure, out);
+                    string.swing(time, manner.vibrato);
                 }
             }
+        }
+    }
+
+    /// Something changes about one note.
+    fn express(&mut self, channel: u8, key: u8, expression: Expression, out: &mut impl GestureSink) {
+        let value = |value: f32| if value.is_finite() { f64::from(value) } else { 0.0 };
+        let struck =
+            self.chord.iter_mut().find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
+        if let Some(Struck { manner, .. }) = struck {
+            match expression {
+                Expression::Tuning(semitones) => manner.tuning = value(semitones),
+                Expression::Pressure(pressure) => manner.pressure = pressure_factor(pressure),
+                Expression::Brightness(part) => {
+                    manner.place = (1.0 - 2.0 * value(part).clamp(0.0, 1.0)) * technique::BRIGHTNESS_REACH;
+                }
+                Expression::Vibrato(depth) => manner.vibrato = value(depth).clamp(0.0, 1.0),
+                Expression::PluckPlace(metres) => manner.place = value(metres),
+                Expression::PluckForce(factor) => manner.force = value(factor).clamp(0.0, 100.0),
+                Expression::FingerForce(factor) => manner.pressure = value(factor).clamp(0.0, 100.0),
+            }
+            return;
+        }
+        let time = self.now;
+        let Some(string) = self.strings.iter_mut().find(|string| string.sounds(channel, key)) else { return };
+        match expression {
+            Expression::Tuning(semitones) => string.tune(time, value(semitones)),
+            Expression::Pressure(pressure) => string.press(time, pressure_factor(pressure), out),
+            Expression::FingerForce(factor) => string.press(time, value(factor).clamp(0.0, 100.0), out),
+            Expression::Vibrato(depth) => string.swing(time, value(depth).clamp(0.0, 1.0)),
+            // It has been plucked already.
+            Expression::Brightness(_) | Expression::PluckPlace(_) | Expression::PluckForce(_) => {}
         }
     }
 }

@@ -28,6 +28,30 @@ pub(crate) struct Start {
     pub velocity: f64,
     /// How this pluck differs from the usual.
     pub deviation: Deviation,
+    /// Power of the velocity with which the force goes.
+    pub curve: f64,
+    /// What the note has for itself.
+    pub manner: Manner,
+}
+
+/// What a note can have for itself, beside what holds for all.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Manner {
+    /// Moves the pluck away from the saddle, m.
+    pub place: f64,
+    /// Factor of the pluck's force.
+    pub force: f64,
+    /// Factor of the finger's force.
+    pub pressure: f64,
+    /// Tuning, semitones.
+    pub tuning: f64,
+    /// Depth of the vibrato, 0 to 1.
+    pub vibrato: f64,
+}
+
+impl Manner {
+    /// Nothing special.
+    pub const PLAIN: Self = Self { place: 0.0, force: 1.0, pressure: 1.0, tuning: 0.0, vibrato: 0.0 };
 }
 
 /// The note on a string, from its pluck until it is damped.
@@ -37,6 +61,8 @@ struct Note {
     key: u8,
     since: u64,
     key_down: bool,
+    /// Whether the sostenuto pedal caught it.
+    caught: bool,
     /// Sample of the last key press of this very note while it was already down. The note-off of
     /// the press before may come a moment later and must not end the new one.
     pressed_again: Option<u64>,
@@ -106,16 +132,26 @@ impl StringPlayer {
             .note
             .filter(|note| note.key_down && (note.channel, note.key) == (start.channel, start.key))
             .map(|_| time);
-        self.note =
-            Some(Note { channel: start.channel, key: start.key, since: time, key_down: true, pressed_again });
-        self.bend.follow(start.channel);
+        self.note = Some(Note {
+            channel: start.channel,
+            key: start.key,
+            since: time,
+            key_down: true,
+            caught: false,
+            pressed_again,
+        });
+        self.bend.begin(start.channel);
         self.plucked_at = Some(time);
         self.ending = None;
         let mut at = self.moment(time, out);
-        let strength = libm::pow(start.velocity, VELOCITY_EXPONENT) * start.deviation.force;
+        let Manner { place, force, pressure, tuning, vibrato } = start.manner;
+        let strength = libm::pow(start.velocity, start.curve) * start.deviation.force * force;
+        self.fingers.press(pressure, &mut at);
         self.fingers.stop(start.fret, strength, &mut at);
-        let pluck = self.fingers.pluck(strength, start.deviation.place);
+        let pluck = self.fingers.pluck(strength, start.deviation.place + place);
         at.does_later(start.deviation.delay, pluck);
+        self.bend.tune(time, tuning);
+        self.bend.set_vibrato(time, vibrato);
     }
 
     /// Lets go of a key, if it is this string's. Under the pedal the note goes on.
@@ -130,17 +166,84 @@ impl StringPlayer {
             return true;
         }
         note.key_down = false;
-        if !pedal {
+        if !pedal && !note.caught {
             self.end(time);
         }
         true
+    }
+
+    /// The sostenuto pedal of a channel goes down: it catches the note if its key is down.
+    pub(crate) fn catch(&mut self, channel: u8) {
+        if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel) {
+            note.caught = note.key_down;
+        }
+    }
+
+    /// It goes up: a note that only it kept ends.
+    pub(crate) fn let_fall(&mut self, time: u64, channel: u8, pedal: bool) {
+        if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel && note.caught) {
+            note.caught = false;
+            if !note.key_down && !pedal {
+                self.end(time);
+            }
+        }
+    }
+
+    /// Whether the string sounds a key of a channel.
+    pub(crate) fn sounds(&self, channel: u8, key: u8) -> bool {
+        self.note.is_some_and(|note| (note.channel, note.key) == (channel, key))
+    }
+
+    /// Channel of the string's last note, whose wheel and pedals count.
+    pub(crate) fn channel(&self) -> Option<u8> {
+        self.bend.channel()
+    }
+
+    /// The note changes its tuning, semitones.
+    pub(crate) fn tune(&mut self, time: u64, semitones: f64) {
+        self.bend.tune(time, semitones);
+    }
+
+    /// The note's vibrato goes so deep, 0 to 1.
+    pub(crate) fn swing(&mut self, time: u64, depth: f64) {
+        self.bend.set_vibrato(time, depth);
+    }
+
+    /// The tremolo arm moves, semitones.
+    pub(crate) fn set_arm(&mut self, time: u64, semitones: f64) {
+        self.bend.set_arm(time, semitones);
+    }
+
+    /// The finger presses with so many times its usual force.
+    pub(crate) fn press(&mut self, time: u64, pressure: f64, out: &mut impl GestureSink) {
+        let mut at = self.moment(time, out);
+        self.fingers.press(pressure, &mut at);
+    }
+
+    /// The hands act differently from now on.
+    pub(crate) fn set_hands(&mut self, time: u64, hands: &Player, out: &mut impl GestureSink) {
+        let mut at = self.moment(time, out);
+        self.fingers.set_hands(hands, &mut at);
+    }
+
+    /// The hands act so from the start, and the tremolo arm stands there, semitones.
+    pub(crate) fn begin_with(&mut self, time: u64, hands: &Player, arm: f64) {
+        self.fingers.begin_with(hands);
+        self.bend.set_arm(time, arm);
+    }
+
+    /// Takes over what the player was doing with this string, when it has been given another model.
+    pub(crate) fn take_over(&mut self, old: &Self) {
+        self.fingers.take_over(&old.fingers);
+        (self.bend, self.note, self.ending) = (old.bend, old.note, old.ending);
+        self.plucked_at = old.plucked_at;
     }
 
     /// Lets go of whatever key of a channel holds this string.
     pub(crate) fn release_channel(&mut self, time: u64, channel: u8, pedal: bool) {
         if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel) {
             note.key_down = false;
-            if !pedal {
+            if !pedal && !note.caught {
                 self.end(time);
             }
         }
@@ -148,7 +251,7 @@ impl StringPlayer {
 
     /// The pedal of a channel goes up: a note it kept ends.
     pub(crate) fn pedal_up(&mut self, time: u64, channel: u8) {
-        if self.note.is_some_and(|note| note.channel == channel && !note.key_down) {
+        if self.note.is_some_and(|note| note.channel == channel && !note.key_down && !note.caught) {
             self.end(time);
         }
     }
@@ -174,7 +277,7 @@ impl StringPlayer {
                 self.end_by(step, self.moment(time, out));
             } else if let Some(time) = bend {
                 let mut at = self.moment(time, out);
-                self.bend.send(self.fingers.geometry(), &mut at);
+                self.bend.send(&mut self.fingers, &mut at);
             } else {
                 return;
             }

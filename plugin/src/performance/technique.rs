@@ -20,7 +20,7 @@ pub(crate) const FARTHEST_DAMPER: f64 = 0.6;
 /// How force follows velocity: its power of 1.5, so that velocity 64 is 9 dB and 32 is 18 dB below
 /// the hardest. The square that General MIDI level 2 recommends for synthesizers would put soft notes
 /// below the sound of the finger that stops them.
-pub(crate) const VELOCITY_EXPONENT: f64 = 1.5;
+pub const VELOCITY_CURVE: f64 = 1.5;
 /// Farthest from the saddle a pluck may be, as a part of the sounding length: past the middle it
 /// sounds the same mirrored, and the hands would meet.
 pub(crate) const FARTHEST_PLUCK: f64 = 0.45;
@@ -63,3 +63,14 @@ pub(crate) const BEND_SPEED: f64 = 100.0;
 pub(crate) const BEND_RAMP: f64 = 0.012;
 /// Least time between two changes of a bend's goal, s.
 pub(crate) const BEND_INTERVAL: f64 = 0.003;
+/// How fast a finger's force follows the pressure on a key, s.
+pub(crate) const PRESSURE_RAMP: f64 = 0.012;
+/// A vibrato of the fretting hand: turns a second, and how far it goes at its deepest, semitones. Guitarists
+/// keep to 4 to 7 Hz and a quarter to half a semitone.
+pub(crate) const VIBRATO: (f64, f64) = (5.5, 0.5);
+/// Time between two goals of a vibrato, s: fifteen to a turn.
+pub(crate) const VIBRATO_STEP: f64 = 0.012;
+/// How many times its usual force a finger presses at full pressure.
+pub(crate) const FIRMEST: f64 = 2.5;
+/// How far brightness moves the pluck from its usual place, m: towards the saddle at full, away at none.
+pub(crate) const BRIGHTNESS_REACH: f64 = 0.08;

@@ -33,6 +33,11 @@ impl Variation {
         Self { amount: amount.clamp(0.0, 1.0), seed, state: seed }
     }
 
+    /// Deviations are so large from now on, 0 to 1.
+    pub(crate) fn set_amount(&mut self, amount: f64) {
+        self.amount = amount.clamp(0.0, 1.0);
+    }
+
     /// Starts the sequence again.
     pub(crate) fn reset(&mut self) {
         self.state = self.seed;

@@ -10,7 +10,7 @@ fn guitar() -> Hand {
 
 fn play(hand: &mut Hand, keys: &[u8], uses: &[Use]) -> Vec<Option<(usize, usize)>> {
     let wanted: Vec<Wanted> =
-        keys.iter().map(|&key| Wanted { channel: 0, key, pitch: f64::from(key) }).collect();
+        keys.iter().map(|&key| Wanted { channel: 0, key, pitch: f64::from(key), only: None }).collect();
     let mut placements = vec![None; keys.len()];
     hand.place(&wanted, uses, &mut placements);
     placements.iter().map(|place| place.map(|place| (place.string, place.fret))).collect()
@@ -89,11 +89,11 @@ fn of_too_many_notes_the_outer_ones_stay() {
 #[test]
 fn keys_out_of_range_move_by_octaves() {
     let hand = guitar();
-    assert_eq!(hand.playable_pitch(60), Some(60.0));
-    assert_eq!(hand.playable_pitch(39), Some(51.0));
-    assert_eq!(hand.playable_pitch(0), Some(48.0));
-    assert_eq!(hand.playable_pitch(127), Some(79.0));
-    assert_eq!(hand.playable_pitch(87), Some(75.0));
+    assert_eq!(hand.playable_pitch(60, None), Some(60.0));
+    assert_eq!(hand.playable_pitch(39, None), Some(51.0));
+    assert_eq!(hand.playable_pitch(0, None), Some(48.0));
+    assert_eq!(hand.playable_pitch(127, None), Some(79.0));
+    assert_eq!(hand.playable_pitch(87, None), Some(75.0));
 }
 
 #[test]

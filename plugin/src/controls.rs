@@ -1,0 +1,164 @@
+//! What a player and a luthier have set, as plain numbers: the plugin's parameters, exact and free of
+//! any host's types.
+
+use low_action_dsp::Setup;
+use low_action_dsp::setup::{Pickup, Player};
+
+use crate::engine::{EngineOptions, Quality};
+
+/// What cannot be changed without compiling the strings anew. All values are relative to a set-up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Luthier {
+    /// How much computing.
+    pub quality: Quality,
+    /// Newton iterations at most, or 0 for the quality's own.
+    pub iterations: usize,
+    /// Factor of the height of the strings over the frets.
+    pub action: f64,
+    /// Added to the relief, m.
+    pub relief: f64,
+    /// Factor of the height of the frets.
+    pub fret_height: f64,
+    /// Factor of the loss of all frequencies alike.
+    pub loss_0: f64,
+    /// Factor of the loss that grows with frequency.
+    pub loss_1: f64,
+    /// Whether stretching raises the tension (if the set-up has it so).
+    pub tension_modulation: bool,
+    /// Moves the coil away from the saddle, m.
+    pub pickup_position: f64,
+    /// How much of the other kind of pickup is heard, 0 to 1.
+    pub pickup_blend: f64,
+    /// Raises all strings, semitones.
+    pub tuning: f64,
+    /// Raises each open string, semitones.
+    pub strings: [f64; crate::params::TUNED_STRINGS],
+}
+
+impl Default for Luthier {
+    fn default() -> Self {
+        Self {
+            quality: Quality::default(),
+            iterations: 0,
+            action: 1.0,
+            relief: 0.0,
+            fret_height: 1.0,
+            loss_0: 1.0,
+            loss_1: 1.0,
+            tension_modulation: true,
+            pickup_position: 0.0,
+            pickup_blend: 0.0,
+            tuning: 0.0,
+            strings: [0.0; crate::params::TUNED_STRINGS],
+        }
+    }
+}
+
+impl Luthier {
+    /// The set-up with all this done to it. What would lead off the string or past a limit of the set-up
+    /// file goes as far as it can.
+    pub fn work_on(&self, setup: &mut Setup) {
+        let neck = &mut setup.neck;
+        neck.nut_clearance = (neck.nut_clearance * self.action).clamp(1e-5, 0.02);
+        neck.action = (neck.action * self.action).clamp(neck.nut_clearance, 0.05);
+        neck.relief = (neck.relief + self.relief).clamp(0.0, 0.01);
+        neck.fret_height = (neck.fret_height * self.fret_height).clamp(0.0, 0.02);
+        let scale = neck.scale_length;
+        if let Pickup::Magnetic { position, aperture, .. } = &mut setup.pickup {
+            // Half the field must stay on the string.
+            let nearest = 0.51 * *aperture + 1e-3;
+            *position = (*position + self.pickup_position).min(scale - nearest).max(nearest);
+        }
+        setup.blend = setup.blend.max(self.pickup_blend);
+        setup.tension_modulation &= self.tension_modulation;
+        setup.tuning = (setup.tuning + self.tuning).clamp(-12.0, 12.0);
+        for (index, string) in setup.string.iter_mut().enumerate() {
+            string.loss_0 = (string.loss_0 * self.loss_0).min(1e4);
+            string.loss_1 = (string.loss_1 * self.loss_1).min(1e2);
+            let raised = self.strings.get(index).copied().unwrap_or(0.0);
+            string.pitch = (string.pitch + raised).clamp(0.0, 127.0);
+        }
+    }
+
+    /// What an engine is built from.
+    pub fn options(&self, mut setup: Setup, sample_rate: f64) -> EngineOptions {
+        self.work_on(&mut setup);
+        let iterations = (self.iterations > 0).then_some(self.iterations);
+        EngineOptions { quality: self.quality, iterations, ..EngineOptions::new(setup, sample_rate) }
+    }
+}
+
+/// How the hands act: what can change from one pluck to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touching {
+    /// Moves the pluck away from the saddle, m.
+    pub pluck_position: f64,
+    /// Factor of the hardest pluck's force.
+    pub pluck_force: f64,
+    /// Factor of how long a pluck pushes.
+    pub pluck_duration: f64,
+    /// Power of the velocity with which the force goes.
+    pub velocity_curve: f64,
+    /// Size of the small differences between plucks, 0 to 1.
+    pub variation: f64,
+    /// Factor of the force of the finger that stops a string.
+    pub finger_force: f64,
+    /// Factor of the stiffness of its pad.
+    pub finger_hardness: f64,
+    /// Factor of its mass.
+    pub finger_mass: f64,
+    /// Factor of the height from which it comes.
+    pub finger_hover: f64,
+    /// Factor of the damping of the hand behind it.
+    pub hand_damping: f64,
+    /// Semitones of a full turn of the pitch wheel.
+    pub bend_range: f64,
+    /// Whether an announced range is passed over.
+    pub ignore_rpn: bool,
+    /// Bends all strings at once, semitones.
+    pub tremolo_arm: f64,
+}
+
+impl Touching {
+    /// Everything as the set-up has it, with so much variation (0 to 1) and such a bend range
+    /// (semitones).
+    pub fn new(variation: f64, bend_range: f64) -> Self {
+        Self {
+            pluck_position: 0.0,
+            pluck_force: 1.0,
+            pluck_duration: 1.0,
+            velocity_curve: crate::performance::VELOCITY_CURVE,
+            variation,
+            finger_force: 1.0,
+            finger_hardness: 1.0,
+            finger_mass: 1.0,
+            finger_hover: 1.0,
+            hand_damping: 1.0,
+            bend_range,
+            ignore_rpn: false,
+            tremolo_arm: 0.0,
+        }
+    }
+
+    /// The hands of a set-up, acting so; what would lead past a limit of the set-up file goes as far as it
+    /// can.
+    pub fn hands(&self, hands: &Player) -> Player {
+        let mut hands = hands.clone();
+        hands.pluck_position += self.pluck_position;
+        hands.pluck_force *= self.pluck_force;
+        hands.pluck_duration = (hands.pluck_duration * self.pluck_duration).clamp(1e-4, 0.1);
+        let fretting = &mut hands.fretting;
+        fretting.force *= self.finger_force;
+        fretting.touch.stiffness *= self.finger_hardness;
+        fretting.touch.mass *= self.finger_mass;
+        fretting.hover = (fretting.hover * self.finger_hover).min(0.1);
+        fretting.touch.hand_damping *= self.hand_damping;
+        hands
+    }
+}
+
+impl Default for Touching {
+    fn default() -> Self {
+        Self::new(EngineOptions::VARIATION, EngineOptions::BEND_RANGE)
+    }
+}

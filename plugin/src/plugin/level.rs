@@ -1,0 +1,75 @@
+//! The last thing that happens to the samples: level and bypass.
+
+use nice_plug::prelude::Smoother;
+
+use crate::params::OutputParams;
+
+/// Time in which the bypass fades the sound out or in, s.
+const FADE: f32 = 0.02;
+
+/// Fades, and the state they are in.
+#[derive(Debug)]
+pub(super) struct Output {
+    /// 1 sounds, 0 is bypassed.
+    heard: f32,
+    /// Change of it in a sample.
+    step: f32,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self { heard: 1.0, step: 1.0 }
+    }
+}
+
+impl Output {
+    /// Begins at a sample rate in Hz, bypassed or not.
+    pub fn activate(&mut self, sample_rate: f32, bypassed: bool) {
+        self.heard = if bypassed { 0.0 } else { 1.0 };
+        self.step = 1.0 / (FADE * sample_rate).max(1.0);
+    }
+
+    /// Multiplies the samples by level and bypass; 0 dB leaves them as they are.
+    pub fn shape(
+        &mut self,
+        params: &OutputParams,
+        left: &mut [f32],
+        right: &mut [f32],
+        stems: &mut [&mut [f32]],
+    ) {
+        let goal = if params.bypass.value() { 0.0 } else { 1.0 };
+        let level: &Smoother<f32> = &params.level.smoothed;
+        if !level.is_smoothing() && self.heard == goal {
+            let gain = decibels_to_gain(level.next()) * goal;
+            if gain != 1.0 {
+                for channel in [left, right].into_iter().chain(stems.iter_mut().map(|stem| &mut **stem)) {
+                    channel.iter_mut().for_each(|sample| *sample *= gain);
+                }
+            }
+            return;
+        }
+        for i in 0..left.len() {
+            self.heard += (goal - self.heard).clamp(-self.step, self.step);
+            let gain = decibels_to_gain(level.next()) * self.heard;
+            left[i] *= gain;
+            right[i] *= gain;
+            stems.iter_mut().for_each(|stem| stem[i] *= gain);
+        }
+    }
+}
+
+/// A factor of the amplitude out of decibels; exactly 1 at 0 dB.
+fn decibels_to_gain(decibels: f32) -> f32 {
+    libm::powf(10.0, decibels / 20.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::decibels_to_gain;
+
+    #[test]
+    fn no_decibels_are_a_factor_of_one() {
+        assert_eq!(decibels_to_gain(0.0), 1.0);
+        assert!((decibels_to_gain(-20.0) - 0.1).abs() < 1e-7);
+    }
+}

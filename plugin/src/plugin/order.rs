@@ -1,0 +1,130 @@
+//! What the parameters ask for, as the numbers of [`crate::controls`].
+
+use low_action_dsp::Setup;
+use nice_plug::prelude::*;
+
+use crate::controls::{Luthier, Touching};
+use crate::engine::EngineOptions;
+use crate::params::{InputChoice, InstrumentChoice, LowActionParams, exact};
+use crate::performance::InputMode;
+
+/// What an engine is built from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Order {
+    pub instrument: InstrumentChoice,
+    pub luthier: Luthier,
+    /// Hz.
+    pub sample_rate: f32,
+}
+
+impl Order {
+    /// What the parameters ask for, in real time or offline.
+    pub fn of(params: &LowActionParams, sample_rate: f32, offline: bool) -> Self {
+        let LowActionParams { instrument, setup, strings, .. } = params;
+        let live = instrument.quality.value().quality();
+        let quality = if offline { instrument.render_quality.value().quality(live) } else { live };
+        let luthier = Luthier {
+            quality,
+            iterations: usize::try_from(instrument.iterations.value()).unwrap_or(0),
+            action: exact(&setup.action),
+            relief: 1e-3 * exact(&setup.relief),
+            fret_height: exact(&setup.fret_height),
+            loss_0: exact(&setup.loss_0),
+            loss_1: exact(&setup.loss_1),
+            tension_modulation: setup.tension_modulation.value(),
+            pickup_position: 1e-3 * exact(&setup.pickup_position),
+            pickup_blend: exact(&setup.pickup_blend),
+            tuning: 0.01 * exact(&setup.tuning),
+            strings: std::array::from_fn(|index| exact(&strings[index].tuning)),
+        };
+        Self { instrument: instrument.instrument.value(), luthier, sample_rate }
+    }
+
+    /// The set-up and everything else an engine is built from.
+    pub fn options(&self) -> Result<EngineOptions, String> {
+        let name = self.instrument.set_up();
+        let setup = Setup::builtin(name).ok_or_else(|| format!("there is no built-in set-up {name}"))?;
+        Ok(self.luthier.options(setup, f64::from(self.sample_rate)))
+    }
+}
+
+/// How the parameters have the hands act.
+pub(super) fn touching(params: &LowActionParams) -> Touching {
+    let LowActionParams { player, control, .. } = params;
+    Touching {
+        pluck_position: 1e-3 * exact(&player.pluck_position),
+        pluck_force: exact(&player.pluck_force),
+        pluck_duration: exact(&player.pluck_duration),
+        velocity_curve: exact(&player.velocity_curve),
+        variation: exact(&player.variation),
+        finger_force: exact(&player.finger_force),
+        finger_hardness: exact(&player.finger_hardness),
+        finger_mass: exact(&player.finger_mass),
+        finger_hover: exact(&player.finger_hover),
+        hand_damping: exact(&player.hand_damping),
+        bend_range: f64::from(control.bend_range.value()),
+        ignore_rpn: control.ignore_rpn.value(),
+        tremolo_arm: exact(&control.tremolo_arm),
+    }
+}
+
+/// What the parameters have channels mean.
+pub(super) fn input(params: &LowActionParams) -> InputMode {
+    match params.control.input_mode.value() {
+        InputChoice::Auto => InputMode::Auto,
+        InputChoice::Keyboard => InputMode::Keyboard,
+        InputChoice::Strings => InputMode::Strings { first: 0 },
+        InputChoice::StringsFrom11 => InputMode::Strings { first: 10 },
+        InputChoice::Mpe => InputMode::Mpe,
+    }
+}
+
+/// Pages of eight knobs, the most played ones first.
+pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl RemoteControlsContext) {
+    let LowActionParams { instrument, setup, strings, player, control, output } = params;
+    context.add_section("Low Action", |section| {
+        section.add_page("Play", |page| {
+            page.add_param(&player.pluck_position);
+            page.add_param(&player.pluck_force);
+            page.add_param(&player.finger_force);
+            page.add_param(&setup.action);
+            page.add_param(&setup.pickup_position);
+            page.add_param(&setup.loss_1);
+            page.add_param(&control.tremolo_arm);
+            page.add_param(&output.level);
+        });
+        section.add_page("Set-up", |page| {
+            page.add_param(&instrument.instrument);
+            page.add_param(&setup.action);
+            page.add_param(&setup.relief);
+            page.add_param(&setup.fret_height);
+            page.add_param(&setup.loss_0);
+            page.add_param(&setup.tension_modulation);
+            page.add_param(&setup.pickup_blend);
+            page.add_param(&setup.tuning);
+        });
+        section.add_page("Hands", |page| {
+            page.add_param(&player.pluck_duration);
+            page.add_param(&player.velocity_curve);
+            page.add_param(&player.variation);
+            page.add_param(&player.finger_hardness);
+            page.add_param(&player.finger_mass);
+            page.add_param(&player.finger_hover);
+            page.add_param(&player.hand_damping);
+            page.add_spacer();
+        });
+        section.add_page("Strings", |page| {
+            strings.iter().for_each(|string| page.add_param(&string.tuning));
+        });
+        section.add_page("Engine", |page| {
+            page.add_param(&instrument.quality);
+            page.add_param(&instrument.render_quality);
+            page.add_param(&instrument.iterations);
+            page.add_param(&instrument.relax);
+            page.add_param(&control.input_mode);
+            page.add_param(&control.bend_range);
+            page.add_param(&control.ignore_rpn);
+            page.add_param(&output.bypass);
+        });
+    });
+}

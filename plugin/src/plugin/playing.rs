@@ -1,0 +1,225 @@
+//! An engine at work: events in, sound out, and other engines put in its place on the way.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use nice_plug::prelude::*;
+
+use super::budget::Budget;
+use super::events::{self, Voices};
+use super::meters::Meters;
+use super::order::{self, Order};
+use super::workshop::{Finished, Workshop};
+use crate::engine::{Engine, Quality, Replacement};
+use crate::params::LowActionParams;
+use crate::performance::PlayerEvent;
+
+/// How long a host should keep the plugin running after the last event, s: the longest reverberation
+/// time of the built-in strings (the open low strings of a classical or steel-string guitar, measured
+/// at about 25 to 29 s for a decay of 60 dB), rounded up.
+const TAIL: f32 = 30.0;
+
+/// An engine, what it was built from, and the workshop that builds others.
+pub(super) struct Playing {
+    engine: Engine,
+    /// What the engine was built from.
+    order: Order,
+    /// What the workshop has been asked for and has not delivered.
+    asked: Option<Order>,
+    /// A finished engine waiting until the last one has faded.
+    ready: Option<Finished>,
+    /// What the outgoing part of the engine was ordered as.
+    leaving: Order,
+    workshop: Workshop,
+    offline: bool,
+    budget: Budget,
+    relaxed: bool,
+    voices: Voices,
+    meters: Arc<Meters>,
+}
+
+impl Playing {
+    /// Builds the engine and opens the workshop; allocates.
+    pub fn new(
+        order: Order,
+        offline: bool,
+        _largest_block: u32,
+        meters: Arc<Meters>,
+    ) -> Result<Self, String> {
+        let engine = Engine::new(&order.options()?).map_err(|error| error.to_string())?;
+        let workshop = Workshop::open().map_err(|error| format!("cannot start a thread: {error}"))?;
+        Ok(Self {
+            engine,
+            order,
+            asked: None,
+            ready: None,
+            leaving: order,
+            workshop,
+            offline,
+            budget: Budget::new(order.sample_rate),
+            relaxed: false,
+            voices: Voices::default(),
+            meters,
+        })
+    }
+
+    /// Whether this is what an order asks for, with nothing else on its way.
+    pub fn is(&self, order: &Order) -> bool {
+        self.order == *order && self.asked.is_none()
+    }
+
+    /// Silence, as if just built.
+    pub fn reset(&mut self, offline: bool) {
+        self.offline = offline;
+        self.reset_sound();
+        self.budget.reset();
+        self.set_effort(false);
+    }
+
+    /// Silence and the first sample again.
+    pub fn reset_sound(&mut self) {
+        self.engine.reset();
+        self.voices = Voices::default();
+    }
+
+    /// Everything that sounds is damped.
+    pub fn silence(&mut self) {
+        self.engine.event(0, PlayerEvent::AllNotesOff);
+    }
+
+    /// Has the hands act as the parameters say from now on.
+    pub fn follow(&mut self, params: &LowActionParams) {
+        self.engine.touch(&order::touching(params));
+        self.engine.set_input(order::input(params));
+    }
+
+    /// Takes an event of the host's.
+    pub fn event(&mut self, event: NoteEvent<()>, params: &LowActionParams) {
+        let engine = &mut self.engine;
+        events::translate(event, params, &mut self.voices, |offset, event| engine.event(offset, event));
+    }
+
+    /// Plays a block, and the strings by themselves into as many of `stems` as there are.
+    pub fn play(
+        &mut self,
+        params: &LowActionParams,
+        left: &mut [f32],
+        right: &mut [f32],
+        stems: &mut [&mut [f32]],
+    ) {
+        let wanted = Order::of(params, self.order.sample_rate, self.offline);
+        let mut done = 0;
+        while done < left.len() {
+            self.retire();
+            let left_over = (left.len() - done) as u64;
+            let run = self.exchange(wanted).map_or(left_over, |until| until.min(left_over)) as usize;
+            let span = done..done + run;
+            let count = stems.len().min(self.engine.string_count());
+            let mut parts: [&mut [f32]; super::STRING_OUTPUTS] = std::array::from_fn(|_| Default::default());
+            for (index, (part, stem)) in parts.iter_mut().zip(stems.iter_mut()).enumerate() {
+                *part = &mut stem[span.clone()];
+                if index >= count {
+                    part.fill(0.0);
+                }
+            }
+            let (left, right) = (&mut left[span.clone()], &mut right[span]);
+            if count == 0 {
+                self.engine.process(left, right);
+            } else {
+                self.engine.process_stems(&mut parts[..count], left, right);
+            }
+            done += run;
+        }
+    }
+
+    /// Sees to it that the engine becomes what is wanted: at once where the host renders offline, as soon as
+    /// it is built in real time. Gives the number of samples after which to look again, if before the
+    /// end of the block.
+    fn exchange(&mut self, wanted: Order) -> Option<u64> {
+        if wanted != self.asked.unwrap_or(self.order) {
+            self.asked = Some(wanted);
+            self.workshop.order(wanted);
+        }
+        if self.ready.is_none() && self.asked.is_some() {
+            let fading = self.engine.fading_left();
+            if self.offline && fading > 0 {
+                return Some(fading);
+            }
+            self.ready = if self.offline { self.workshop.wait(&wanted) } else { self.workshop.collect() };
+        }
+        let Finished { order, result } = self.ready.take()?;
+        if self.asked == Some(order) {
+            self.asked = None;
+        }
+        if order == self.order {
+            self.workshop.give_back(Finished { order, result });
+            return None;
+        }
+        match result {
+            Ok(replacement) => match self.engine.replace(replacement) {
+                Ok(()) => {
+                    self.leaving = std::mem::replace(&mut self.order, order);
+                    self.set_effort(self.relaxed);
+                    self.meters.count_exchange();
+                }
+                Err(replacement) => {
+                    self.ready = Some(Finished { order, result: Ok(replacement) });
+                    return Some(self.engine.fading_left().max(1));
+                }
+            },
+            Err(message) => {
+                // The engine there is plays on, and counts as what was asked for.
+                self.order = order;
+                self.meters.refuse();
+                self.workshop.give_back(Finished { order, result: Err(message) });
+            }
+        }
+        None
+    }
+
+    /// Sends what has been replaced back to the workshop.
+    fn retire(&mut self) {
+        if let Some(outgoing) = self.engine.take_outgoing() {
+            self.workshop.give_back(Finished { order: self.leaving, result: Ok(outgoing) });
+        }
+    }
+
+    /// Begins to measure a block, in real time.
+    pub fn start_clock(&self) -> Option<Instant> {
+        (!self.offline).then(Instant::now)
+    }
+
+    /// Ends it; if the time is too short contacts are solved less exactly from now on.
+    pub fn stop_clock(&mut self, started: Option<Instant>, samples: usize, may_relax: bool) {
+        let Some(started) = started else { return };
+        let relaxed = self.budget.spent(started.elapsed().as_secs_f64(), samples) && may_relax;
+        self.meters.see_load(self.budget.load(), relaxed);
+        if relaxed != self.relaxed {
+            self.set_effort(relaxed);
+        }
+    }
+
+    fn set_effort(&mut self, relaxed: bool) {
+        self.relaxed = relaxed;
+        let luthier = &self.order.luthier;
+        let settings = luthier.quality.settings(f64::from(self.order.sample_rate));
+        let iterations = if luthier.iterations > 0 { luthier.iterations } else { settings.max_iterations };
+        let least = Quality::RELAXED;
+        if relaxed {
+            self.engine.set_effort(iterations.min(least.0), settings.tolerance.max(least.1));
+        } else {
+            self.engine.set_effort(iterations, settings.tolerance);
+        }
+    }
+
+    /// What to tell the host: the strings ring on, or nothing sounds and nothing is touched.
+    pub fn status(&self) -> ProcessStatus {
+        ProcessStatus::Tail((TAIL * self.order.sample_rate) as u32)
+    }
+}
+
+// A replacement travels between threads.
+const _: fn() = || {
+    fn assert_send<T: Send>() {}
+    assert_send::<Box<Replacement>>();
+};
