@@ -4,4 +4,5 @@ pub mod command;
 pub mod dense;
 pub mod host;
 pub mod midi;
+pub mod paper;
 pub mod pitch;

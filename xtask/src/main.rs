@@ -39,9 +39,10 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "figures",
-        arguments: "[NAME ...]",
-        summary: "draws the pictures of the documentation, or those named, into docs/figures",
-        run: |names| figures::run(&names),
+        arguments: "[--quick] [NAME ...]",
+        summary: "draws the pictures of the documentation, or those named, and writes docs/paper.md; \
+                  with --quick compares them with what is there",
+        run: |arguments| figures::run(&arguments),
     },
     Command {
         name: "measure",

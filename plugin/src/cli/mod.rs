@@ -123,6 +123,7 @@ Examples:
   low-action scene scene.toml                          computed, checked, summed up
   low-action scene scene.toml --wav out.wav
   low-action scene scene.toml --trace out.npz --every 4
+  low-action scene scene.toml --figure out.svg
   low-action scene - --wav - < scene.toml | aplay      from standard input to standard output
 
 The trace is an .npz file of NumPy arrays. Strings (S), frets (F) and fingers (N) count from 1. Row n of
@@ -154,6 +155,9 @@ pub struct SceneArgs {
     /// Keep every N-th sample of the trace, from the first.
     #[arg(long, value_name = "N", default_value_t = 1, requires = "trace", value_parser = clap::value_parser!(u64).range(1..))]
     pub every: u64,
+    /// Picture to draw (SVG): the strings over the board, energies, contact forces, iterations, penetration.
+    #[arg(long, value_name = "FILE")]
+    pub figure: Option<PathBuf>,
 }
 
 /// Why a command did not end well.

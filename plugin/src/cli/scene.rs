@@ -1,20 +1,22 @@
-//! The `scene` command: a scene file computed into a WAV file and a trace.
+//! The `scene` command: a scene file computed into a WAV file, a trace and a picture.
 //!
 //! The result is checked as it is made: every sample must be finite and, where the energy ledger is
 //! open, the balance must close. The ledger takes as long as two to three times the step it measures,
-//! so it is open when a trace is asked for, and when nothing is written at all; a run that only makes a
-//! WAV file goes without.
+//! so it is open when a trace or a picture is asked for, and when nothing is written at all; a run that only
+//! makes a WAV file goes without.
 
 mod summary;
 
 use std::fs::{self, File};
-use std::io::{self, Read};
-use std::path::Path;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
 use low_action_dsp::{Ledger, Scene, Simulation};
+use low_action_figures::SceneFigure;
 
+use super::output::Draft;
 use super::trace::Trace;
 use super::wav::{BitDepth, Findings, WavFile};
 use super::{Failure, Outcome, SceneArgs, progress};
@@ -33,7 +35,7 @@ pub(super) fn run(arguments: &SceneArgs) -> Outcome {
     let scene = read(&arguments.file)?;
     let mut simulation = Simulation::new(&scene).with_context(|| arguments.file.display().to_string())?;
     check_paths(arguments)?;
-    if arguments.trace.is_some() || arguments.wav.is_none() {
+    if arguments.trace.is_some() || arguments.figure.is_some() || arguments.wav.is_none() {
         simulation.open_ledger();
     }
     let mut outputs = Outputs::begin(arguments, &scene, &simulation)?;
@@ -78,7 +80,8 @@ fn check_paths(arguments: &SceneArgs) -> Outcome {
     let wav = arguments.wav.as_deref().map(|path| ("--wav", path));
     let trace = arguments.trace.as_deref().map(|path| ("--trace", path));
     let file = Some(("the scene", &*arguments.file)).filter(|(_, path)| !is_dash(path));
-    for pair in [(file, wav), (file, trace), (wav, trace)] {
+    let figure = arguments.figure.as_deref().map(|path| ("--figure", path));
+    for pair in [(file, wav), (file, trace), (file, figure), (wav, trace), (wav, figure), (trace, figure)] {
         if let (Some((name, path)), Some((other, other_path))) = pair
             && is_same_file(path, other_path)
         {
@@ -100,21 +103,52 @@ fn is_same_file(one: &Path, other: &Path) -> bool {
 struct Outputs {
     wav: Option<WavFile>,
     trace: Option<Trace>,
+    figure: Option<Picture>,
 }
 
 impl Outputs {
     fn begin(arguments: &SceneArgs, scene: &Scene, simulation: &Simulation) -> Result<Outputs> {
         let wav = arguments.wav.as_ref().map(|path| begin_wav(path, scene, simulation)).transpose()?;
         let trace = arguments.trace.as_ref().map(|path| Trace::begin(path, simulation, arguments.every));
-        Ok(Outputs { wav, trace: trace.transpose()? })
+        let figure = arguments.figure.as_ref().map(|path| Picture::begin(path, arguments, scene, simulation));
+        Ok(Outputs { wav, trace: trace.transpose()?, figure: figure.transpose()? })
     }
 
     /// Lets the files appear; none does unless all could be completed.
     fn finish(self) -> Result<Option<Findings>> {
         let trace = self.trace.map(Trace::complete).transpose()?;
+        let figure = self.figure.map(Picture::complete).transpose()?;
         let sound = self.wav.map(WavFile::finish).transpose()?;
-        trace.map_or(Ok(()), |draft| draft.publish())?;
+        [trace, figure].into_iter().flatten().try_for_each(Draft::publish)?;
         Ok(sound)
+    }
+}
+
+/// A picture being made. Its file is opened at the beginning, so that a place where nothing can be written
+/// is found out before anything is computed.
+struct Picture {
+    path: PathBuf,
+    draft: Draft,
+    title: String,
+    figure: SceneFigure,
+}
+
+impl Picture {
+    fn begin(path: &Path, arguments: &SceneArgs, scene: &Scene, simulation: &Simulation) -> Result<Picture> {
+        let title = match arguments.file.file_name() {
+            Some(name) if !is_dash(&arguments.file) => name.to_string_lossy().into_owned(),
+            _ => "A scene".into(),
+        };
+        let figure = SceneFigure::new(scene, simulation)?;
+        Ok(Picture { path: path.to_owned(), draft: Draft::begin(path)?, title, figure })
+    }
+
+    /// Draws it into its file, which then waits to be published.
+    fn complete(self) -> Result<Draft> {
+        let picture = self.figure.draw(&self.title)?;
+        let written = self.draft.handle().and_then(|mut file| file.write_all(picture.as_bytes()));
+        written.with_context(|| format!("cannot write {}", self.path.display()))?;
+        Ok(self.draft)
     }
 }
 
@@ -166,11 +200,12 @@ fn compute(simulation: &mut Simulation, outputs: &mut Outputs) -> Result<Seen> {
     let bar = progress::bar(simulation.samples() as f64 / simulation.sample_rate());
     let mut seen = Seen::default();
     while simulation.steps() < simulation.samples() {
-        match &mut outputs.trace {
+        let entry = match &mut outputs.trace {
             Some(trace) => trace.step(simulation)?,
-            None => {
-                simulation.step();
-            }
+            None => simulation.step(),
+        };
+        if let Some(picture) = &mut outputs.figure {
+            picture.figure.look(simulation, &entry.unwrap_or_default());
         }
         let output = simulation.output();
         seen.look(simulation, output);

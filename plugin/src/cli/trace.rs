@@ -145,16 +145,18 @@ impl Trace {
     }
 
     /// Takes a step, and keeps what there was before and what happened in it if its sample is due.
-    pub fn step(&mut self, simulation: &mut Simulation) -> Result<()> {
+    /// Returns the step's entry in the ledger.
+    pub fn step(&mut self, simulation: &mut Simulation) -> Result<Option<Entry>> {
         let due = simulation.steps().is_multiple_of(self.plan.every);
         if due {
             self.keep_state(simulation).with_context(|| cannot_write(&self.path))?;
         }
-        let entry = simulation.step().unwrap_or_default();
+        let entry = simulation.step();
         if due {
+            let entry = entry.unwrap_or_default();
             self.keep_events(simulation, &entry).with_context(|| cannot_write(&self.path))?;
         }
-        Ok(())
+        Ok(entry)
     }
 
     fn keep_places(&mut self, simulation: &Simulation) -> io::Result<()> {

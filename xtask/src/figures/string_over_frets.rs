@@ -1,16 +1,17 @@
 //! A plucked string bouncing on frets and board, one panel per moment.
 
-use std::path::Path;
-
 use anyhow::{Context, Result};
-use low_action_dsp::model::{Barrier, ContactKind};
+use low_action_dsp::model::ContactKind;
 use low_action_dsp::{Scene, Simulation};
-use plotters::coord::Shift;
+use low_action_figures::panel::Area;
+use low_action_figures::style::colour;
+use low_action_figures::{Ground, Profile};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::colour;
+use super::Made;
+use super::running::{Repository, listen};
 
 /// Times of the panels after the string is let go, ms: one period of the open string and a little more.
 const MOMENTS: [f64; 8] = [0.0, 1.5, 3.0, 3.9, 4.6, 6.5, 9.5, 12.3];
@@ -42,7 +43,6 @@ const TEXT: f64 = 54.0;
 const DOT: i32 = 18;
 const PAST: f64 = 0.35;
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// The string at one moment.
@@ -59,20 +59,18 @@ struct Snapshot {
     past_contacts: Vec<(f64, f64)>,
 }
 
-/// What lies under the string.
-struct Ground {
-    /// The board's upper edge, (m, mm).
-    board: Vec<(f64, f64)>,
-    /// The crowns, (m, mm).
-    crowns: Vec<(f64, f64)>,
+/// Runs the scene and draws it.
+pub fn make(repository: &Repository) -> Result<Made> {
+    let scene = repository.scene("docs/figures/string_over_frets.toml")?;
+    let ground = Ground::under(&scene, 0)?;
+    let snapshots = snapshots(&scene, &ground)?;
+    let mut picture = String::new();
+    draw(&mut picture, &scene, &ground, &snapshots)?;
+    Ok(Made { picture, section: None, sounds: vec![listen("string_over_frets", &scene)?] })
 }
 
-/// Runs the scene and draws it.
-pub fn draw(folder: &Path, file: &Path) -> Result<()> {
-    let scene = super::scene(folder, "string_over_frets")?;
-    let ground = ground(&scene)?;
-    let snapshots = snapshots(&scene, &ground)?;
-    let root = SVGBackend::new(file, SIZE).into_drawing_area();
+fn draw(picture: &mut String, scene: &Scene, ground: &Ground, snapshots: &[Snapshot]) -> Result<()> {
+    let root = SVGBackend::with_string(picture, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
     let (columns, rows) = LAYOUT;
     let width = SIZE.0 / columns as u32;
@@ -83,10 +81,10 @@ pub fn draw(folder: &Path, file: &Path) -> Result<()> {
         let lowest = row + 1 == rows as u32;
         let corner = ((column * width) as i32, HEAD + (row * height) as i32);
         let panel = root.clone().shrink(corner, (width, if lowest { height + AXIS } else { height }));
-        magnification = draw_panel(&panel, &scene, &ground, snapshot, (column == 0, lowest))?;
+        magnification = draw_panel(&panel, scene, ground, snapshot, (column == 0, lowest))?;
     }
     draw_key(&root, magnification)?;
-    draw_caption(&root, &scene)?;
+    draw_caption(&root, scene)?;
     root.present()?;
     Ok(())
 }
@@ -108,7 +106,7 @@ fn snapshots(scene: &Scene, ground: &Ground) -> Result<Vec<Snapshot>> {
                     past_contacts.extend(contacts(ground, &simulation));
                 }
             }
-            trail.insert(0, points(&simulation));
+            trail.insert(0, Profile::of(simulation.string(0)).string);
         }
         let string = trail.remove(0);
         let contacts = contacts(ground, &simulation);
@@ -118,16 +116,6 @@ fn snapshots(scene: &Scene, ground: &Ground) -> Result<Vec<Snapshot>> {
         shown.push(Snapshot { time: moment, string, trail, contacts, past_contacts });
     }
     Ok(shown)
-}
-
-/// The string as it is, its ends included.
-fn points(simulation: &Simulation) -> Vec<(f64, f64)> {
-    let string = simulation.string(0);
-    let heights = string.state.displacement().iter().map(|u| 1e3 * u);
-    let mut points = vec![(0.0, 0.0)];
-    points.extend(string.places().zip(heights));
-    points.push((string.model.grid.length, 0.0));
-    points
 }
 
 /// Where board or frets push the string.
@@ -141,22 +129,6 @@ fn contacts(ground: &Ground, simulation: &Simulation) -> Vec<(f64, f64)> {
             ContactKind::Fret { index } => ground.crowns[index],
         })
         .collect()
-}
-
-/// Board and crowns of the scene.
-fn ground(scene: &Scene) -> Result<Ground> {
-    let spec = scene.fretboard.as_ref().context("the scene needs a fretboard")?;
-    let barrier = Barrier::from_spec(spec, scene.string[0].length)?;
-    let board = match &barrier.board {
-        None => Vec::new(),
-        Some(low_action_dsp::curve::Curve::Constant(height)) => {
-            vec![(0.0, 1e3 * height), (scene.string[0].length, 1e3 * height)]
-        }
-        Some(low_action_dsp::curve::Curve::Points(points)) => {
-            points.iter().map(|p| (p[0], 1e3 * p[1])).collect()
-        }
-    };
-    Ok(Ground { board, crowns: barrier.frets.iter().map(|fret| (fret[0], 1e3 * fret[1])).collect() })
 }
 
 /// Draws one moment; returns how many times heights are magnified over lengths.
@@ -199,13 +171,14 @@ fn draw_panel(
     }
     mesh.draw()?;
     draw_ground(&mut chart, ground, length)?;
-    let dot = |place: &(f64, f64), strength| Circle::new(*place, DOT, colour::CONTACT.mix(strength).filled());
+    let dot =
+        |place: &(f64, f64), strength| Circle::new(*place, DOT, colour::VERMILION.mix(strength).filled());
     chart.draw_series(snapshot.past_contacts.iter().map(|place| dot(place, PAST)))?;
     for (age, trail) in snapshot.trail.iter().enumerate().rev() {
         let strength = 0.38 * (1.0 - age as f64 / (TRAIL.0 as f64 + 0.5));
-        chart.draw_series(LineSeries::new(trail.clone(), colour::STRING.mix(strength).stroke_width(6)))?;
+        chart.draw_series(LineSeries::new(trail.clone(), colour::BLUE.mix(strength).stroke_width(6)))?;
     }
-    chart.draw_series(LineSeries::new(snapshot.string.clone(), colour::STRING.stroke_width(10)))?;
+    chart.draw_series(LineSeries::new(snapshot.string.clone(), colour::BLUE.stroke_width(10)))?;
     chart.draw_series(snapshot.contacts.iter().map(|place| dot(place, 1.0)))?;
     let corner = text.pos(Pos::new(HPos::Right, VPos::Top));
     chart.draw_series(std::iter::once(Text::new(
@@ -263,13 +236,13 @@ fn draw_key(area: &Area, magnification: f64) -> Result<()> {
     for line in 0..3 {
         let strength = [0.2, 0.38, 1.0][line as usize];
         let at = row + 16 - 16 * line;
-        let style = colour::STRING.mix(strength).stroke_width(if line == 2 { 10 } else { 6 });
+        let style = colour::BLUE.mix(strength).stroke_width(if line == 2 { 10 } else { 6 });
         area.draw(&PathElement::new([(84, at), (184, at)], style))?;
     }
     write(format!("string, and its last {window} ms"), 212)?;
-    area.draw(&Circle::new((1060, row), DOT, colour::CONTACT.filled()))?;
+    area.draw(&Circle::new((1060, row), DOT, colour::VERMILION.filled()))?;
     write("touching now,".into(), 1096)?;
-    area.draw(&Circle::new((1500, row), DOT, colour::CONTACT.mix(PAST).filled()))?;
+    area.draw(&Circle::new((1500, row), DOT, colour::VERMILION.mix(PAST).filled()))?;
     write("in that time".into(), 1536)?;
     area.draw(&Rectangle::new([(1960, row - 28), (1972, row + 28)], colour::METAL.filled()))?;
     write("fret".into(), 2000)?;

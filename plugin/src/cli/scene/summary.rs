@@ -25,7 +25,7 @@ pub(super) struct Summary<'a> {
 impl Summary<'_> {
     /// Prints a few lines, on standard output unless that carries a result.
     pub fn print(&self) {
-        let results = [&self.arguments.wav, &self.arguments.trace];
+        let results = [&self.arguments.wav, &self.arguments.trace, &self.arguments.figure];
         let text = self.lines().join("\n") + "\n";
         // A closed output is no reason to fail.
         if results.into_iter().flatten().any(|path| is_dash(path)) {
@@ -70,7 +70,7 @@ impl Summary<'_> {
     fn energy(&self) -> String {
         let ledgers = self.simulation.ledgers();
         if ledgers.is_empty() {
-            return "energy: not measured (with --trace it is)".into();
+            return "energy: not measured (with --trace or --figure it is)".into();
         }
         let most = |of: fn(&Ledger) -> f64| ledgers.iter().map(of).fold(0.0, f64::max);
         let (largest, worst, open) = (most(|l| l.largest), most(|l| l.worst_residual), most(open_part));
@@ -92,6 +92,7 @@ impl Summary<'_> {
         if let (Some(path), Some((rows, bytes))) = (&self.arguments.trace, self.trace_size) {
             lines.push(format!("{}: {rows} rows, {:.1} MB", path.display(), bytes as f64 / 1e6));
         }
+        lines.extend(self.arguments.figure.iter().map(|path| format!("{}: a picture", path.display())));
         lines
     }
 }

@@ -1,0 +1,316 @@
+//! A panel: one pair of axes, and layers drawn over each other on them.
+
+use anyhow::Result;
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::axis::Axis;
+use crate::ground::{Ground, Profile};
+use crate::style::{CHARACTER, GAP, Stroke, TEXT, colour};
+
+/// Part of a page.
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Radius of a mark, px.
+pub const DOT: i32 = 16;
+
+/// Height of a line of text, px.
+pub const LINE: i32 = 80;
+
+/// Room for the numbers and the label of an axis, px: beside and below a panel.
+const BESIDE: u32 = 236;
+const BELOW: u32 = 156;
+
+/// Half the width of a fret as drawn, as a part of the panel's width.
+const FRET: f64 = 0.0016;
+
+/// Something drawn on the axes, in their units.
+#[derive(Debug, Clone)]
+pub enum Layer {
+    /// A line through points, in order.
+    Line {
+        /// The points.
+        points: Vec<(f64, f64)>,
+        /// How it is drawn.
+        stroke: Stroke,
+        /// What it is called in the key, if it stands there.
+        name: String,
+    },
+    /// A mark at each point.
+    Dots {
+        /// The points.
+        points: Vec<(f64, f64)>,
+        /// Colour and strength.
+        stroke: Stroke,
+        /// What they are called in the key, if they stand there.
+        name: String,
+    },
+    /// The area between two lines over the same places.
+    Band {
+        /// (place, lower, upper).
+        points: Vec<(f64, f64, f64)>,
+        /// Colour and strength.
+        stroke: Stroke,
+        /// What it is called in the key, if it stands there.
+        name: String,
+    },
+    /// Board, frets, nut and saddle.
+    Ground(Ground),
+    /// Words in the panel, their left end half a character right of a point.
+    Words {
+        /// The point.
+        at: (f64, f64),
+        /// What they say.
+        text: String,
+    },
+}
+
+impl Layer {
+    /// A line with its name in the key; with an empty name it stands not there.
+    pub fn line(name: impl Into<String>, stroke: Stroke, points: Vec<(f64, f64)>) -> Layer {
+        Layer::Line { points, stroke, name: name.into() }
+    }
+
+    /// Marks with their name in the key.
+    pub fn dots(name: impl Into<String>, stroke: Stroke, points: Vec<(f64, f64)>) -> Layer {
+        Layer::Dots { points, stroke, name: name.into() }
+    }
+
+    /// Words at a point.
+    pub fn words(at: (f64, f64), text: impl Into<String>) -> Layer {
+        Layer::Words { at, text: text.into() }
+    }
+
+    /// The string and the fingers of a profile; fingers that touch nothing are fainter.
+    pub fn profile(profile: &Profile, string: Stroke, finger: Stroke) -> Vec<Layer> {
+        let mut layers = vec![Layer::line("", string, profile.string.clone())];
+        for (&place, &touching) in profile.fingers.iter().zip(&profile.touching) {
+            let strength = if touching { finger.strength } else { 0.5 * finger.strength };
+            layers.push(Layer::dots("", finger.faded(strength), vec![place]));
+        }
+        layers
+    }
+
+    fn key(&self) -> Option<(&str, &Stroke, Mark)> {
+        match self {
+            Layer::Line { stroke, name, .. } if !name.is_empty() => Some((name, stroke, Mark::Line)),
+            Layer::Dots { stroke, name, .. } if !name.is_empty() => Some((name, stroke, Mark::Dot)),
+            Layer::Band { stroke, name, .. } if !name.is_empty() => Some((name, stroke, Mark::Area)),
+            _ => None,
+        }
+    }
+}
+
+/// What stands before a word of the key.
+#[derive(Clone, Copy, PartialEq)]
+enum Mark {
+    Line,
+    Dot,
+    Area,
+}
+
+/// A pair of axes with what is drawn on them.
+#[derive(Debug, Clone)]
+pub struct Panel {
+    /// What it shows, above it.
+    pub title: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// What is drawn, from behind to front.
+    pub layers: Vec<Layer>,
+}
+
+impl Panel {
+    /// Empty axes.
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Panel {
+        Panel { title: title.into(), x, y, layers: Vec::new() }
+    }
+
+    /// The same with one more layer on top.
+    pub fn with(mut self, layer: Layer) -> Panel {
+        self.layers.push(layer);
+        self
+    }
+
+    /// The same with more layers on top.
+    pub fn with_all(mut self, layers: impl IntoIterator<Item = Layer>) -> Panel {
+        self.layers.extend(layers);
+        self
+    }
+
+    /// Draws it into part of a page.
+    pub(crate) fn draw(&self, area: &Area) -> Result<()> {
+        let (width, height) = area.dim_in_pixel();
+        let mut top = 0;
+        if !self.title.is_empty() {
+            area.draw(&Text::new(self.title.as_str(), (GAP, 8), bold()))?;
+            top += LINE;
+        }
+        top += self.draw_key(area, top, width as i32)?;
+        let below = if self.x.bare { 40 } else { BELOW };
+        let chart_area = area.clone().shrink((0, top), (width, height - top as u32));
+        let (across, up) = (self.x.span(), self.y.span());
+        let mut chart = ChartBuilder::on(&chart_area)
+            .margin_top(28)
+            .margin_left(24)
+            .margin_right(64)
+            .margin_bottom(12)
+            .x_label_area_size(below)
+            .y_label_area_size(BESIDE)
+            .build_cartesian_2d(across, up)?;
+        self.draw_axes(&mut chart)?;
+        for layer in &self.layers {
+            self.draw_layer(&mut chart, layer)?;
+        }
+        Ok(())
+    }
+
+    fn draw_axes(&self, chart: &mut Chart) -> Result<()> {
+        let (place_label, height_label) = (|x: &f64| self.x.number(*x), |y: &f64| self.y.number(*y));
+        let mut mesh = chart.configure_mesh();
+        mesh.disable_x_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(colour::FAINT.stroke_width(2))
+            .axis_style(colour::INK.stroke_width(2))
+            .x_labels(self.x.ticks)
+            .y_labels(self.y.ticks)
+            .x_label_formatter(&place_label)
+            .y_label_formatter(&height_label)
+            .label_style(text())
+            .axis_desc_style(text());
+        if !self.x.bare {
+            mesh.x_desc(self.x.label.as_str());
+        }
+        mesh.y_desc(self.y.label.as_str());
+        mesh.draw()?;
+        Ok(())
+    }
+
+    /// Draws what the colours mean, in as many lines as it takes; returns their height.
+    fn draw_key(&self, area: &Area, top: i32, width: i32) -> Result<i32> {
+        let (left, sample) = (GAP, 110);
+        let (mut column, mut row) = (left, top);
+        let mut lines = 0;
+        for (name, stroke, mark) in self.layers.iter().filter_map(Layer::key) {
+            let length = sample + 24 + (name.chars().count() as f64 * CHARACTER) as i32;
+            if lines == 0 {
+                lines = 1;
+            } else if column + length > width - 40 {
+                (column, row, lines) = (left, row + LINE, lines + 1);
+            }
+            let middle = row + LINE / 2;
+            match mark {
+                Mark::Line if stroke.dashed => {
+                    for start in [0, 42, 84] {
+                        let ends = [(column + start, middle), (column + start + 26, middle)];
+                        area.draw(&PathElement::new(ends, stroke.shape()))?;
+                    }
+                }
+                Mark::Line => {
+                    let ends = [(column, middle), (column + sample, middle)];
+                    area.draw(&PathElement::new(ends, stroke.wide(stroke.width.max(6)).shape()))?;
+                }
+                Mark::Dot => {
+                    area.draw(&Circle::new((column + sample / 2, middle), DOT, stroke.filled()))?;
+                }
+                Mark::Area => {
+                    let corners = [(column, middle - 24), (column + sample, middle + 24)];
+                    area.draw(&Rectangle::new(corners, stroke.filled()))?;
+                }
+            }
+            let style = text().pos(Pos::new(HPos::Left, VPos::Center));
+            area.draw(&Text::new(name, (column + sample + 24, middle), style))?;
+            column += length + GAP;
+        }
+        Ok(lines * LINE)
+    }
+
+    /// Points as drawn: those within the horizontal range, at their places.
+    fn places(&self, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+        let seen = points.iter().filter(|(x, _)| (self.x.range.start..=self.x.range.end).contains(x));
+        seen.map(|&(x, y)| (self.x.place(x), self.y.place(y))).collect()
+    }
+
+    fn draw_layer(&self, chart: &mut Chart, layer: &Layer) -> Result<()> {
+        match layer {
+            Layer::Line { points, stroke, .. } if stroke.dashed => {
+                let points = self.places(points);
+                chart.draw_series(DashedLineSeries::new(points, 26, 16, stroke.shape()))?;
+            }
+            Layer::Line { points, stroke, .. } => {
+                chart.draw_series(LineSeries::new(self.places(points), stroke.shape()))?;
+            }
+            Layer::Dots { points, stroke, .. } => {
+                let dot = |place| Circle::new(place, DOT, stroke.filled());
+                let seen = points.iter().filter(|(_, y)| (self.y.range.start..=self.y.range.end).contains(y));
+                let seen: Vec<_> = seen.copied().collect();
+                chart.draw_series(self.places(&seen).into_iter().map(dot))?;
+            }
+            Layer::Band { points, stroke, .. } => {
+                let upper = points.iter().map(|&(x, _, high)| (x, high));
+                let lower = points.iter().rev().map(|&(x, low, _)| (x, low));
+                let outline: Vec<_> = upper.chain(lower).collect();
+                let outline = self.places(&outline);
+                chart.draw_series(std::iter::once(Polygon::new(outline, stroke.filled())))?;
+            }
+            Layer::Ground(ground) => self.draw_ground(chart, ground)?,
+            Layer::Words { at, text: words } => {
+                let style = text().pos(Pos::new(HPos::Left, VPos::Center));
+                let at = (self.x.place(at.0), self.y.place(at.1));
+                let words =
+                    EmptyElement::at(at) + Text::new(words.clone(), ((0.5 * CHARACTER) as i32, 0), style);
+                chart.draw_series(std::iter::once(words))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_ground(&self, chart: &mut Chart, ground: &Ground) -> Result<()> {
+        let (across, bottom) = (&self.x.range, self.y.range.start);
+        let inside = |x: f64| x.clamp(across.start, across.end);
+        if let (Some(first), Some(last)) = (ground.board.first(), ground.board.last()) {
+            // Cut where the panel ends, at the height the board has there.
+            let mut outline: Vec<_> = [across.start, across.end]
+                .into_iter()
+                .filter_map(|x| ground.board_at(x).map(|height| (x, height)))
+                .collect();
+            let seen = ground.board.iter().filter(|point| across.contains(&point.0));
+            outline.extend(seen.copied());
+            outline.sort_by(|a, b| a.0.total_cmp(&b.0));
+            outline.extend([(inside(last.0), bottom), (inside(first.0), bottom)]);
+            let outline: Vec<_> = outline.iter().map(|&(x, y)| (x, self.y.place(y))).collect();
+            chart.draw_series(std::iter::once(Polygon::new(outline, colour::BOARD.filled())))?;
+        }
+        let half = FRET * (across.end - across.start);
+        let crowns = ground.crowns.iter().filter(|crown| across.contains(&crown.0));
+        chart.draw_series(crowns.map(|&(x, crown)| {
+            let foot = ground.board_at(x).unwrap_or(bottom);
+            let corners = [(x - half, self.y.place(crown)), (x + half, self.y.place(foot))];
+            Rectangle::new(corners, colour::METAL.filled())
+        }))?;
+        // Nut and saddle hold the string: a triangle under each end, 32 px wide and high.
+        for end in [0.0, ground.length] {
+            if (across.start..=across.end).contains(&end) {
+                let support = EmptyElement::at((end, 0.0))
+                    + Polygon::new([(0, 0), (-16, 32), (16, 32)], colour::METAL.filled());
+                chart.draw_series(std::iter::once(support))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Ordinary text.
+pub(crate) fn text() -> TextStyle<'static> {
+    ("sans-serif", TEXT).into_font().color(&colour::INK)
+}
+
+/// The title of a panel.
+fn bold() -> TextStyle<'static> {
+    ("sans-serif", TEXT).into_font().style(FontStyle::Bold).color(&colour::INK)
+}

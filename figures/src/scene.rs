@@ -1,0 +1,246 @@
+//! The picture of any scene: where its strings have been, and what it cost and what it held.
+
+use anyhow::Result;
+use low_action_dsp::{Entry, Scene, Simulation};
+
+use crate::axis::{Axis, unit_for};
+use crate::course::{BINS, Course};
+use crate::describe::describe;
+use crate::ground::{Ground, Profile};
+use crate::panel::{Layer, Panel};
+use crate::sheet::Sheet;
+use crate::style::{Stroke, colour};
+
+/// Strings shown at most; the numbers below them are of all.
+const STRINGS: usize = 4;
+
+/// Moments at which strings are shown, evenly from the first sample to the last.
+const MOMENTS: u64 = 9;
+
+/// Watches a scene while it runs.
+#[derive(Debug, Clone)]
+pub struct SceneFigure {
+    caption: String,
+    samples: u64,
+    step: f64,
+    strings: Vec<StringRecord>,
+    energies: [Course; 5],
+    explained: Course,
+    balance: f64,
+    forces: [Course; 3],
+    iterations: Course,
+    penetration: Course,
+    contacts: u32,
+}
+
+/// What is kept of one string.
+#[derive(Debug, Clone)]
+struct StringRecord {
+    ground: Ground,
+    profiles: Vec<Profile>,
+    /// Place, and lowest and highest displacement so far, m.
+    reach: Vec<(f64, f64, f64)>,
+}
+
+/// Names and lines of the energies, in the order of [`SceneFigure::energies`].
+const ENERGIES: [(&str, Stroke); 5] = [
+    ("all", Stroke::new(colour::INK)),
+    ("string", Stroke::thin(colour::BLUE)),
+    ("stretching", Stroke::thin(colour::SKY)),
+    ("contacts", Stroke::thin(colour::VERMILION)),
+    ("fingers", Stroke::thin(colour::GREEN)),
+];
+
+/// Names and lines of the forces, in the order of [`SceneFigure::forces`].
+const FORCES: [(&str, Stroke); 3] = [
+    ("frets", Stroke::thin(colour::VERMILION)),
+    ("board", Stroke::thin(colour::ORANGE)),
+    ("fingers", Stroke::thin(colour::GREEN)),
+];
+
+impl SceneFigure {
+    /// Begins the picture of a scene that has not run yet.
+    ///
+    /// # Errors
+    /// When the scene's fretboard is refused.
+    pub fn new(scene: &Scene, simulation: &Simulation) -> Result<SceneFigure> {
+        let samples = simulation.samples();
+        let course = || Course::new(samples, BINS);
+        let strings = simulation.strings().iter().take(STRINGS).enumerate();
+        let strings = strings.map(|(index, string)| {
+            let profile = Profile::of(string);
+            let at_first = string.places().zip(string.state.displacement()).map(|(x, &u)| (x, u, u));
+            Ok(StringRecord {
+                ground: Ground::under(scene, index)?,
+                profiles: vec![profile],
+                reach: at_first.collect(),
+            })
+        });
+        let opened = simulation.ledgers().iter().map(|ledger| ledger.initial).sum();
+        Ok(SceneFigure {
+            caption: describe(scene),
+            samples,
+            step: 1.0 / simulation.sample_rate(),
+            strings: strings.collect::<Result<_>>()?,
+            energies: std::array::from_fn(|_| course()),
+            explained: course(),
+            balance: opened,
+            forces: std::array::from_fn(|_| course()),
+            iterations: course(),
+            penetration: course(),
+            contacts: 0,
+        })
+    }
+
+    /// Takes note of a step that has just been taken.
+    pub fn look(&mut self, simulation: &Simulation, entry: &Entry) {
+        let due = self.strings.first().is_some_and(|string| {
+            simulation.steps() == string.profiles.len() as u64 * self.samples / (MOMENTS - 1)
+        });
+        for (record, string) in self.strings.iter_mut().zip(simulation.strings()) {
+            for (reach, &u) in record.reach.iter_mut().zip(string.state.displacement()) {
+                reach.1 = reach.1.min(u);
+                reach.2 = reach.2.max(u);
+            }
+            if due {
+                record.profiles.push(Profile::of(string));
+            }
+        }
+        let energies = &entry.energies;
+        let parts = [energies.total(), energies.string, energies.tension, energies.contact, energies.finger];
+        self.energies.iter_mut().zip(parts).for_each(|(course, part)| course.add(part));
+        self.balance += self.step * (entry.power_in - entry.power_loss - entry.power_solver);
+        self.explained.add(self.balance);
+        let strings = simulation.strings();
+        let sum = |force: fn(&low_action_dsp::simulation::SceneString) -> f64| -> f64 {
+            strings.iter().map(force).fold(0.0, |sum, force| sum + force)
+        };
+        let forces = [
+            sum(|string| string.fret_forces().fold(0.0, |sum, fret| sum + fret.1)),
+            sum(|string| string.board_force()),
+            sum(|string| string.fingers().fold(0.0, |sum, finger| sum + finger.force)),
+        ];
+        self.forces.iter_mut().zip(forces).for_each(|(course, force)| course.add(force));
+        let iterations: u32 = strings.iter().map(|string| string.convergence.iterations).sum();
+        self.iterations.add(f64::from(iterations));
+        let deepest = strings.iter().map(|string| string.penetration()).fold(0.0, f64::max);
+        self.penetration.add(deepest);
+        self.contacts = strings.iter().map(|string| string.convergence.active).fold(self.contacts, u32::max);
+    }
+
+    /// Draws what was seen, as SVG.
+    ///
+    /// # Errors
+    /// When the drawing library refuses a shape.
+    pub fn draw(&self, title: &str) -> Result<String> {
+        let mut sheet = Sheet::new(title, self.caption.as_str());
+        for (number, string) in (1..).zip(&self.strings) {
+            sheet = sheet.row(1000, vec![self.draw_string(number, string)]);
+        }
+        let mut row = vec![self.draw_energies()];
+        if self.contacts > 0 {
+            row.push(self.draw_forces());
+        }
+        sheet = sheet.row(1100, row);
+        if self.contacts > 0 {
+            sheet = sheet.row(1000, vec![self.draw_iterations(), self.draw_penetration()]);
+        }
+        sheet.draw()
+    }
+
+    fn time(&self) -> Axis {
+        Axis::linear("time, s", 0.0..self.samples as f64 * self.step)
+    }
+
+    fn draw_string(&self, number: usize, record: &StringRecord) -> Panel {
+        let (mut low, mut high) = record.ground.extent();
+        for &(_, lowest, highest) in &record.reach {
+            (low, high) = (low.min(1e3 * lowest), high.max(1e3 * highest));
+        }
+        // Room for fingers that hover, not for those that fly away.
+        let fingers = record.profiles.iter().map(|profile| profile.extent().1).fold(high, f64::max);
+        high = fingers.min(high + 0.5 * (high - low));
+        let margin = 0.08 * (high - low).max(1e-9);
+        let length = record.ground.length;
+        let title = match self.strings.len() {
+            1 => "The string at moments evenly through the scene, from light to dark".to_owned(),
+            _ => format!("String {number} at moments evenly through the scene, from light to dark"),
+        };
+        let every = record.reach.len().div_ceil(1000).max(1);
+        let reach = record.reach.iter().step_by(every).map(|&(x, low, high)| (x, 1e3 * low, 1e3 * high));
+        let mut panel = Panel::new(
+            title,
+            Axis::linear("place, m from the nut", -0.015 * length..1.015 * length),
+            Axis::linear("height, mm", low - margin..high + margin),
+        )
+        .with(Layer::Ground(record.ground.clone()))
+        .with(Layer::Band {
+            points: reach.collect(),
+            stroke: Stroke::new(colour::FAINT).faded(0.6),
+            name: "where it has been".into(),
+        });
+        let last = record.profiles.len().max(2) - 1;
+        for (index, profile) in record.profiles.iter().enumerate() {
+            let strength = 0.25 + 0.75 * index as f64 / last as f64;
+            let string = Stroke::new(colour::BLUE).faded(strength);
+            let finger = Stroke::new(colour::GREEN).faded(strength);
+            panel = panel.with_all(Layer::profile(profile, string, finger));
+        }
+        let name = |layer: &mut Layer, called: &str| match layer {
+            Layer::Line { name, .. } | Layer::Dots { name, .. } => *name = called.into(),
+            _ => {}
+        };
+        if let Some(line) = panel.layers.iter_mut().rev().find(|layer| matches!(layer, Layer::Line { .. })) {
+            name(line, "string");
+        }
+        if let Some(dot) = panel.layers.iter_mut().rev().find(|layer| matches!(layer, Layer::Dots { .. })) {
+            name(dot, "finger, fainter while it touches nothing");
+        }
+        panel
+    }
+
+    fn draw_energies(&self) -> Panel {
+        let largest = self.energies[0].largest().max(0.0);
+        let (scale, unit) = unit_for(largest, "J");
+        let y = Axis::linear(format!("energy, {unit}"), 0.0..1.08 * scale * largest);
+        let mut panel = Panel::new("Stored energy", self.time(), y);
+        for (course, (name, stroke)) in self.energies.iter().zip(ENERGIES) {
+            if course.largest() > 0.0 {
+                panel = panel.with(Layer::line(name, stroke, course.points(0.5, self.step, scale)));
+            }
+        }
+        let explained = self.explained.points(0.5, self.step, scale);
+        panel.with(Layer::line("put in, less lost", Stroke::new(colour::ORANGE).dashed().wide(6), explained))
+    }
+
+    fn draw_forces(&self) -> Panel {
+        let largest = self.forces.iter().map(Course::largest).fold(0.0, f64::max);
+        let (scale, unit) = unit_for(largest, "N");
+        let y = Axis::linear(format!("force, {unit}"), 0.0..1.08 * scale * largest);
+        let mut panel = Panel::new("Contact forces, sums", self.time(), y);
+        for (course, (name, stroke)) in self.forces.iter().zip(FORCES) {
+            if course.largest() > 0.0 {
+                panel = panel.with(Layer::line(name, stroke, course.points(0.0, self.step, scale)));
+            }
+        }
+        panel
+    }
+
+    fn draw_iterations(&self) -> Panel {
+        let mean = self.iterations.sum() / self.samples.max(1) as f64;
+        let title = format!("Newton iterations, {mean:.2} a sample on average");
+        let y = Axis::linear("iterations", 0.0..1.08 * self.iterations.largest().max(1.0));
+        let peaks = self.iterations.peaks(0.0, self.step, 1.0);
+        Panel::new(title, self.time(), y).with(Layer::line("", Stroke::thin(colour::PURPLE), peaks))
+    }
+
+    fn draw_penetration(&self) -> Panel {
+        let y = Axis::log_below("depth, m", self.penetration.largest(), 6);
+        let peaks = self.penetration.peaks(1.0, self.step, 1.0);
+        Panel::new("Deepest overlap of string with board or frets", self.time(), y).with(Layer::line(
+            "",
+            Stroke::thin(colour::VERMILION),
+            peaks,
+        ))
+    }
+}

@@ -1,0 +1,188 @@
+//! Figure 4: a finger taps the string, pins it against the board and flies off again.
+
+use anyhow::{Context, Result};
+use low_action_dsp::{Scene, Simulation};
+use low_action_figures::describe::{describe, significant};
+use low_action_figures::style::colour;
+use low_action_figures::{Axis, Ground, Layer, Panel, Profile, Sheet, Stroke};
+
+use super::Made;
+use super::page::{Claim, Section};
+use super::running::{Repository, listen, run, shortened};
+
+const SCENE: &str = "scenes/paper/figure_4.toml";
+
+/// Time shown, ms, and moments at which the string is.
+const SHOWN: f64 = 3.0;
+const MOMENTS: [f64; 7] = [0.3, 0.7, 1.0, 1.28, 1.6, 2.0, 2.4];
+
+/// Part of the string shown, m.
+const PLACES: std::ops::Range<f64> = -0.003..0.155;
+
+/// How a tap went.
+#[derive(Default)]
+pub struct Tap {
+    profiles: Vec<Profile>,
+    /// (time, ms; height, mm) of the finger, and of the string under it.
+    finger: Vec<(f64, f64)>,
+    string: Vec<(f64, f64)>,
+    /// (time, ms; force, N) of the finger, the board and the first fret.
+    forces: [Vec<(f64, f64)>; 3],
+    /// First and last time of finger and string together, ms.
+    touch: Option<(f64, f64)>,
+    /// Time pinned between finger and board, ms, and in how many pieces.
+    pub pinned: f64,
+    pub pins: usize,
+    /// Largest force of the finger, N.
+    pub hardest: f64,
+    /// Velocity of the finger at the end, m/s, up is positive.
+    pub rebound: f64,
+}
+
+/// Runs a scene with one finger.
+pub fn tap(scene: &Scene) -> Result<Tap> {
+    let mut tap = Tap::default();
+    let mut was_pinned = false;
+    let step = 1.0 / scene.sample_rate;
+    let reading = Simulation::new(scene)?.string(0).model.grid.reading(scene.finger[0].position.at(0.0));
+    let simulation = run(scene, |simulation, _| {
+        let string = simulation.string(0);
+        // State after the step, force in the step.
+        let (time, middle) = (simulation.steps() as f64 * step, (simulation.steps() as f64 - 1.0) * step);
+        let Some(finger) = string.fingers().next() else { return };
+        if time < 1e-3 * SHOWN {
+            if MOMENTS.get(tap.profiles.len()).is_some_and(|moment| time >= 1e-3 * moment) {
+                tap.profiles.push(Profile::of(string));
+            }
+            tap.finger.push((1e3 * time, 1e3 * finger.height));
+            tap.string.push((1e3 * time, 1e3 * string.state.displacement_at(&reading)));
+            let fret = string.fret_forces().filter(|fret| fret.0 == 0).map(|fret| fret.1).fold(0.0, f64::max);
+            for (course, force) in tap.forces.iter_mut().zip([finger.force, string.board_force(), fret]) {
+                course.push((1e3 * middle, force));
+            }
+        }
+        if finger.force > 0.0 {
+            let first = tap.touch.map_or(1e3 * time, |touch| touch.0);
+            tap.touch = Some((first, 1e3 * time));
+            tap.hardest = tap.hardest.max(finger.force);
+        }
+        let is_pinned = finger.force > 0.0 && string.board_force() > 0.0;
+        tap.pinned += if is_pinned { 1e3 * step } else { 0.0 };
+        tap.pins += usize::from(is_pinned && !was_pinned);
+        was_pinned = is_pinned;
+    })?;
+    let finger = simulation.string(0).state.fingers().iter().flatten().next().context("there is a finger")?;
+    tap.rebound = finger.motion / step;
+    Ok(tap)
+}
+
+/// Draws it, and measures what the paper says about it.
+pub fn make(repository: &Repository) -> Result<Made> {
+    let scene = repository.scene(SCENE)?;
+    let tap = tap(&shortened(&scene, 0.02))?;
+    let picture = draw(&scene, &tap)?;
+    let sounds = vec![listen("paper_figure_4", &scene)?];
+    Ok(Made { picture, section: Some(section(&scene, &tap)?), sounds })
+}
+
+fn draw(scene: &Scene, tap: &Tap) -> Result<String> {
+    let ground = Ground::under(scene, 0)?;
+    let mut profiles = Panel::new(
+        "The string and the finger near the nut, from light to dark",
+        Axis::linear("place, m from the nut", PLACES),
+        Axis::linear("height, mm", -2.2..1.4).ticks(8),
+    )
+    .with(Layer::Ground(ground.clone()));
+    let last = MOMENTS.len() - 1;
+    for (index, (profile, moment)) in tap.profiles.iter().zip(MOMENTS).enumerate() {
+        let strength = 0.3 + 0.7 * index as f64 / last as f64;
+        let stroke = Stroke::new(colour::BLUE).faded(strength);
+        let finger = Stroke::new(colour::GREEN).faded(strength);
+        let name = format!("{moment} ms");
+        profiles = profiles.with(Layer::line(name, stroke, profile.string.clone())).with(Layer::dots(
+            if index == last { "finger" } else { "" },
+            finger,
+            profile.fingers.clone(),
+        ));
+    }
+    let time = || Axis::linear("time, ms", 0.0..SHOWN);
+    let crown = ground.crowns.first().map_or(0.0, |crown| crown.1);
+    let board = ground.board.first().map_or(0.0, |point| point.1);
+    let level = |height| vec![(0.0, height), (SHOWN, height)];
+    let heights =
+        Panel::new("Height at the finger’s place", time(), Axis::linear("height, mm", -2.2..2.2).ticks(6))
+            .with(Layer::line("board", Stroke::new(colour::METAL), level(board)))
+            .with(Layer::line("crowns", Stroke::new(colour::METAL).dashed(), level(crown)))
+            .with(Layer::line("string", Stroke::new(colour::BLUE), tap.string.clone()))
+            .with(Layer::line("finger", Stroke::new(colour::GREEN), tap.finger.clone()));
+    let [finger, board, fret] = &tap.forces;
+    let forces = Panel::new("Forces on the string", time(), Axis::linear("force, N", 0.0..1.1 * tap.hardest))
+        .with(Layer::line("board", Stroke::thin(colour::ORANGE), board.clone()))
+        .with(Layer::line("first fret", Stroke::thin(colour::VERMILION), fret.clone()))
+        .with(Layer::line("finger", Stroke::thin(colour::GREEN), finger.clone()));
+    Sheet::new("Figure 4: a finger taps the string", describe(scene))
+        .row(1200, vec![profiles])
+        .row(1200, vec![heights, forces])
+        .draw()
+}
+
+fn section(scene: &Scene, tap: &Tap) -> Result<Section> {
+    let (first, last) = tap.touch.context("the finger meets the string")?;
+    let claims = vec![
+        Claim::new(
+            "The finger is “rebounding from the string”",
+            format!(
+                "touches it from {} to {} ms with at most {} N, leaves at {} m/s",
+                significant(first, 3),
+                significant(last, 3),
+                significant(tap.hardest, 3),
+                significant(tap.rebound, 3)
+            ),
+            tap.rebound > 0.0,
+        ),
+        Claim::new(
+            "“accompanied by an intermediate pinning action against the fretboard itself”",
+            format!("pinned for {} ms in {} pieces", significant(tap.pinned, 3), tap.pins),
+            tap.pins > 0,
+        ),
+    ];
+    // Other readings of what the paper leaves open.
+    let mut rows = Vec::new();
+    let board = |scene: &Scene, height: f64| {
+        let mut scene = shortened(scene, 0.02);
+        if let Some(fretboard) = &mut scene.fretboard {
+            fretboard.board = Some(low_action_dsp::curve::Curve::Constant(height));
+        }
+        scene
+    };
+    let mut from_bridge = shortened(scene, 0.02);
+    let length = scene.string[0].length;
+    let place = scene.finger[0].position.at(0.0);
+    from_bridge.finger[0].position = low_action_dsp::curve::Curve::Constant(length - place);
+    let variations = [
+        ("as drawn", shortened(scene, 0.02)),
+        ("0.012 m from the bridge", from_bridge),
+        ("board at −1.5 mm", board(scene, -1.5e-3)),
+        ("board at −2.2 mm", board(scene, -2.2e-3)),
+    ];
+    for (name, scene) in &variations {
+        let tap = self::tap(scene)?;
+        rows.push(format!(
+            "{name} | {} | {} | {}",
+            significant(tap.pinned, 3),
+            significant(tap.hardest, 3),
+            significant(tap.rebound, 3)
+        ));
+    }
+    Ok(Section::new("Figure 4: a finger tap")
+        .text(&format!(
+            "Scene: [`figure_4.toml`](../{SCENE}). The finger comes from {} mm above the string, {place} m from the nut: \
+             the paper says “from the end of the string”, and a fretting hand is at the nut. The string is lowest at the \
+             grid point beside the finger.",
+            significant(1e3 * scene.finger[0].height, 3),
+        ))
+        .picture("Profiles of the string near the nut with the finger, heights over time, and forces over time")
+        .claims(claims)
+        .text("What the open choices do:")
+        .table("set-up | pinned, ms | finger at most, N | rebound, m/s", &rows))
+}
