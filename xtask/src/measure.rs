@@ -1,6 +1,6 @@
 //! `cargo xtask measure NAME`: measurements whose results stand in the documentation.
 //!
-//! Each is one entry of [`MEASUREMENTS`] and one module; it reads its own arguments.
+//! Each is one entry of `MEASUREMENTS` and one module; it reads its own arguments.
 
 pub mod extremes;
 
