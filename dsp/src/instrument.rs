@@ -189,7 +189,7 @@ impl Instrument {
     #[inline]
     pub(crate) fn stereo(&self, i: usize) -> [f64; 2] {
         let (mut l, mut r) = (0.0, 0.0);
-        for voice in &self.voices {
+        for voice in self.voices.iter().filter(|voice| !voice.silent) {
             l += voice.pan[0] * voice.run[i];
             r += voice.pan[1] * voice.run[i];
         }

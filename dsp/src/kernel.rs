@@ -6,6 +6,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::grid::{LANES, NUT};
 use crate::model::{Model, Stiffness};
+use crate::scene::Stencil;
 
 /// Array index of the first unknown.
 const FIRST: usize = NUT + 1;
@@ -50,16 +51,31 @@ impl Weights {
     }
 }
 
-/// An array from an index on, as vectors of an instruction set's width.
+/// What the vector instructions of a pass take at a time: [`LANES`] numbers side by side.
+type Group = [f64; LANES];
+
+/// So many groups of an array from an index on. (Loops over slices of one length need no checks.)
 #[inline(always)]
-fn from<S: Simd>(array: &[f64], at: usize) -> &[S::f64s] {
-    S::as_simd_f64s(&array[at..]).0
+fn groups(array: &[f64], at: usize, count: usize) -> &[Group] {
+    &array[at..].as_chunks().0[..count]
 }
 
 /// The same to write to.
 #[inline(always)]
-fn from_mut<S: Simd>(array: &mut [f64], at: usize) -> &mut [S::f64s] {
-    S::as_mut_simd_f64s(&mut array[at..]).0
+fn groups_mut(array: &mut [f64], at: usize, count: usize) -> &mut [Group] {
+    &mut array[at..].as_chunks_mut().0[..count]
+}
+
+/// A group as vectors of an instruction set's width.
+#[inline(always)]
+fn split<S: Simd>(group: &Group) -> &[S::f64s] {
+    S::as_simd_f64s(group).0
+}
+
+/// The same to write to.
+#[inline(always)]
+fn split_mut<S: Simd>(group: &mut Group) -> &mut [S::f64s] {
+    S::as_mut_simd_f64s(group).0
 }
 
 /// Vectors in a group of lanes.
@@ -106,29 +122,6 @@ fn mask(count: usize) -> [f64; LANES] {
     std::array::from_fn(|lane| if lane < count { 1.0 } else { 0.0 })
 }
 
-/// Runs a pass over all groups of lanes: whole ones, then the last with a mask, if any is left.
-macro_rules! over_groups {
-    ($simd:expr, $unknowns:expr, $group:ident $(::<$($generic:ident),*>)?, $($argument:expr),*) => {{
-        let parts = vectors::<S>();
-        let whole = $unknowns / LANES;
-        let one = $simd.splat_f64s(1.0);
-        for group in 0..whole {
-            for part in 0..parts {
-                $group::<S, $($($generic,)*)? false>($simd, group * parts + part, part, one, $($argument),*);
-            }
-        }
-        let rest = $unknowns % LANES;
-        if rest > 0 {
-            let keep = mask(rest);
-            let keep = S::as_simd_f64s(&keep).0;
-            for part in 0..parts {
-                let at = whole * parts + part;
-                $group::<S, $($($generic,)*)? true>($simd, at, part, keep[part], $($argument),*);
-            }
-        }
-    }};
-}
-
 /// v = δ²u (undivided) on the unknowns, with odd ghosts beyond the ends, and |δu|².
 ///
 /// The difference of differences is exact but for rounding of the differences themselves, so that the
@@ -136,9 +129,18 @@ macro_rules! over_groups {
 #[inline(always)]
 fn curve<S: Simd>(simd: S, unknowns: usize, u: &[f64], v: &mut [f64]) -> f64 {
     let mut steepness = Sum::new(simd);
-    let points = [from::<S>(u, FIRST - 1), from::<S>(u, FIRST), from::<S>(u, FIRST + 1)];
-    let out = from_mut::<S>(v, FIRST);
-    over_groups!(simd, unknowns, curve_group, &points, out, &mut steepness);
+    let (whole, rest) = (unknowns / LANES, unknowns % LANES);
+    let points = [0, 1, 2].map(|offset| groups(u, FIRST - 1 + offset, whole));
+    let out = groups_mut(v, FIRST, whole);
+    for at in 0..whole {
+        let points = points.map(|points| &points[at]);
+        curve_group::<S, false>(simd, &[1.0; LANES], points, &mut out[at], &mut steepness);
+    }
+    if rest > 0 {
+        let points = [0, 1, 2].map(|offset| &groups(u, FIRST - 1 + offset, whole + 1)[whole]);
+        let out = &mut groups_mut(v, FIRST, whole + 1)[whole];
+        curve_group::<S, true>(simd, &mask(rest), points, out, &mut steepness);
+    }
     let last = FIRST + unknowns - 1;
     v[FIRST - 2] = -v[FIRST];
     v[last + 2] = -v[last];
@@ -148,25 +150,43 @@ fn curve<S: Simd>(simd: S, unknowns: usize, u: &[f64], v: &mut [f64]) -> f64 {
 #[inline(always)]
 fn curve_group<S: Simd, const TAIL: bool>(
     simd: S,
-    at: usize,
-    part: usize,
-    keep: S::f64s,
-    [left, here, right]: &[&[S::f64s]; 3],
-    out: &mut [S::f64s],
+    keep: &Group,
+    points: [&Group; 3],
+    out: &mut Group,
     steepness: &mut Sum<S>,
 ) {
-    let before = simd.sub_f64s(here[at], left[at]);
-    let after = simd.sub_f64s(right[at], here[at]);
-    let value = simd.sub_f64s(after, before);
-    out[at] = if TAIL { simd.mul_f64s(keep, value) } else { value };
-    let kept = if TAIL { simd.mul_f64s(keep, before) } else { before };
-    steepness.add_product(simd, part, kept, kept);
+    let [left, here, right] = points.map(split::<S>);
+    let (keep, out) = (split::<S>(keep), split_mut::<S>(out));
+    for part in 0..vectors::<S>() {
+        let before = simd.sub_f64s(here[part], left[part]);
+        let after = simd.sub_f64s(right[part], here[part]);
+        let value = simd.sub_f64s(after, before);
+        out[part] = if TAIL { simd.mul_f64s(keep[part], value) } else { value };
+        let kept = if TAIL { simd.mul_f64s(keep[part], before) } else { before };
+        steepness.add_product(simd, part, kept, kept);
+    }
 }
 
 /// What a prediction reads: v from two points left to two points right, d from one left to one right.
-struct Around<'a, S: Simd> {
-    v: [&'a [S::f64s]; 5],
-    d: [&'a [S::f64s]; 3],
+#[derive(Clone, Copy)]
+struct Around<'a, T: ?Sized> {
+    v: [&'a T; 5],
+    d: [&'a T; 3],
+}
+
+impl<'a> Around<'a, [Group]> {
+    #[inline(always)]
+    fn new(v: &'a [f64], d: &'a [f64], count: usize) -> Self {
+        Around {
+            v: [0, 1, 2, 3, 4].map(|offset| groups(v, FIRST - 2 + offset, count)),
+            d: [0, 1, 2].map(|offset| groups(d, FIRST - 1 + offset, count)),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, at: usize) -> Around<'a, Group> {
+        Around { v: self.v.map(|v| &v[at]), d: self.d.map(|d| &d[at]) }
+    }
 }
 
 /// Weights in every lane.
@@ -186,7 +206,7 @@ struct Sums<S: Simd> {
 
 /// w: the motion in the next step were there no contact and no tension modulation; and its products.
 #[inline(always)]
-fn predict<S: Simd, const WIDE: bool, const STRETCH: bool, const LOSS: bool>(
+fn predict<S: Simd, const REACH: usize, const STRETCH: bool, const LOSS: bool>(
     simd: S,
     unknowns: usize,
     weights: &Weights,
@@ -198,14 +218,20 @@ fn predict<S: Simd, const WIDE: bool, const STRETCH: bool, const LOSS: bool>(
         near: weights.near.map(|weight| simd.splat_f64s(weight)),
         loss_1: simd.splat_f64s(weights.loss_1),
     };
-    let around = Around::<S> {
-        v: [0, 1, 2, 3, 4].map(|offset| from::<S>(v, FIRST - 2 + offset)),
-        d: [0, 1, 2].map(|offset| from::<S>(d, FIRST - 1 + offset)),
-    };
     let zero = Sum::new(simd);
     let mut sums = Sums { prediction: zero, motion: zero, curvature: zero, square: zero };
-    let out = from_mut::<S>(w, FIRST);
-    over_groups!(simd, unknowns, predict_group::<WIDE, STRETCH, LOSS>, &splat, &around, out, &mut sums);
+    let (whole, rest) = (unknowns / LANES, unknowns % LANES);
+    let around = Around::new(v, d, whole);
+    let out = groups_mut(w, FIRST, whole);
+    for at in 0..whole {
+        let (keep, around, out) = (&[1.0; LANES], around.at(at), &mut out[at]);
+        predict_group::<S, REACH, STRETCH, LOSS, false>(simd, keep, &splat, around, out, &mut sums);
+    }
+    if rest > 0 {
+        let around = Around::new(v, d, whole + 1).at(whole);
+        let (keep, out) = (&mask(rest), &mut groups_mut(w, FIRST, whole + 1)[whole]);
+        predict_group::<S, REACH, STRETCH, LOSS, true>(simd, keep, &splat, around, out, &mut sums);
+    }
     Products {
         steepness: 0.0,
         curvature_prediction: sums.prediction.total(),
@@ -216,41 +242,45 @@ fn predict<S: Simd, const WIDE: bool, const STRETCH: bool, const LOSS: bool>(
 }
 
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
-fn predict_group<S: Simd, const WIDE: bool, const STRETCH: bool, const LOSS: bool, const TAIL: bool>(
+fn predict_group<S: Simd, const REACH: usize, const STRETCH: bool, const LOSS: bool, const TAIL: bool>(
     simd: S,
-    at: usize,
-    part: usize,
-    keep: S::f64s,
+    keep: &Group,
     weights: &Splat<S>,
-    around: &Around<S>,
-    out: &mut [S::f64s],
+    around: Around<Group>,
+    out: &mut Group,
     sums: &mut Sums<S>,
 ) {
-    let (v0, d0) = (around.v[2][at], around.d[1][at]);
-    let beside = simd.add_f64s(around.v[1][at], around.v[3][at]);
-    let mut value = simd.add_f64s(simd.mul_f64s(weights.near[0], v0), simd.mul_f64s(weights.near[1], beside));
-    if WIDE {
-        let far = simd.add_f64s(around.v[0][at], around.v[4][at]);
-        value = simd.add_f64s(value, simd.mul_f64s(weights.near[2], far));
-    }
-    if LOSS {
-        let after = simd.sub_f64s(around.d[2][at], d0);
-        let before = simd.sub_f64s(d0, around.d[0][at]);
-        value = simd.add_f64s(value, simd.mul_f64s(weights.loss_1, simd.sub_f64s(after, before)));
-    }
-    value = simd.add_f64s(value, simd.mul_f64s(weights.decay, d0));
-    if TAIL {
-        value = simd.mul_f64s(keep, value);
-    }
-    out[at] = value;
-    sums.square.add_product(simd, part, d0, d0);
-    if STRETCH {
-        // In the last group one ghost of v may stand beyond the bridge.
-        let v0 = if TAIL { simd.mul_f64s(keep, v0) } else { v0 };
-        sums.prediction.add_product(simd, part, v0, value);
-        sums.motion.add_product(simd, part, v0, d0);
-        sums.curvature.add_product(simd, part, v0, v0);
+    let (v, d) = (around.v.map(split::<S>), around.d.map(split::<S>));
+    let (keep, out) = (split::<S>(keep), split_mut::<S>(out));
+    for part in 0..vectors::<S>() {
+        let (v0, d0) = (v[2][part], d[1][part]);
+        let mut value = simd.mul_f64s(weights.near[0], v0);
+        if REACH > 0 {
+            let beside = simd.add_f64s(v[1][part], v[3][part]);
+            value = simd.add_f64s(value, simd.mul_f64s(weights.near[1], beside));
+        }
+        if REACH > 1 {
+            let far = simd.add_f64s(v[0][part], v[4][part]);
+            value = simd.add_f64s(value, simd.mul_f64s(weights.near[2], far));
+        }
+        if LOSS {
+            let after = simd.sub_f64s(d[2][part], d0);
+            let before = simd.sub_f64s(d0, d[0][part]);
+            value = simd.add_f64s(value, simd.mul_f64s(weights.loss_1, simd.sub_f64s(after, before)));
+        }
+        value = simd.add_f64s(value, simd.mul_f64s(weights.decay, d0));
+        if TAIL {
+            value = simd.mul_f64s(keep[part], value);
+        }
+        out[part] = value;
+        sums.square.add_product(simd, part, d0, d0);
+        if STRETCH {
+            // In the last group one ghost of v may stand beyond the bridge.
+            let v0 = if TAIL { simd.mul_f64s(keep[part], v0) } else { v0 };
+            sums.prediction.add_product(simd, part, v0, value);
+            sums.motion.add_product(simd, part, v0, d0);
+            sums.curvature.add_product(simd, part, v0, v0);
+        }
     }
 }
 
@@ -270,23 +300,25 @@ fn advance<S: Simd, const STRETCH: bool>(
     u_next: &mut [f64],
 ) -> f64 {
     // Beyond the unknowns w and v are 0, and so is what is written there.
-    let count = unknowns.div_ceil(LANES) * vectors::<S>();
+    let count = unknowns.div_ceil(LANES);
     let pull = simd.splat_f64s(pull);
     let (zero, still) = (simd.splat_f64s(0.0), simd.splat_f64s(STILL));
-    let mut largest = [simd.splat_f64s(0.0); 2];
-    let (w, v, u) =
-        (&from::<S>(w, FIRST)[..count], &from::<S>(v, FIRST)[..count], &from::<S>(u, FIRST)[..count]);
-    let d_next = &mut from_mut::<S>(d_next, FIRST)[..count];
-    let u_next = &mut from_mut::<S>(u_next, FIRST)[..count];
+    let mut largest = [zero; LANES];
+    let (w, v, u) = (groups(w, FIRST, count), groups(v, FIRST, count), groups(u, FIRST, count));
+    let (d_next, u_next) = (groups_mut(d_next, FIRST, count), groups_mut(u_next, FIRST, count));
     for at in 0..count {
-        let d = if STRETCH { simd.sub_f64s(w[at], simd.mul_f64s(pull, v[at])) } else { w[at] };
-        let size = simd.abs_f64s(d);
-        let d = simd.select_f64s(simd.less_than_f64s(size, still), zero, d);
-        d_next[at] = d;
-        u_next[at] = simd.add_f64s(u[at], d);
-        largest[at % 2] = simd.max_f64s(size, largest[at % 2]);
+        let [w, v, u] = [&w[at], &v[at], &u[at]].map(split::<S>);
+        let (d_next, u_next) = (split_mut::<S>(&mut d_next[at]), split_mut::<S>(&mut u_next[at]));
+        for part in 0..vectors::<S>() {
+            let d = if STRETCH { simd.sub_f64s(w[part], simd.mul_f64s(pull, v[part])) } else { w[part] };
+            let size = simd.abs_f64s(d);
+            let d = simd.select_f64s(simd.less_than_f64s(size, still), zero, d);
+            d_next[part] = d;
+            u_next[part] = simd.add_f64s(u[part], d);
+            largest[part] = simd.max_f64s(size, largest[part]);
+        }
     }
-    let lanes: &[f64] = pulp::bytemuck::cast_slice(&largest);
+    let lanes: &[f64] = pulp::bytemuck::cast_slice(&largest[..vectors::<S>()]);
     lanes.iter().fold(0.0f64, |a, &b| a.max(b))
 }
 
@@ -294,7 +326,8 @@ fn advance<S: Simd, const STRETCH: bool>(
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kernel {
     arch: Arch,
-    wide: bool,
+    /// Neighbours of v on either side that the string's operator reads: 0 without stiffness, 1, or 2.
+    reach: usize,
     stretch: bool,
     loss: bool,
 }
@@ -302,12 +335,12 @@ pub(crate) struct Kernel {
 impl Kernel {
     /// The passes that a model needs; what it lacks is left out of the loops.
     pub fn new(model: &Model) -> Self {
-        Kernel {
-            arch: Arch::new(),
-            wide: model.settings.stencil == crate::scene::Stencil::Wide,
-            stretch: model.stretch > 0.0,
-            loss: model.string.loss_1 > 0.0,
-        }
+        let reach = match model.settings.stencil {
+            Stencil::Paper => usize::from(model.string.kappa_squared() > 0.0),
+            Stencil::Corrected => 1,
+            Stencil::Wide => 2,
+        };
+        Kernel { arch: Arch::new(), reach, stretch: model.stretch > 0.0, loss: model.string.loss_1 > 0.0 }
     }
 
     /// Second differences v and the prediction w, with their products.
@@ -319,19 +352,14 @@ impl Kernel {
         v: &mut [f64],
         w: &mut [f64],
     ) -> Products {
-        match (self.wide, self.stretch, self.loss) {
-            (false, false, false) => self.run::<false, false, false>(unknowns, weights, u, d, v, w),
-            (false, false, true) => self.run::<false, false, true>(unknowns, weights, u, d, v, w),
-            (false, true, false) => self.run::<false, true, false>(unknowns, weights, u, d, v, w),
-            (false, true, true) => self.run::<false, true, true>(unknowns, weights, u, d, v, w),
-            (true, false, false) => self.run::<true, false, false>(unknowns, weights, u, d, v, w),
-            (true, false, true) => self.run::<true, false, true>(unknowns, weights, u, d, v, w),
-            (true, true, false) => self.run::<true, true, false>(unknowns, weights, u, d, v, w),
-            (true, true, true) => self.run::<true, true, true>(unknowns, weights, u, d, v, w),
+        match self.reach {
+            0 => self.predict_reaching::<0>(unknowns, weights, u, d, v, w),
+            1 => self.predict_reaching::<1>(unknowns, weights, u, d, v, w),
+            _ => self.predict_reaching::<2>(unknowns, weights, u, d, v, w),
         }
     }
 
-    fn run<const WIDE: bool, const STRETCH: bool, const LOSS: bool>(
+    fn predict_reaching<const REACH: usize>(
         &self,
         unknowns: usize,
         weights: &Weights,
@@ -340,7 +368,24 @@ impl Kernel {
         v: &mut [f64],
         w: &mut [f64],
     ) -> Products {
-        self.arch.dispatch(Predict::<WIDE, STRETCH, LOSS> { unknowns, weights, u, d, v, w })
+        match (self.stretch, self.loss) {
+            (false, false) => self.run::<REACH, false, false>(unknowns, weights, u, d, v, w),
+            (false, true) => self.run::<REACH, false, true>(unknowns, weights, u, d, v, w),
+            (true, false) => self.run::<REACH, true, false>(unknowns, weights, u, d, v, w),
+            (true, true) => self.run::<REACH, true, true>(unknowns, weights, u, d, v, w),
+        }
+    }
+
+    fn run<const REACH: usize, const STRETCH: bool, const LOSS: bool>(
+        &self,
+        unknowns: usize,
+        weights: &Weights,
+        u: &[f64],
+        d: &[f64],
+        v: &mut [f64],
+        w: &mut [f64],
+    ) -> Products {
+        self.arch.dispatch(Predict::<REACH, STRETCH, LOSS> { unknowns, weights, u, d, v, w })
     }
 
     /// The next motion and displacement; returns the largest motion of a point, m.
@@ -361,7 +406,7 @@ impl Kernel {
 }
 
 /// The passes of a prediction, to be compiled for each instruction set.
-struct Predict<'a, const WIDE: bool, const STRETCH: bool, const LOSS: bool> {
+struct Predict<'a, const REACH: usize, const STRETCH: bool, const LOSS: bool> {
     unknowns: usize,
     weights: &'a Weights,
     u: &'a [f64],
@@ -370,14 +415,16 @@ struct Predict<'a, const WIDE: bool, const STRETCH: bool, const LOSS: bool> {
     w: &'a mut [f64],
 }
 
-impl<const WIDE: bool, const STRETCH: bool, const LOSS: bool> WithSimd for Predict<'_, WIDE, STRETCH, LOSS> {
+impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> WithSimd
+    for Predict<'_, REACH, STRETCH, LOSS>
+{
     type Output = Products;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Products {
         let Predict { unknowns, weights, u, d, v, w } = self;
         let steepness = curve(simd, unknowns, u, v);
-        let products = predict::<S, WIDE, STRETCH, LOSS>(simd, unknowns, weights, (v, d), w);
+        let products = predict::<S, REACH, STRETCH, LOSS>(simd, unknowns, weights, (v, d), w);
         // The ghost beyond the bridge lies where `advance` writes.
         v[FIRST + unknowns + 1] = 0.0;
         Products { steepness, ..products }
@@ -426,7 +473,7 @@ mod tests {
             let (u, d) = (array(), array());
             let weights = Weights { decay: 0.99, near: [0.7, -0.03, 0.001], loss_1: 0.01 };
             let run = |arch: Arch| {
-                let kernel = Kernel { arch, wide: true, stretch: true, loss: true };
+                let kernel = Kernel { arch, reach: 2, stretch: true, loss: true };
                 let empty = || vec![0.0; grid.padded_len()];
                 let (mut v, mut w, mut d_next, mut u_next) = (empty(), empty(), empty(), empty());
                 let products = kernel.predict(unknowns, &weights, (&u, &d), &mut v, &mut w);

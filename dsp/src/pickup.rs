@@ -117,6 +117,11 @@ impl Listener {
         self.ears.iter_mut().flatten().map(Ear::hear_nothing).fold(0.0, |a, b| a + b)
     }
 
+    /// Whether nothing is left to be heard of the past.
+    pub fn is_still(&mut self) -> bool {
+        self.ears.iter_mut().flatten().all(Ear::is_still)
+    }
+
     /// Takes over what the filters of another listener remember.
     pub fn take_over(&mut self, old: &Listener) {
         for (ear, old) in self.ears.iter_mut().zip(&old.ears) {
@@ -173,9 +178,13 @@ impl Ear {
 
     #[inline]
     fn hear_nothing(&mut self) -> f64 {
-        if self.coil.is_still() && self.block.is_still() {
+        if self.is_still() {
             return 0.0;
         }
         self.share * self.block.next(self.coil.next(0.0))
+    }
+
+    fn is_still(&mut self) -> bool {
+        self.coil.is_still() && self.block.is_still()
     }
 }

@@ -97,17 +97,20 @@ impl Simulation {
 
     /// Advances every string from sample n to n + 1. Returns the sum of the ledgers' entries.
     pub fn step(&mut self) -> Option<Entry> {
-        let time = self.step as f64 / self.sample_rate;
-        let next = (self.step + 1) as f64 / self.sample_rate;
-        let mut sum = self.ledgers.as_ref().map(|_| Entry::default());
-        for (index, string) in self.strings.iter_mut().enumerate() {
-            string.step(time, next);
-            if let (Some(sum), Some(ledgers)) = (&mut sum, &mut self.ledgers) {
-                *sum += ledgers[index].record(&string.model, &string.state, &string.scratch, &string.drive);
-            }
-        }
+        // (A signed number of steps turns into a float in one instruction.)
+        let time = self.step.cast_signed() as f64 / self.sample_rate;
         self.step += 1;
-        sum
+        let next = self.step.cast_signed() as f64 / self.sample_rate;
+        let Some(ledgers) = &mut self.ledgers else {
+            self.strings.iter_mut().for_each(|string| string.step(time, next));
+            return None;
+        };
+        let mut sum = Entry::default();
+        for (string, ledger) in self.strings.iter_mut().zip(ledgers) {
+            string.step(time, next);
+            sum += ledger.record(&string.model, &string.state, &string.scratch, &string.drive);
+        }
+        Some(sum)
     }
 
     /// Number of steps taken.
@@ -223,6 +226,7 @@ impl SceneString {
         })
     }
 
+    #[inline(always)]
     fn step(&mut self, time: f64, next: f64) {
         self.drive.tension = self.tension.at(time);
         self.drive.pushes.clear();

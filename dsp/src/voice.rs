@@ -30,6 +30,8 @@ pub(crate) struct Voice {
     asleep: bool,
     /// The last samples stepped through, up to [`RUN`].
     pub run: [f64; RUN],
+    /// Whether `run` holds nothing but zeros, throughout, because nothing is left to be heard.
+    pub silent: bool,
     settling: Settling,
     /// What the string holds, gets and loses, if anybody wants to know.
     pub ledger: Option<Ledger>,
@@ -88,6 +90,7 @@ impl Voice {
             pan: [libm::cos(angle), libm::sin(angle)],
             asleep: true,
             run: [0.0; RUN],
+            silent: true,
             settling: Settling { from: Vec::with_capacity(model.contacts.len()), part: Ramp::at(1.0) },
             ledger: None,
             model,
@@ -102,6 +105,14 @@ impl Voice {
 
     /// Steps the string through so many samples into `run`.
     pub fn run(&mut self, samples: usize) {
+        if self.asleep && self.listener.is_still() {
+            if !self.silent {
+                self.run.fill(0.0);
+                self.silent = true;
+            }
+            return;
+        }
+        self.silent = false;
         for i in 0..samples {
             self.run[i] = self.gain * self.next();
         }

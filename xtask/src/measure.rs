@@ -3,6 +3,7 @@
 //! Each is one entry of `MEASUREMENTS` and one module; it reads its own arguments.
 
 pub mod extremes;
+pub mod features;
 
 use anyhow::{Result, bail};
 
@@ -17,11 +18,18 @@ struct Measurement {
 }
 
 /// Everything that can be measured, in the order of the help text.
-const MEASUREMENTS: &[Measurement] = &[Measurement {
-    name: "extremes",
-    summary: "random absurd scenes and event streams: nothing blows up and every balance closes",
-    run: extremes::run,
-}];
+const MEASUREMENTS: &[Measurement] = &[
+    Measurement {
+        name: "extremes",
+        summary: "random absurd scenes and event streams: nothing blows up and every balance closes",
+        run: extremes::run,
+    },
+    Measurement {
+        name: "features",
+        summary: "what each element of a scene costs, in instructions and in time",
+        run: features::run,
+    },
+];
 
 /// The list of measurements, one line each.
 fn help() -> String {

@@ -1,0 +1,81 @@
+//! The promise: a string falls asleep when it is silent, and nobody hears that it ever slept.
+
+use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture, Touch};
+
+const RATE: f64 = 48_000.0;
+/// Energy at which a string falls asleep, J, as the documentation states it.
+const SILENCE: f64 = 1e-20;
+const LIVE: EngineSettings =
+    EngineSettings { sample_rate: RATE, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 };
+/// A finger so far above the string that it never touches it, but whose string has no time to sleep.
+const HOVERING: Touch = Touch { mass: 5e-3, stiffness: 1e7, exponent: 2.0, damping: 0.0, hand_damping: 0.0 };
+/// The second pluck, by when a damped string has long been silent.
+const AGAIN: u64 = 6 * RATE as u64;
+
+/// The highest string of an instrument alone, lossy enough to fall silent within seconds.
+fn setup(name: &str) -> Setup {
+    let mut setup = Setup::builtin(name).expect("built in");
+    setup.string.truncate(1);
+    setup.string[0].loss_0 = 20.0;
+    setup
+}
+
+/// Two plucks; returns the sound, and whether the string was at rest just before the second.
+fn play(setup: &Setup, watched: bool) -> (Vec<f32>, bool) {
+    let mut instrument = Instrument::new(setup, &LIVE).expect("it can be built");
+    let mut at = |time, gesture| {
+        instrument.schedule(TimedGesture { time, string: 0, gesture }).expect("there is room");
+    };
+    if watched {
+        at(0, Gesture::Place { finger: 3, touch: HOVERING, position: 0.1, clearance: 0.05 });
+    }
+    for time in [0, AGAIN] {
+        at(time, Gesture::Pluck { position: 0.5, force: 0.5, duration: 0.003 });
+    }
+    let length = AGAIN as usize + 24_000;
+    let (mut left, mut right) = (vec![0.0; length], vec![0.0; length]);
+    let (before, after) = left.split_at_mut(AGAIN as usize);
+    let (right_before, right_after) = right.split_at_mut(AGAIN as usize);
+    instrument.process(before, right_before);
+    let still = instrument.state(0).displacement().iter().all(|u| *u == 0.0);
+    instrument.process(after, right_after);
+    (left, still)
+}
+
+#[test]
+fn a_string_that_slept_sounds_like_one_that_never_did() {
+    for name in ["electric", "classical"] {
+        let setup = setup(name);
+        let (slept, was_still) = play(&setup, false);
+        let (awake, was_awake_still) = play(&setup, true);
+        assert!(was_still && !was_awake_still, "{name}: one sleeps, the other does not");
+        // What is left of the motion when it falls asleep. Its energy bounds the speed of any point by
+        // √(2𝔥/(ρh)) and the force on the bridge by that times the wave impedance, twice over at a fixed end;
+        // linear superposition carries it on unchanged, and h is at least 5 mm for this string.
+        let string = &setup.string[0];
+        let instrument = Instrument::new(&setup, &LIVE).expect("it can be built");
+        let model = instrument.model(0);
+        let speed = (2.0 * SILENCE / (string.linear_density * model.grid.spacing)).sqrt();
+        let impedance = instrument.geometry(0).wave_impedance;
+        // A coil's resonance raises it by its quality, 2.
+        let signal = if name == "electric" { 2.0 * speed } else { 2.0 * impedance * speed };
+        let bound = (setup.gain * string.level * signal) as f32;
+        let peak = awake.iter().fold(0.0f32, |peak, sample| peak.max(sample.abs()));
+        assert!(bound < 1e-6 * peak, "{name}: the bound says something: {bound} of {peak}");
+        let difference = slept.iter().zip(&awake).fold(0.0f32, |most, (a, b)| most.max((a - b).abs()));
+        println!("{name}: at most {difference:e} apart, {bound:e} allowed, peak {peak:e}");
+        assert!(difference <= bound, "{name}: {difference} apart, {bound} allowed");
+    }
+}
+
+#[test]
+fn asleep_is_silent_and_wakes_at_the_gesture() {
+    let (sound, _) = play(&setup("electric"), false);
+    let before = &sound[AGAIN as usize - 4800..AGAIN as usize];
+    assert!(before.iter().all(|sample| *sample == 0.0), "it sleeps without a sound");
+    // The pluck grows as a raised cosine: no click where it begins.
+    let steps = |sound: &[f32]| sound.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0f32, f32::max);
+    let first = steps(&sound[AGAIN as usize - 1..AGAIN as usize + 24]);
+    let later = steps(&sound[AGAIN as usize..AGAIN as usize + 4800]);
+    assert!(first < 0.2 * later, "{first} at first, {later} later");
+}

@@ -1,0 +1,183 @@
+//! What each element of a scene costs: over the bare string in instructions, which callgrind counts and
+//! which are the same on every run, and in time.
+
+mod cases;
+mod count;
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail, ensure};
+use clap::Parser;
+
+use cases::{BARE, CASES, Case};
+
+/// Where the table stands.
+const PAGE: &str = "docs/features.md";
+/// The lines between which it stands.
+const MARKS: [&str; 2] = ["<!-- begin: cargo xtask measure features -->", "<!-- end -->"];
+/// How far a count may be from the one in the table: compilers differ, computers hardly do.
+const AGREEMENT: f64 = 0.05;
+
+/// Measures what each element of a scene costs over the bare string.
+#[derive(Parser)]
+#[command(
+    name = "cargo xtask measure features",
+    after_help = "Examples:\n  cargo xtask measure features            measures and prints the table\n  \
+                  cargo xtask measure features --write    puts it into docs/features.md\n  \
+                  cargo xtask measure features --quick    counts only, and compares with docs/features.md"
+)]
+struct Arguments {
+    /// Count instructions only, and compare with the table in docs/features.md.
+    #[arg(long, conflicts_with = "write")]
+    quick: bool,
+    /// Put the table into docs/features.md.
+    #[arg(long)]
+    write: bool,
+    /// Run one case, as callgrind is told to.
+    #[arg(long, hide = true, requires = "part")]
+    case: Option<String>,
+    /// Which part of it.
+    #[arg(long, hide = true)]
+    part: Option<String>,
+}
+
+/// What was measured of a case.
+struct Row {
+    case: &'static Case,
+    /// Instructions per sample.
+    instructions: f64,
+    /// Nanoseconds per sample.
+    time: Option<f64>,
+}
+
+/// Runs the measurement.
+pub fn run(arguments: Vec<String>) -> Result<()> {
+    let words = std::iter::once("features".to_owned()).chain(arguments);
+    let arguments = match Arguments::try_parse_from(words) {
+        Ok(arguments) => arguments,
+        Err(error) if !error.use_stderr() => {
+            print!("{error}");
+            return Ok(());
+        }
+        Err(error) => bail!("{}", error.to_string().trim_end()),
+    };
+    if let Some(name) = &arguments.case {
+        return count::child(name, arguments.part.as_deref() == Some("counted"));
+    }
+    ensure!(count::callgrind_is_there(), "valgrind is not there, and it counts the instructions: install it");
+    let committed = arguments.quick.then(committed).transpose()?;
+    let rows = measure(!arguments.quick)?;
+    let table = table(&rows);
+    println!("{table}");
+    check_promises(&rows)?;
+    if let Some(committed) = committed {
+        if !count::vectors_are_those_of_the_table() {
+            println!("not compared with {PAGE}: this processor has no AVX2");
+            return Ok(());
+        }
+        compare(&rows, &committed)?;
+        println!("as in {PAGE}, within {} %", 100.0 * AGREEMENT);
+    }
+    if arguments.write {
+        write(&table)?;
+    }
+    Ok(())
+}
+
+fn measure(timed: bool) -> Result<Vec<Row>> {
+    CASES
+        .iter()
+        .enumerate()
+        .map(|(index, case)| {
+            eprintln!("{} of {}: {}", index + 1, CASES.len(), case.name);
+            let instructions = count::instructions(case)?;
+            let time = timed.then(|| count::nanoseconds(case)).transpose()?;
+            Ok(Row { case, instructions, time })
+        })
+        .collect()
+}
+
+fn row<'a>(rows: &'a [Row], name: &str) -> Result<&'a Row> {
+    rows.iter().find(|row| row.case.name == name).with_context(|| format!("`{name}` was not measured"))
+}
+
+fn table(rows: &[Row]) -> String {
+    let mut text = String::from(
+        "| | instructions a sample | over the first of its group | ns a sample | over it |\n|---|--:|--:|--:|--:|\n",
+    );
+    for this in rows {
+        let base = rows.iter().find(|row| row.case.name == this.case.over).unwrap_or(this);
+        let percent = |part: f64, whole: f64| format!("{:+.1} %", 100.0 * (part / whole - 1.0));
+        let is_base = base.case.name == this.case.name;
+        let counted = if is_base { String::new() } else { percent(this.instructions, base.instructions) };
+        let (time, timed) = match (this.time, base.time) {
+            (Some(time), Some(_)) if is_base => (format!("{time:.0}"), String::new()),
+            (Some(time), Some(base)) => (format!("{time:.0}"), percent(time, base)),
+            _ => Default::default(),
+        };
+        let name = if is_base { format!("**{}**", this.case.name) } else { this.case.name.to_owned() };
+        text += &format!("| {name} | {:.0} | {counted} | {time} | {timed} |\n", this.instructions);
+    }
+    text
+}
+
+/// What must hold whatever the table says.
+fn check_promises(rows: &[Row]) -> Result<()> {
+    let ringing = row(rows, cases::ONE_RINGS)?.instructions;
+    let silent = (row(rows, cases::FIVE_SILENT)?.instructions - ringing) / 5.0;
+    println!("a silent string costs {:.2} % of a ringing one", 100.0 * silent / ringing);
+    ensure!(
+        silent < 0.01 * ringing,
+        "a silent string costs {silent:.1} instructions, over 1 % of {ringing:.0}"
+    );
+    let bare = row(rows, BARE)?.instructions;
+    for case in ["board, out of reach", "22 frets, out of reach", "finger, hovering"] {
+        let more = row(rows, case)?.instructions - bare;
+        println!("{case}: {more:.0} instructions more than none");
+    }
+    Ok(())
+}
+
+/// The counts in the table of the documentation: name and instructions.
+fn committed() -> Result<Vec<(String, f64)>> {
+    let page = fs::read_to_string(page()).with_context(|| format!("cannot read {PAGE}"))?;
+    let [begin, end] = MARKS;
+    let inside = page.split_once(begin).and_then(|(_, rest)| rest.split_once(end));
+    let (table, _) = inside.with_context(|| format!("{PAGE} has no table between its marks"))?;
+    let rows = table.lines().filter_map(|line| {
+        let mut cells = line.split('|').map(str::trim);
+        let (name, count) = (cells.nth(1)?, cells.next()?);
+        Some((name.trim_matches('*').to_owned(), count.parse().ok()?))
+    });
+    Ok(rows.collect())
+}
+
+/// Refuses counts that are not those of the table.
+fn compare(rows: &[Row], committed: &[(String, f64)]) -> Result<()> {
+    for row in rows {
+        let found = committed.iter().find(|(name, _)| name == row.case.name);
+        let (name, stated) = found.with_context(|| format!("{PAGE} has no row for `{}`", row.case.name))?;
+        let now = row.instructions;
+        ensure!(
+            (now / stated - 1.0).abs() <= AGREEMENT,
+            "`{name}` takes {now:.0} instructions a sample, but {PAGE} says {stated:.0}: if that is meant, \
+             run `cargo xtask measure features --write`"
+        );
+    }
+    Ok(())
+}
+
+fn page() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(PAGE)
+}
+
+/// Puts the table into the documentation.
+fn write(table: &str) -> Result<()> {
+    let old = fs::read_to_string(page()).with_context(|| format!("cannot read {PAGE}"))?;
+    let [begin, end] = MARKS;
+    let (before, rest) = old.split_once(begin).with_context(|| format!("{PAGE} lacks `{begin}`"))?;
+    let (_, after) = rest.split_once(end).with_context(|| format!("{PAGE} lacks `{end}`"))?;
+    let new = format!("{before}{begin}\n{table}{end}{after}");
+    fs::write(page(), new).with_context(|| format!("cannot write {PAGE}"))
+}

@@ -1,0 +1,97 @@
+//! Counts instructions with callgrind, and takes time.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail, ensure};
+
+use super::cases::Case;
+
+/// Samples run before anything is counted: contacts have settled, waves have crossed the string.
+pub const WARM_UP: usize = 4800;
+/// Samples counted.
+const COUNTED: usize = 4800;
+/// Samples of one measurement of time, and how many there are; the fastest counts.
+const TIMED: usize = 9600;
+const TRIES: usize = 7;
+
+/// Runs a case for what is counted in it: nothing but the warm-up, or the samples to count as well.
+pub fn child(name: &str, count: bool) -> Result<()> {
+    let mut run = Case::find(name)?.prepare()?;
+    run(WARM_UP);
+    if count {
+        run(COUNTED);
+    }
+    Ok(())
+}
+
+/// Whether callgrind is there.
+pub fn callgrind_is_there() -> bool {
+    let answer = Command::new("valgrind").arg("--version").output();
+    answer.is_ok_and(|answer| answer.status.success())
+}
+
+/// Whether this processor computes with the vectors that the table counts.
+pub fn vectors_are_those_of_the_table() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    {
+        std::arch::is_x86_feature_detected!("avx2")
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    {
+        false
+    }
+}
+
+/// Instructions of a case per sample.
+pub fn instructions(case: &Case) -> Result<f64> {
+    let total = |count| total_instructions(case.name, count);
+    Ok((total(true)? - total(false)?) / COUNTED as f64)
+}
+
+/// Instructions of a whole run of this program.
+fn total_instructions(name: &str, count: bool) -> Result<f64> {
+    let out = scratch_file(name, count);
+    let program = std::env::current_exe().context("this program has no path")?;
+    let mode = if count { "counted" } else { "warm-up" };
+    let run = Command::new("valgrind")
+        .args(["--tool=callgrind", &format!("--callgrind-out-file={}", out.display())])
+        .arg(program)
+        .args(["measure", "features", "--case", name, "--part", mode])
+        .output()
+        .context("valgrind cannot be run")?;
+    ensure!(run.status.success(), "callgrind failed: {}", String::from_utf8_lossy(&run.stderr));
+    let total = summary(&out);
+    std::fs::remove_file(&out).ok();
+    total
+}
+
+fn scratch_file(name: &str, count: bool) -> PathBuf {
+    let word: String = name.chars().filter(char::is_ascii_alphanumeric).collect();
+    std::env::temp_dir().join(format!("low-action-{}-{word}-{count}.callgrind", std::process::id()))
+}
+
+/// The total of a callgrind file.
+fn summary(path: &Path) -> Result<f64> {
+    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
+    for line in text.lines() {
+        if let Some(rest) = line.strip_prefix("summary: ").or_else(|| line.strip_prefix("totals: ")) {
+            return rest.trim().parse().with_context(|| format!("callgrind wrote `{line}`"));
+        }
+    }
+    bail!("callgrind wrote no summary")
+}
+
+/// Nanoseconds of a case per sample, the fastest of some tries.
+pub fn nanoseconds(case: &Case) -> Result<f64> {
+    let mut run = case.prepare()?;
+    run(WARM_UP);
+    let mut best = f64::INFINITY;
+    for _ in 0..TRIES {
+        let started = Instant::now();
+        run(TIMED);
+        best = best.min(started.elapsed().as_secs_f64() / TIMED as f64 * 1e9);
+    }
+    Ok(best)
+}
