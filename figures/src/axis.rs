@@ -15,12 +15,21 @@ pub struct Axis {
     pub ticks: usize,
     /// Whether numbers and label are left out, because a neighbour below carries them.
     pub bare: bool,
+    /// Words that stand at 0, 1, 2, … in the place of numbers, if there are any.
+    pub names: Vec<String>,
 }
 
 impl Axis {
     /// An axis of equal steps.
     pub fn linear(label: impl Into<String>, range: Range<f64>) -> Axis {
-        Axis { label: label.into(), range: spread(range), log: false, ticks: 6, bare: false }
+        Axis {
+            label: label.into(),
+            range: spread(range),
+            log: false,
+            ticks: 6,
+            bare: false,
+            names: Vec::new(),
+        }
     }
 
     /// An axis of equal factors. Both ends must be above 0.
@@ -46,6 +55,11 @@ impl Axis {
         Axis { bare: true, ..self }
     }
 
+    /// The same with words at 0, 1, 2, … in the place of numbers.
+    pub fn named(self, names: Vec<String>) -> Axis {
+        Axis { ticks: names.len() + 1, names, ..self }
+    }
+
     /// Where a value stands between the ends of [`Axis::span`]; what lies beyond the range stands on its edge.
     pub fn place(&self, value: f64) -> f64 {
         let span = self.span();
@@ -63,6 +77,10 @@ impl Axis {
     pub fn number(&self, place: f64) -> String {
         if self.bare {
             return String::new();
+        }
+        if !self.names.is_empty() {
+            let is_whole = (place - place.round()).abs() < 1e-6 && place > -0.5;
+            return self.names.get(place.round() as usize).filter(|_| is_whole).cloned().unwrap_or_default();
         }
         if self.log {
             let exponent = place.round();

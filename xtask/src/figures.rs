@@ -12,6 +12,7 @@ mod figure_3;
 mod figure_4;
 mod figure_5;
 mod figure_6;
+mod iterations;
 mod ledger;
 mod modes;
 mod page;
@@ -67,6 +68,7 @@ const FIGURES: &[Figure] = &[
     quick("paper_figure_5", figure_5::make),
     long("paper_figure_5_minute", figure_5::make_minute),
     quick("paper_figure_6", figure_6::make),
+    quick("paper_iterations", iterations::make),
     quick("beyond_ledger", ledger::make),
     quick("beyond_convergence", convergence::make),
     quick("beyond_strings", strings::make),

@@ -146,8 +146,8 @@ const HEAD: &str = "\
 S. Bilbao and A. Torin, “Numerical simulation of string/barrier collisions: the fretboard,” *Proc. 17th
 Int. Conf. on Digital Audio Effects (DAFx-14)*, Erlangen, 2014, describes the model that this instrument
 is built on, and shows what it does in five figures. This page repeats them, puts what the paper says
-beside what is measured here, and goes on from there. Every number on it is computed when the page is
-written, and every verdict is decided from the number beside it; nothing is typed in.
+beside what is measured here, and goes on from there. What is measured is computed when the page is
+written, and every verdict is decided from the numbers beside it.
 
 ```sh
 cargo xtask figures                     # everything: pictures, this page, and sounds in target/figures
