@@ -11,6 +11,7 @@ mod figure_2;
 mod figure_3;
 mod figure_4;
 mod figure_5;
+mod figure_5_minute;
 mod figure_6;
 mod iterations;
 mod ledger;
@@ -66,7 +67,7 @@ const FIGURES: &[Figure] = &[
     quick("paper_figure_3", figure_3::make),
     quick("paper_figure_4", figure_4::make),
     quick("paper_figure_5", figure_5::make),
-    long("paper_figure_5_minute", figure_5::make_minute),
+    long("paper_figure_5_minute", figure_5_minute::make),
     quick("paper_figure_6", figure_6::make),
     quick("paper_iterations", iterations::make),
     quick("beyond_ledger", ledger::make),

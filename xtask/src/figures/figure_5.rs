@@ -4,17 +4,17 @@ use anyhow::{Context, Result};
 use low_action_dsp::curve::{Curve, OneOrEach};
 use low_action_dsp::state::Finger;
 use low_action_dsp::{Scene, State};
-use low_action_figures::course::BINS;
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;
-use low_action_figures::{Axis, Course, Layer, Panel, Sheet, Stroke};
+use low_action_figures::{Axis, Layer, Panel, Sheet, Stroke};
 
 use super::Made;
 use super::figure_4::tap;
 use super::page::{Claim, Section};
 use super::running::{Repository, listen, run, shortened};
 
-const SCENE: &str = "scenes/paper/figure_5.toml";
+/// The scene.
+pub const SCENE: &str = "scenes/paper/figure_5.toml";
 
 /// Time shown of the partition, ms.
 const SHOWN: f64 = 5.0;
@@ -246,114 +246,4 @@ fn nearer(scene: &Scene) -> Vec<(&'static str, Scene)> {
         ("K_f = 10⁶, finger of 50 g", changed(0.05, 1e6, None)),
         ("K_f = 10⁸, board and crowns at −0.05 mm", changed(5e-3, 1e8, Some(-0.05e-3))),
     ]
-}
-
-/// Length of the long run, s.
-const MINUTE: f64 = 60.0;
-
-/// Tolerance of the finer of the two long runs, m.
-const FINER: f64 = 1e-17;
-
-/// How the energy of a long run varied, as a part of what there was at first.
-struct Minute {
-    /// All of it, the part from inexact contact forces, and the part from rounding.
-    courses: [Course; 3],
-    /// Samples with contact, and the largest force of a contact, N.
-    contacts: u64,
-    hardest: f64,
-}
-
-impl Minute {
-    fn observe(scene: &Scene) -> Result<Minute> {
-        let samples = (scene.duration * scene.sample_rate) as u64;
-        let mut courses = [0, 1, 2].map(|_| Course::new(samples, BINS));
-        let (mut first, mut solver, mut rounding) = (None, 0.0, 0.0);
-        let (mut contacts, mut hardest) = (0, 0.0f64);
-        run(scene, |simulation, entry| {
-            let total = entry.energies.total();
-            let first = *first.get_or_insert(total);
-            solver -= entry.power_solver / scene.sample_rate;
-            // What the first step leaves open is not in the change since.
-            rounding += if simulation.steps() > 1 { entry.residual } else { 0.0 };
-            let parts = [total / first - 1.0, solver / first, rounding / first];
-            courses.iter_mut().zip(parts).for_each(|(course, part)| course.add(part));
-            let string = simulation.string(0);
-            contacts += u64::from(string.convergence.active > 0);
-            hardest = string.scratch.forces().map(|(_, force)| force).fold(hardest, f64::max);
-        })?;
-        Ok(Minute { courses, contacts, hardest })
-    }
-
-    /// The largest variation of each course.
-    fn largest(&self) -> [f64; 3] {
-        self.courses.each_ref().map(|course| course.largest().abs().max(course.smallest().abs()))
-    }
-}
-
-/// The same for a minute: how well energy is kept, and what limits it.
-pub fn make_minute(repository: &Repository) -> Result<Made> {
-    let scene = shortened(&repository.scene(SCENE)?, MINUTE);
-    let mut finer = scene.clone();
-    finer.solver.tolerance = FINER;
-    let (minute, finer) = (Minute::observe(&scene)?, Minute::observe(&finer)?);
-    let picture = draw_minute(&scene, &minute, &finer)?;
-    let samples = (MINUTE * scene.sample_rate) as u64;
-    let ([all, solver, rounding], [all_finer, ..]) = (minute.largest(), finer.largest());
-    let first = 0.5 * scene.finger[0].mass * scene.finger[0].velocity.powi(2);
-    let claims = vec![Claim::new(
-        "Energy is conserved to 10⁻¹² over a minute (ours)",
-        format!(
-            "to {} over {samples} samples; with a tolerance of {} m to {}",
-            significant(all, 2),
-            significant(FINER, 1),
-            significant(all_finer, 2)
-        ),
-        all <= 1e-12 && all_finer <= 1e-12,
-    )];
-    let limit = if solver > rounding { "inexact contact forces" } else { "rounding" };
-    let section = Section::new("Figure 5 for a minute (ours)")
-        .text(&format!(
-            "The same scene for {MINUTE} s. The string goes on hitting frets for want of losses: it touches something in \
-             {} % of the samples.",
-            significant(100.0 * minute.contacts as f64 / samples as f64, 2)
-        ))
-        .picture("Variation of the energy over a minute and its two sources, and the variation with a finer tolerance")
-        .claims(claims)
-        .text(&format!(
-            "**What limits it**: {limit}. They account for at most {} of the change, rounding in string, contacts and \
-             ledger for at most {}. The solver may stop when a penetration is known to its tolerance, {} m; times the \
-             largest force, {} N, that is {} of the energy in one sample. With a finer tolerance rounding is what is \
-             left.",
-            significant(solver, 2),
-            significant(rounding, 2),
-            significant(scene.solver.tolerance, 1),
-            significant(minute.hardest, 2),
-            significant(scene.solver.tolerance * minute.hardest / first, 2)
-        ));
-    Ok(Made { picture, section: Some(section), sounds: Vec::new() })
-}
-
-fn draw_minute(scene: &Scene, minute: &Minute, finer: &Minute) -> Result<String> {
-    let names = ["all of it", "from inexact contact forces", "from rounding"];
-    let strokes = [Stroke::thin(colour::INK), Stroke::new(colour::VERMILION), Stroke::new(colour::BLUE)];
-    let extent = 1.2e13 * minute.largest().into_iter().fold(0.0, f64::max);
-    let mut panel = Panel::new(
-        "Variation of all energy, (𝔥 − 𝔥₀)/𝔥₀",
-        Axis::linear("time, s", 0.0..MINUTE),
-        Axis::linear("variation, 10⁻¹³", -extent..extent),
-    );
-    let points = |course: &Course| course.points(0.5, 1.0 / scene.sample_rate, 1e13);
-    for ((course, name), stroke) in minute.courses.iter().zip(names).zip(strokes) {
-        panel = panel.with(Layer::line(name, stroke, points(course)));
-    }
-    let name = format!("all of it, tolerance {} m", significant(FINER, 1));
-    panel = panel.with(Layer::line(name, Stroke::new(colour::GREEN), points(&finer.courses[0])));
-    let caption = format!(
-        "{} Tolerance {} m but for one line.",
-        describe(scene),
-        significant(scene.solver.tolerance, 1)
-    );
-    Sheet::new("Figure 5 for a minute: what limits the conservation of energy", caption)
-        .row(1400, vec![panel])
-        .draw()
 }
