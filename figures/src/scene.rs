@@ -244,3 +244,50 @@ impl SceneFigure {
         ))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn watched(text: &str) -> (SceneFigure, Simulation) {
+        let scene = Scene::from_toml(text).unwrap();
+        let mut simulation = Simulation::new(&scene).unwrap();
+        simulation.open_ledger();
+        let mut figure = SceneFigure::new(&scene, &simulation).unwrap();
+        while simulation.steps() < simulation.samples() {
+            let entry = simulation.step().unwrap();
+            figure.look(&simulation, &entry);
+        }
+        (figure, simulation)
+    }
+
+    const SCENE: &str = "sample_rate = 44100\nduration = 0.02\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\n\
+                         tension = 60.0\nloss_0 = 5.0\nshape = [[0.0, 0.0], [0.3, 0.002], [0.65, 0.0]]\n\
+                         [fretboard]\nstiffness = 1e10\nexponent = 1.5\nboard = -0.001\n";
+
+    #[test]
+    fn what_was_put_in_less_what_was_lost_is_what_is_stored() {
+        let (figure, simulation) = watched(SCENE);
+        let (stored, explained) =
+            (figure.energies[0].points(0.0, 1.0, 1.0), figure.explained.points(0.0, 1.0, 1.0));
+        assert_eq!(stored.len(), simulation.samples() as usize);
+        for (stored, explained) in stored.iter().zip(&explained) {
+            assert!((stored.1 - explained.1).abs() < 1e-12 * stored.1, "{stored:?} {explained:?}");
+        }
+        assert!(figure.energies[0].smallest() < 0.99 * figure.energies[0].largest(), "nothing was lost");
+    }
+
+    #[test]
+    fn strings_are_shown_from_the_first_moment_to_the_last() {
+        let (figure, simulation) = watched(SCENE);
+        let record = &figure.strings[0];
+        assert_eq!(record.profiles.len() as u64, MOMENTS);
+        assert_eq!(record.profiles[MOMENTS as usize - 1], Profile::of(simulation.string(0)));
+        let highest = record.reach.iter().map(|reach| reach.2).fold(0.0, f64::max);
+        let lowest = record.reach.iter().map(|reach| reach.1).fold(0.0, f64::min);
+        assert!(highest > 0.0019 && lowest < -0.0009, "from {lowest} to {highest}");
+        assert!(
+            figure.contacts > 0 && figure.forces[1].largest() > 0.0 && figure.penetration.largest() > 0.0
+        );
+    }
+}

@@ -131,17 +131,17 @@ fn section(runs: &[Divergence]) -> Section {
         .collect();
     let [free, _, hard, endless] = runs else { return Section::new("Beyond: chaos") };
     let claims = vec![
-        Claim::new(
+        Claim::ours(
             "A string that touches nothing keeps what it was given",
             format!("0.5 N: the difference stays below {}", significant(free.largest, 2)),
             free.largest < GROWTH * DIFFERENCE,
         ),
-        Claim::new(
+        Claim::ours(
             "A buzzing string forgets it: the difference grows a thousandfold",
             format!("2 N: after {}; the first contact comes after {}", time(hard.begun), time(hard.contact)),
             hard.begun.is_some(),
         ),
-        Claim::new(
+        Claim::ours(
             "Without losses it goes on until the two have nothing in common (1 % of the displacement)",
             format!("2 N: after {}", time(endless.apart)),
             endless.apart.is_some(),

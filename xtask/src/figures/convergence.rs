@@ -213,7 +213,7 @@ fn section(measured: &Measured) -> Section {
     for (index, (name, _, _)) in STENCILS.into_iter().enumerate() {
         let orders = [order(&measured.ideal[index]), order(&measured.stiff[index])];
         let promised = [IDEAL[index], STIFF[index]];
-        claims.push(Claim::new(
+        claims.push(Claim::ours(
             format!(
                 "`{name}`: partials converge with order {} without stiffness, {} with",
                 promised[0], promised[1]
@@ -234,7 +234,7 @@ fn section(measured: &Measured) -> Section {
     }
     let orders: Vec<_> = measured.triangle.iter().chain(&measured.arch).map(order).collect();
     let (least, most) = orders.iter().fold((f64::MAX, 0.0), |(a, b), &o| (f64::min(a, o), f64::max(b, o)));
-    claims.push(Claim::new(
+    claims.push(Claim::ours(
         "Over a board all three converge with order 1",
         format!("orders {} to {}", significant(least, 3), significant(most, 3)),
         least > 0.9 && most < 1.1,

@@ -42,11 +42,20 @@ fn free(scene: &Scene) -> Scene {
     Scene { fretboard: None, ..scene.clone() }
 }
 
-fn observe(scene: &Scene) -> Result<Outcome> {
-    let release = scene.pluck.first().map_or(0.0, |pluck| pluck.start + pluck.duration);
+/// When the pluck lets go, s.
+fn release(scene: &Scene) -> f64 {
+    scene.pluck.first().map_or(0.0, |pluck| pluck.start + pluck.duration)
+}
+
+/// Period of the string without stiffness, s.
+fn period(scene: &Scene) -> f64 {
     let string = &scene.string[0];
-    let period = 2.0 * string.length / (string.tension.at(0.0) / string.linear_density).sqrt();
-    let last_fret = Ground::under(scene, 0)?.crowns.last().map_or(string.length, |crown| crown.0);
+    2.0 * string.length / (string.tension.at(0.0) / string.linear_density).sqrt()
+}
+
+fn observe(scene: &Scene) -> Result<Outcome> {
+    let (release, period) = (release(scene), period(scene));
+    let last_fret = Ground::under(scene, 0)?.crowns.last().map_or(scene.string[0].length, |crown| crown.0);
     let mut outcome = Outcome {
         profiles: Vec::new(),
         lowest: 0.0,
@@ -228,9 +237,7 @@ fn lowest_over_frets(scene: &Scene, force: f64) -> Result<f64> {
 /// Root of the mean square difference that the frets make to the profiles of the third period, as a part of
 /// the root of the mean square without them.
 fn distortion(scene: &Scene) -> Result<f64> {
-    let release = scene.pluck[0].start + scene.pluck[0].duration;
-    let string = &scene.string[0];
-    let period = 2.0 * string.length / (string.tension.at(0.0) / string.linear_density).sqrt();
+    let (release, period) = (release(scene), period(scene));
     let window = |scene: &Scene| {
         let mut heights = Vec::new();
         run(&shortened(scene, release + 3.0 * period), |simulation, _| {

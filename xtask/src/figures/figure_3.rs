@@ -146,7 +146,7 @@ fn section(scene: &Scene, outcomes: &[Outcome]) -> Result<Section> {
         (outcomes.first().context("there are some")?, outcomes.last().context("there are some")?);
     let claims = vec![
         Claim::new(
-            "Penetration of 4.1’s pluck “takes on values under 10⁻⁹ m” at K = 10¹⁵",
+            "The penetration for the pluck of Figure 2 “takes on values under 10⁻⁹ m” at K = 10¹⁵",
             format!("{} m", significant(said.depth.largest(), 3)),
             said.depth.largest() < SAID,
         ),
@@ -170,16 +170,16 @@ fn section(scene: &Scene, outcomes: &[Outcome]) -> Result<Section> {
             ),
             last.mean_iterations() > first.mean_iterations(),
         ),
-        Claim::new(
-            "No penetration exceeds the energy bound (ours)",
+        Claim::ours(
+            "No penetration exceeds the energy bound",
             format!(
                 "at K = 10¹⁵ at most {} of it",
                 significant(said.depth.largest() / said.bound.largest(), 2)
             ),
             below_bound,
         ),
-        Claim::new(
-            "The paper’s 50 iterations are enough at every K shown (ours)",
+        Claim::ours(
+            "The paper’s 50 iterations are enough at every K shown",
             format!("at most {}", outcomes.iter().map(|o| o.iterations.2).max().unwrap_or(0)),
             outcomes.iter().all(|o| o.iterations.2 < 50),
         ),

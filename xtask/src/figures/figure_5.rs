@@ -171,12 +171,12 @@ fn section(scene: &Scene, partition: &Partition) -> Result<Section> {
             fretboard.0 > 1e-4,
         ),
         Claim::new(
-            "“and finally fully back to the finger”",
+            "The energy goes “finally fully back to the finger”",
             format!("{} come back; the string keeps the rest and rings on", percent(partition.returned)),
             partition.returned > 0.99,
         ),
         Claim::new(
-            "the finger “rebounds with a speed identical to its initial speed”",
+            "The finger “rebounds with a speed identical to its initial speed”",
             format!("{} m/s of {speed} m/s", significant(tap.rebound, 4)),
             (tap.rebound - speed).abs() < 0.01 * speed,
         ),

@@ -64,8 +64,8 @@ pub fn make(repository: &Repository) -> Result<Made> {
     let samples = (MINUTE * scene.sample_rate) as u64;
     let ([all, solver, rounding], [all_finer, ..]) = (minute.largest(), finer.largest());
     let first = 0.5 * scene.finger[0].mass * scene.finger[0].velocity.powi(2);
-    let claims = vec![Claim::new(
-        "Energy is conserved to 10⁻¹² over a minute (ours)",
+    let claims = vec![Claim::ours(
+        "Energy is conserved to 10⁻¹² over a minute",
         format!(
             "to {} over {samples} samples; with a tolerance of {} m to {}",
             significant(all, 2),
@@ -75,7 +75,7 @@ pub fn make(repository: &Repository) -> Result<Made> {
         all <= 1e-12 && all_finer <= 1e-12,
     )];
     let limit = if solver > rounding { "inexact contact forces" } else { "rounding" };
-    let section = Section::new("Figure 5 for a minute (ours)")
+    let section = Section::new("Figure 5 for a minute")
         .text(&format!(
             "The same scene for {MINUTE} s. The string goes on hitting frets for want of losses: it touches something in \
              {} % of the samples.",

@@ -156,8 +156,8 @@ fn section(scene: &Scene, ground: &Ground, slide: &Slide, pitches: &[(f64, f64)]
             ),
             (rise - 100.0).abs() < 20.0,
         ),
-        Claim::new(
-            "“under a constant applied force” it stays on the string (ours)",
+        Claim::ours(
+            "Under that force the finger stays on the string",
             format!(
                 "force on the string between {} and {} N",
                 significant(slide.force.0, 2),

@@ -59,13 +59,13 @@ pub fn make(repository: &Repository) -> Result<Made> {
     .row(1000, vec![errors])
     .draw()?;
     let claims = vec![
-        Claim::new(
+        Claim::ours(
             "Stored, lost and put in close in every sample to 10⁻¹⁴ of the largest energy",
             significant(worst, 2),
             worst <= 1e-14,
         ),
-        Claim::new(
-            "and in sum to 10⁻¹²",
+        Claim::ours(
+            "They close in sum to 10⁻¹²",
             format!("{} over {samples} samples", significant(sum, 2)),
             sum <= 1e-12,
         ),

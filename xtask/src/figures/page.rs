@@ -13,9 +13,14 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// A statement with what was measured and whether it holds.
+    /// A statement of the paper with what was measured and whether it holds.
     pub fn new(says: impl Into<String>, measured: impl Into<String>, holds: bool) -> Claim {
         Claim { says: says.into(), measured: measured.into(), holds }
+    }
+
+    /// The same for a statement that the paper does not make.
+    pub fn ours(says: impl Into<String>, measured: impl Into<String>, holds: bool) -> Claim {
+        Claim::new(format!("{OURS}{}", says.into()), measured, holds)
     }
 }
 
@@ -27,6 +32,9 @@ pub struct Section {
 
 /// Columns of the page.
 const WIDTH: usize = 104;
+
+/// What stands before a statement that the paper does not make.
+const OURS: &str = "*Ours:* ";
 
 /// Words of the verdicts.
 const HOLDS: &str = "holds";
@@ -94,23 +102,44 @@ pub fn section_of(page: &str, name: &str) -> Option<String> {
 
 /// Puts the page together and counts what holds.
 pub fn assemble(sections: &[String]) -> String {
-    let rows = || sections.iter().flat_map(|section| section.lines().map(move |line| (section, line)));
-    let verdict = |word: &str| rows().filter(|(_, line)| line.ends_with(&format!("| {word} |"))).count();
-    let (holding, failing) = (verdict(HOLDS), verdict(FAILS));
+    let rows: Vec<_> =
+        sections.iter().flat_map(|text| text.lines().filter_map(|line| Row::read(text, line))).collect();
+    let (ours, paper): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.says.starts_with(OURS));
+    let count = |rows: &[&Row]| (rows.iter().filter(|row| row.holds).count(), rows.len());
+    let ((paper_hold, paper_all), (ours_hold, ours_all)) = (count(&paper), count(&ours));
     let mut page = format!("{HEAD}\n");
-    let _ =
-        writeln!(page, "Of {} statements on this page {holding} hold and {failing} fail.", holding + failing);
-    if failing > 0 {
-        page += "Those that fail:\n\n";
+    let _ = writeln!(
+        page,
+        "**Of {paper_all} statements of the paper {paper_hold} hold here; of {ours_all} of our own {ours_hold}.**"
+    );
+    if paper_hold + ours_hold < rows.len() {
+        page += "These fail:\n\n";
     }
-    for (section, line) in rows().filter(|(_, line)| line.ends_with(&format!("| {FAILS} |"))) {
-        let title = section.lines().find_map(|line| line.strip_prefix("## ")).unwrap_or_default();
-        let says = line.split('|').nth(1).unwrap_or_default().trim();
-        let _ = writeln!(page, "- {says} ([{title}](#{}))", anchor(title));
+    for row in rows.iter().filter(|row| !row.holds) {
+        let _ = writeln!(page, "- {} ([{}](#{}))", row.says, row.title, anchor(row.title));
     }
     page += "\n";
     page += &sections.concat();
     format!("{}\n", page.trim_end())
+}
+
+/// A statement as it stands in a section.
+struct Row<'a> {
+    title: &'a str,
+    says: &'a str,
+    holds: bool,
+}
+
+impl<'a> Row<'a> {
+    fn read(section: &'a str, line: &'a str) -> Option<Row<'a>> {
+        let verdict = |word| line.ends_with(&format!("| {word} |"));
+        let holds = verdict(HOLDS);
+        if !holds && !verdict(FAILS) {
+            return None;
+        }
+        let title = section.lines().find_map(|line| line.strip_prefix("## "))?;
+        Some(Row { title, says: line.split('|').nth(1)?.trim(), holds })
+    }
 }
 
 /// The name under which a heading is linked to.
@@ -147,7 +176,8 @@ S. Bilbao and A. Torin, “Numerical simulation of string/barrier collisions: th
 Int. Conf. on Digital Audio Effects (DAFx-14)*, Erlangen, 2014, describes the model that this instrument
 is built on, and shows what it does in five figures. This page repeats them, puts what the paper says
 beside what is measured here, and goes on from there. What is measured is computed when the page is
-written, and every verdict is decided from the numbers beside it.
+written, and every verdict is decided from the numbers beside it. Statements that the paper does not make
+are marked as ours.
 
 ```sh
 cargo xtask figures                     # everything: pictures, this page, and sounds in target/figures
@@ -183,7 +213,11 @@ mod tests {
     use super::*;
 
     fn page() -> (Vec<String>, String) {
-        let claims = vec![Claim::new("one", "1", true), Claim::new("two", "3", false)];
+        let claims = vec![
+            Claim::new("one", "1", true),
+            Claim::new("two", "3", false),
+            Claim::ours("three", "3", true),
+        ];
         let first = Section::new("Figure 2: a string").picture("words").claims(claims).markdown("a");
         let second = Section::new("More").text("text").markdown("b");
         let sections = vec![first, second];
@@ -207,7 +241,7 @@ mod tests {
     #[test]
     fn what_fails_is_named_at_the_top() {
         let (_, page) = page();
-        assert!(page.contains("Of 2 statements on this page 1 hold and 1 fail."), "{page}");
+        assert!(page.contains("Of 2 statements of the paper 1 hold here; of 1 of our own 1."), "{page}");
         assert!(page.contains("- two ([Figure 2: a string](#figure-2-a-string))"), "{page}");
     }
 }
