@@ -55,6 +55,11 @@ impl Error {
         }
     }
 
+    /// An error of a description that is put together from several texts: which key, what was expected.
+    pub(crate) fn merged(error: &toml::de::Error) -> Self {
+        Error::Syntax(printable(&in_plain_words(error.message())))
+    }
+
     /// A TOML error folded into one line: where it is, what is wrong there, what was expected.
     pub(crate) fn syntax(error: &toml::de::Error, text: &str) -> Self {
         let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();

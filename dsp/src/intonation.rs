@@ -35,6 +35,7 @@ pub struct Intonated {
 
 /// One string over a neck on a grid of a stencil and a sample rate.
 struct Bench<'a> {
+    setup: &'a Setup,
     neck: &'a Neck,
     fretting: &'a Fretting,
     settings: SolverSettings,
@@ -62,6 +63,7 @@ pub fn intonate(
     sample_rate: f64,
 ) -> Result<Intonated, Error> {
     let bench = Bench {
+        setup,
         neck: &setup.neck,
         fretting: &setup.player.fretting,
         settings: SolverSettings { stencil, ..SolverSettings::default() },
@@ -79,7 +81,7 @@ pub fn intonate(
 
 impl Bench<'_> {
     fn model(&self, string: &StringParameters, frets: &[f64]) -> Result<Model, Error> {
-        let barrier = self.neck.barrier(frets)?;
+        let barrier = self.setup.barrier(frets)?;
         Model::new(*string, Some(&barrier), 1, self.settings, self.sample_rate)
     }
 
@@ -169,7 +171,7 @@ impl Bench<'_> {
     ) -> Result<(f64, Vec<f64>), Error> {
         let model = self.model(string, frets)?;
         let law = model.finger_law(&self.fretting.touch)?;
-        let place = finger_place(frets, fret, self.fretting.behind);
+        let place = finger_place(frets, fret, self.setup.behind());
         let at: Reading = model.grid.reading(place);
         let guess = guess.unwrap_or_else(|| self.folded(&model, place, frets[fret]));
         let rest = Equilibrium::new(&model, &at, self.fretting.force, guess);
@@ -182,6 +184,11 @@ impl Bench<'_> {
     /// finger as tension and board let it: nearly its shape at rest.
     fn folded(&self, model: &Model, finger: f64, crown: f64) -> Vec<f64> {
         let (length, height) = (model.string.length, self.neck.crown_height(crown));
+        if self.neck.fretless {
+            let board = self.neck.board_height(finger).unwrap_or(height);
+            let corners = Curve::Points(vec![[0.0, 0.0], [finger, board], [length, 0.0]]);
+            return (1..model.grid.intervals).map(|node| corners.at(model.grid.place(node))).collect();
+        }
         let behind = crown - finger;
         // T(y/finger + (y − height)/behind) = −force.
         let free =

@@ -79,6 +79,7 @@ mod kernel;
 pub mod model;
 pub mod neck;
 pub mod pickup;
+mod preset;
 mod queue;
 mod ramp;
 mod response;

@@ -16,6 +16,13 @@ pub struct Neck {
     pub scale_length: f64,
     /// Number of frets, 0 to 36.
     pub frets: usize,
+    /// Whether the fretted notes are stopped by fingers on the bare board; the number of frets is then how
+    /// many semitones can be stopped.
+    #[serde(default)]
+    pub fretless: bool,
+    /// Worn frets: which one, counted from 1, and how much lower than made its crown is, m.
+    #[serde(default)]
+    pub worn: Vec<(usize, f64)>,
     /// Crown of fret 1 below the string at rest, m.
     pub nut_clearance: f64,
     /// Crown of fret 12 (or where it would be) below the string at rest, m.
@@ -49,6 +56,10 @@ impl Neck {
         within("neck.action", self.action, self.nut_clearance, 0.05, "m")?;
         within("neck.relief", self.relief, 0.0, 0.01, "m")?;
         within("neck.fret_height", self.fret_height, 0.0, 0.02, "m")?;
+        for (fret, wear) in &self.worn {
+            within("neck.worn, fret", *fret as f64, 1.0, self.frets as f64, "")?;
+            within("neck.worn, depth", *wear, 0.0, 0.02, "m")?;
+        }
         ContactLaw::new("neck", self.stiffness, self.exponent)?;
         within("neck.board_reference_spacing", self.board_reference_spacing, 1e-6, 1.0, "m").map(drop)
     }
@@ -89,6 +100,15 @@ impl Neck {
         (place <= self.board_end()).then(|| self.crown_height(place) - self.fret_height)
     }
 
+    /// Places and heights of the crowns, wear included.
+    fn crowns(&self, frets: &[f64]) -> Vec<[f64; 2]> {
+        let wear = |number: usize| {
+            self.worn.iter().filter(|(fret, _)| *fret == number).map(|(_, wear)| wear).sum::<f64>()
+        };
+        let crown = |(index, &place): (usize, &f64)| [place, self.crown_height(place) - wear(index + 1)];
+        frets.iter().enumerate().map(crown).collect()
+    }
+
     /// The barrier under a string whose frets stand at `frets` (m from the nut).
     ///
     /// # Errors
@@ -104,7 +124,7 @@ impl Neck {
         Ok(Barrier {
             law: ContactLaw::new("neck", self.stiffness, self.exponent)?,
             board: Some(Curve::Points(board)),
-            frets: frets.iter().map(|&place| [place, self.crown_height(place)]).collect(),
+            frets: if self.fretless { Vec::new() } else { self.crowns(frets) },
             placement: FretPlacement::Exact,
             board_reference_spacing: Some(self.board_reference_spacing),
         })

@@ -5,8 +5,10 @@
 
 use serde::Deserialize;
 
+use crate::curve::Curve;
 use crate::error::{Error, within};
 use crate::gesture::Touch;
+use crate::model::Barrier;
 use crate::neck::Neck;
 
 /// A whole instrument.
@@ -37,12 +39,26 @@ pub struct Setup {
     pub blend: f64,
     /// Frets and board.
     pub neck: Neck,
+    /// A bridge over which the strings wrap; none means that they end at an edge.
+    #[serde(default)]
+    pub bridge: Option<Bridge>,
     /// The player's hands.
     pub player: Player,
     /// What is heard.
     pub pickup: Pickup,
     /// The strings, highest first.
     pub string: Vec<SetupString>,
+}
+
+/// A wide bridge that falls away under the strings, as on sitar and tanpura: its top is at the saddle, where
+/// the strings end, and towards the nut it is part of a circle under them.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bridge {
+    /// How far it reaches from the saddle under the strings, m.
+    pub length: f64,
+    /// Radius of its curve, m: at x from the saddle it is x²/(2·radius) below the string.
+    pub radius: f64,
 }
 
 /// Whether an instrument is made to play in tune.
@@ -219,6 +235,13 @@ const FILES: [(&str, &str); 4] = [
     ("bass", include_str!("../instruments/bass.toml")),
 ];
 
+/// Pieces of the polyline that stands for a bridge's curve.
+const BRIDGE_PIECES: usize = 32;
+/// Where board and bridge end, the barrier drops within this distance, m, to this height, m: deeper than
+/// any string swings.
+const EDGE: f64 = 1e-6;
+const ABYSS: f64 = -0.05;
+
 /// The most strings an instrument may have.
 const MOST_STRINGS: usize = 32;
 
@@ -235,10 +258,19 @@ impl Setup {
     /// Reads and checks a set-up.
     ///
     /// # Errors
-    /// When the text is not TOML, has an unknown key, lacks one, or a value is outside its range. What
+    /// When the text is not TOML, has an unknown key, lacks one, names a set-up to be based on that is not
+    /// built in, or a value is outside its range. What
     /// depends on the grid is refused when the instrument is built.
     pub fn from_toml(text: &str) -> Result<Setup, Error> {
-        let setup: Setup = toml::from_str(text).map_err(|error| Error::syntax(&error, text))?;
+        let base = |name: &str| {
+            let found = FILES.iter().find(|(known, _)| *known == name);
+            found.map(|(_, text)| *text).ok_or_else(|| Error::Unknown {
+                kind: "set-up",
+                name: name.into(),
+                accepted: format!("it must be {}", Self::BUILTIN.join(", ")),
+            })
+        };
+        let setup: Setup = crate::preset::read(text, base)?;
         setup.check()?;
         Ok(setup)
     }
@@ -253,6 +285,11 @@ impl Setup {
         within("tuning", self.tuning, -12.0, 12.0, "semitones")?;
         within("blend", self.blend, 0.0, 1.0, "")?;
         self.neck.check()?;
+        if let Some(Bridge { length, radius }) = self.bridge {
+            let room = self.neck.scale_length - self.neck.board_end();
+            within("bridge.length", length, 1e-4, room.max(1e-4), "m, clear of the board")?;
+            within("bridge.radius", radius, 1e-3, 1e3, "m")?;
+        }
         self.player.check(self.neck.scale_length)?;
         self.pickup.check(self.neck.scale_length)?;
         if self.string.is_empty() || self.string.len() > MOST_STRINGS {
@@ -263,6 +300,29 @@ impl Setup {
             string.check(&format!("string[{}]", i + 1))?;
         }
         Ok(())
+    }
+
+    /// The barrier under a string whose frets stand at `frets` (m from the nut): frets, board and bridge.
+    ///
+    /// # Errors
+    /// When the contact law is out of range.
+    pub fn barrier(&self, frets: &[f64]) -> Result<Barrier, Error> {
+        let mut barrier = self.neck.barrier(frets)?;
+        if let (Some(bridge), Some(Curve::Points(board))) = (&self.bridge, &mut barrier.board) {
+            let end = self.neck.scale_length;
+            // Between board and bridge there is nothing to touch.
+            board.extend([[self.neck.board_end() + EDGE, ABYSS], [end - bridge.length - EDGE, ABYSS]]);
+            board.extend((0..=BRIDGE_PIECES).map(|piece| {
+                let from_saddle = bridge.length * (1.0 - piece as f64 / BRIDGE_PIECES as f64);
+                [end - from_saddle, -from_saddle * from_saddle / (2.0 * bridge.radius)]
+            }));
+        }
+        Ok(barrier)
+    }
+
+    /// Which part of a fret's own space a finger presses behind it: none where there are no frets.
+    pub fn behind(&self) -> f64 {
+        if self.neck.fretless { 0.0 } else { self.player.fretting.behind }
     }
 
     /// The largest factor by which a bend may raise the tension of a string.

@@ -63,7 +63,7 @@ impl Voice {
         let spec = &setup.string[index];
         let name = format!("string[{}]", index + 1);
         let placed = intonate(setup, spec, solver.stencil, rate).map_err(|error| error.under(&name))?;
-        let barrier = setup.neck.barrier(&placed.frets)?;
+        let barrier = setup.barrier(&placed.frets)?;
         let model = Model::new(placed.string, Some(&barrier), FINGERS_PER_STRING, solver, rate)
             .map_err(|error| error.under(&name))?;
         for (name, touch) in
@@ -79,7 +79,7 @@ impl Voice {
                 frets: placed.frets,
                 highest_ratio: placed.string.tension_limit / placed.string.tension,
                 wave_impedance: (placed.string.tension * placed.string.linear_density).sqrt(),
-                behind: setup.player.fretting.behind,
+                behind: setup.behind(),
             },
             state: State::new(&model),
             scratch: Scratch::new(&model),

@@ -73,10 +73,10 @@ fn pick(high: bool, low_value: f64, high_value: f64) -> f64 {
 const BUILT: &[Built] = &[
     Built {
         id: "instrument",
-        ends: [0.0, 3.0],
+        ends: [0.0, 13.0],
         means: |options, high| {
-            let name = if high { "bass" } else { "electric" };
-            options.setup = Setup::builtin(name).expect("it is built in");
+            let name = if high { "sitar" } else { "electric" };
+            options.setup = Setup::shipped(name).expect("it comes with the program");
         },
     },
     Built {
@@ -323,7 +323,7 @@ fn relaxing_is_for_real_time_alone() {
 
 #[test]
 fn a_change_counts_from_its_sample() {
-    for (id, value) in [("pluck_force", 0.1), ("action", 0.9), ("loss_1", 1.0), ("instrument", 1.0)] {
+    for (id, value) in [("pluck_force", 0.1), ("action", 0.9), ("loss_1", 1.0), ("instrument", 6.0)] {
         let at = 12_345;
         let usual = with(&[], &score());
         let mut changed = score();

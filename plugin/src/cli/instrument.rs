@@ -12,15 +12,15 @@ use super::Failure;
 /// Largest set-up file read, bytes; the built-in ones have a few thousand.
 const LARGEST_FILE: u64 = 1 << 20;
 
-/// A built-in set-up by name, or one from a file.
+/// A set-up that comes with the program, by name, or one from a file.
 pub(super) fn load(name: &str) -> Result<Setup, Failure> {
-    if let Some(setup) = Setup::builtin(name) {
+    if let Some(setup) = Setup::shipped(name) {
         return Ok(setup);
     }
     let path = Path::new(name);
     // A bare word that is no file is a misspelt name rather than a missing file.
     if !path.exists() && path.extension().is_none() && path.components().count() == 1 {
-        let known = Setup::BUILTIN.join(", ");
+        let known = [&Setup::BUILTIN[..], &Setup::PRESETS[..]].concat().join(", ");
         return Err(Failure::Usage(format!("unknown instrument {name:?}: must be {known} or a set-up file")));
     }
     let mut text = String::new();

@@ -78,7 +78,7 @@ pub struct RenderArgs {
     /// WAV file to write, - for standard output [default: SONG.wav in the current folder].
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Built-in set-up (electric, classical, steel, bass) or a set-up file.
+    /// Set-up that comes with the program (electric, classical, steel, bass, tanpura, ...) or a set-up file.
     #[arg(short, long, value_name = "NAME|FILE", default_value = "electric")]
     pub instrument: String,
     /// How much computing: draft, live, studio or reference.

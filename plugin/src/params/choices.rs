@@ -4,7 +4,7 @@ use nice_plug::prelude::Enum;
 
 use crate::engine::Quality;
 
-/// The built-in instruments, as the host sees them.
+/// The set-ups that come with the program, as the host sees them.
 #[derive(Enum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstrumentChoice {
     /// A six-string electric guitar, .010 to .046, 22 frets.
@@ -23,16 +23,66 @@ pub enum InstrumentChoice {
     #[id = "bass"]
     #[name = "Electric bass"]
     Bass,
+    /// A bass whose strings rattle along the frets.
+    #[id = "buzzing-bass"]
+    #[name = "Buzzing bass"]
+    BuzzingBass,
+    /// A bass whose strings are thrown against the frets.
+    #[id = "slap-bass"]
+    #[name = "Slap bass"]
+    SlapBass,
+    /// A bass without frets.
+    #[id = "fretless-bass"]
+    #[name = "Fretless bass"]
+    FretlessBass,
+    /// A very low electric guitar, heard at the bridge.
+    #[id = "low-action-funk"]
+    #[name = "Low-action funk"]
+    LowActionFunk,
+    /// An electric guitar with one fret worn down.
+    #[id = "worn-fret"]
+    #[name = "Worn fret"]
+    WornFret,
+    /// An electric guitar under fingers that hardly press.
+    #[id = "light-fingers"]
+    #[name = "Light fingers"]
+    LightFingers,
+    /// A steel-string guitar nobody has set up.
+    #[id = "school-guitar"]
+    #[name = "School guitar"]
+    SchoolGuitar,
+    /// An electric guitar with old flat-wound strings.
+    #[id = "flatwound-jazz"]
+    #[name = "Flat-wound jazz"]
+    FlatwoundJazz,
+    /// Four open strings over a curved bridge.
+    #[id = "tanpura"]
+    #[name = "Tanpura"]
+    Tanpura,
+    /// An electric guitar with a curved bridge.
+    #[id = "sitar"]
+    #[name = "Electric sitar"]
+    Sitar,
 }
 
 impl InstrumentChoice {
-    /// The name of the built-in set-up, as the command line knows it.
+    /// The name of the set-up, as the command line knows it.
     pub fn set_up(self) -> &'static str {
         match self {
             Self::Electric => "electric",
             Self::Classical => "classical",
             Self::Steel => "steel",
             Self::Bass => "bass",
+            Self::BuzzingBass => "buzzing-bass",
+            Self::SlapBass => "slap-bass",
+            Self::FretlessBass => "fretless-bass",
+            Self::LowActionFunk => "low-action-funk",
+            Self::WornFret => "worn-fret",
+            Self::LightFingers => "light-fingers",
+            Self::SchoolGuitar => "school-guitar",
+            Self::FlatwoundJazz => "flatwound-jazz",
+            Self::Tanpura => "tanpura",
+            Self::Sitar => "sitar",
         }
     }
 }

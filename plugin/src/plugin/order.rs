@@ -43,7 +43,7 @@ impl Order {
     /// The set-up and everything else an engine is built from.
     pub fn options(&self) -> Result<EngineOptions, String> {
         let name = self.instrument.set_up();
-        let setup = Setup::builtin(name).ok_or_else(|| format!("there is no built-in set-up {name}"))?;
+        let setup = Setup::shipped(name).ok_or_else(|| format!("there is no set-up {name}"))?;
         Ok(self.luthier.options(setup, f64::from(self.sample_rate)))
     }
 }

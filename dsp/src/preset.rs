@@ -1,0 +1,95 @@
+//! Set-ups that are others with a few things changed, and those that come with the program.
+
+use serde::de::DeserializeOwned;
+use toml::{Table, Value};
+
+use crate::error::Error;
+use crate::setup::Setup;
+
+/// The set-ups that show what strings over frets can do: name and file.
+const FILES: [(&str, &str); 10] = [
+    ("buzzing-bass", include_str!("../instruments/presets/buzzing-bass.toml")),
+    ("slap-bass", include_str!("../instruments/presets/slap-bass.toml")),
+    ("fretless-bass", include_str!("../instruments/presets/fretless-bass.toml")),
+    ("low-action-funk", include_str!("../instruments/presets/low-action-funk.toml")),
+    ("worn-fret", include_str!("../instruments/presets/worn-fret.toml")),
+    ("light-fingers", include_str!("../instruments/presets/light-fingers.toml")),
+    ("school-guitar", include_str!("../instruments/presets/school-guitar.toml")),
+    ("flatwound-jazz", include_str!("../instruments/presets/flatwound-jazz.toml")),
+    ("tanpura", include_str!("../instruments/presets/tanpura.toml")),
+    ("sitar", include_str!("../instruments/presets/sitar.toml")),
+];
+
+/// The key by which a file names the set-up it changes.
+const BASE: &str = "based_on";
+
+impl Setup {
+    /// Names of the set-ups that come with the program beside [`Setup::BUILTIN`].
+    pub const PRESETS: [&'static str; FILES.len()] = {
+        let mut names = [""; FILES.len()];
+        let mut i = 0;
+        while i < FILES.len() {
+            names[i] = FILES[i].0;
+            i += 1;
+        }
+        names
+    };
+
+    /// Any set-up that comes with the program, by its name.
+    pub fn shipped(name: &str) -> Option<Setup> {
+        Setup::builtin(name).or_else(|| {
+            let (_, text) = FILES.iter().find(|(known, _)| *known == name)?;
+            Some(Setup::from_toml(text).expect("the files in instruments/presets are read by the tests"))
+        })
+    }
+}
+
+/// Reads a description that may be another with a few things changed: `based_on = "NAME"` stands for all of
+/// that set-up, and what else the text has takes the place of what stands there. Tables are changed key by
+/// key, and so are the strings, in their order. `base` gives the text of a set-up by its name.
+pub(crate) fn read<T: DeserializeOwned>(
+    text: &str,
+    base: impl Fn(&str) -> Result<&'static str, Error>,
+) -> Result<T, Error> {
+    let mut table: Table = toml::from_str(text).map_err(|error| Error::syntax(&error, text))?;
+    let Some(name) = table.remove(BASE) else {
+        return toml::from_str(text).map_err(|error| Error::syntax(&error, text));
+    };
+    let Value::String(name) = name else {
+        return Err(Error::Syntax(format!("{BASE}: invalid type: expected the name of a set-up")));
+    };
+    let below = base(&name)?;
+    let mut whole: Table = toml::from_str(below).map_err(|error| Error::syntax(&error, below))?;
+    lay_over(&mut whole, table);
+    // What is left is no longer any one text: lines cannot be named, keys can.
+    T::deserialize(Value::Table(whole)).map_err(|error| Error::merged(&error))
+}
+
+/// Puts the values of one table in the place of another's.
+fn lay_over(below: &mut Table, above: Table) {
+    for (key, value) in above {
+        match (below.get_mut(&key), value) {
+            (Some(Value::Table(old)), Value::Table(new)) => {
+                // Another kind of thing has other keys.
+                if new.get("kind").is_some_and(|kind| old.get("kind") != Some(kind)) {
+                    *old = new;
+                } else {
+                    lay_over(old, new);
+                }
+            }
+            (Some(Value::Array(old)), Value::Array(new))
+                if new.iter().all(Value::is_table) && !new.is_empty() =>
+            {
+                for (index, entry) in new.into_iter().enumerate() {
+                    match (old.get_mut(index), entry) {
+                        (Some(Value::Table(old)), Value::Table(new)) => lay_over(old, new),
+                        (_, entry) => old.push(entry),
+                    }
+                }
+            }
+            (_, value) => {
+                below.insert(key, value);
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Promise: the set-ups that come with the program beside the four instruments can be played everywhere, are
+//! as loud as those, and each does what it is there to show. A set-up based on another is that one with the
+//! changes it names, or is refused in one line.
+
+use low_action::engine::{Engine, EngineOptions};
+use low_action::performance::{InputMode, PlayerEvent};
+use low_action_dsp::Setup;
+use low_action_tests::pitch::{cents, frequency_near};
+
+const RATE: f64 = 48_000.0;
+
+fn shipped(name: &str) -> Setup {
+    Setup::shipped(name).unwrap_or_else(|| panic!("there is no {name}"))
+}
+
+/// One and a half seconds of a key on the string of index `string`, left channel.
+fn note(setup: &Setup, string: u8, key: u8) -> Vec<f32> {
+    play(setup, &[(string, key)], 1.5)
+}
+
+fn play(setup: &Setup, notes: &[(u8, u8)], seconds: f64) -> Vec<f32> {
+    let options = EngineOptions { variation: 0.0, ..EngineOptions::new(setup.clone(), RATE) };
+    let mut engine = Engine::new(&options).expect("the set-up can be built");
+    engine.set_input(InputMode::Strings { first: 0 });
+    for &(channel, key) in notes {
+        engine.event(0, PlayerEvent::NoteOn { channel, key, velocity: 100.0 / 127.0 });
+    }
+    let samples = (seconds * RATE) as usize;
+    let (mut left, mut right) = (vec![0.0; samples], vec![0.0; samples]);
+    engine.process(&mut left, &mut right);
+    left
+}
+
+fn open_keys(setup: &Setup) -> Vec<(u8, u8)> {
+    (0..).zip(&setup.string).map(|(string, spec)| (string, spec.pitch.round() as u8)).collect()
+}
+
+fn rms(sound: &[f32]) -> f64 {
+    (sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / sound.len() as f64).sqrt()
+}
+
+/// Size of the sound's differences beside the sound itself: grows with the share of high partials.
+fn brightness(sound: &[f32]) -> f64 {
+    let differences: Vec<f32> = sound.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    rms(&differences) / rms(sound)
+}
+
+/// Brightness of the first tenth of a second of the lowest open string.
+fn attack(name: &str) -> f64 {
+    let setup = shipped(name);
+    let (string, key) = *open_keys(&setup).last().expect("it has strings");
+    brightness(&note(&setup, string, key)[240..4800])
+}
+
+/// What is left of a sound after a second.
+fn sustain(sound: &[f32]) -> f64 {
+    rms(&sound[48_000..]) / rms(&sound[2400..12_000])
+}
+
+#[test]
+fn all_can_be_played_and_are_as_loud_as_the_others() {
+    for name in Setup::PRESETS {
+        let setup = shipped(name);
+        assert_eq!(setup.name, name);
+        assert!(!setup.description.is_empty(), "{name} says nothing of itself");
+        let chord = play(&setup, &open_keys(&setup), 1.5);
+        let peak = chord.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
+        let level = 20.0 * f64::from(peak).log10();
+        assert!((-12.0..=-2.0).contains(&level), "{name}: {level} dBFS");
+    }
+}
+
+#[test]
+fn low_strings_rattle() {
+    assert!(attack("buzzing-bass") > 3.0 * attack("bass"));
+    assert!(attack("slap-bass") > 2.0 * attack("bass"));
+    assert!(attack("low-action-funk") > 1.5 * attack("electric"));
+    assert!(attack("flatwound-jazz") < 0.75 * attack("electric"));
+}
+
+#[test]
+fn only_the_worn_fret_buzzes() {
+    let worn = shipped("worn-fret");
+    let mut mended = worn.clone();
+    mended.neck.worn.clear();
+    // A string, frets 5 and 9: the worn one, and one of the others.
+    let rattle = |setup: &Setup, fret: u8| brightness(&note(setup, 4, 45 + fret)[240..4800]);
+    assert!(rattle(&worn, 5) > 2.0 * rattle(&mended, 5));
+    assert!((rattle(&worn, 9) / rattle(&mended, 9) - 1.0).abs() < 0.1);
+}
+
+#[test]
+fn a_fretless_neck_is_in_tune_and_has_no_frets() {
+    let setup = shipped("fretless-bass");
+    for (string, fret) in [(3, 3_u8), (3, 7), (2, 4), (1, 9), (0, 12)] {
+        let open = setup.string[usize::from(string)].pitch as u8;
+        let expected = 440.0 * ((f64::from(open + fret) - 69.0) / 12.0).exp2();
+        let sound = note(&setup, string, open + fret);
+        let off = cents(frequency_near(&sound[9600..], RATE, expected), expected);
+        assert!(off.abs() < 8.0, "string {string}, semitone {fret}: {off} cents");
+    }
+    assert!(setup.barrier(&setup.neck.equal_places()).expect("it is valid").frets.is_empty());
+}
+
+#[test]
+fn light_fingers_choke_what_they_stop() {
+    let setup = shipped("light-fingers");
+    assert!(sustain(&note(&setup, 4, 45 + 4)) < 0.2 * sustain(&note(&setup, 4, 45)));
+    assert!(sustain(&note(&shipped("electric"), 4, 45 + 4)) > 0.5);
+}
+
+#[test]
+fn a_guitar_nobody_set_up_is_sharp_up_the_neck() {
+    let setup = shipped("school-guitar");
+    for fret in [3_u8, 7, 12] {
+        let expected = 440.0 * ((f64::from(55 + fret) - 69.0) / 12.0).exp2();
+        let off = cents(frequency_near(&note(&setup, 2, 55 + fret)[9600..], RATE, expected), expected);
+        assert!((5.0..60.0).contains(&off), "fret {fret}: {off} cents");
+    }
+}
+
+#[test]
+fn a_curved_bridge_makes_the_sound_bloom() {
+    for name in ["tanpura", "sitar"] {
+        let setup = shipped(name);
+        let plain = Setup { bridge: None, ..setup.clone() };
+        let (string, key) = open_keys(&setup)[1];
+        let late = |setup: &Setup| brightness(&note(setup, string, key)[24_000..36_000]);
+        assert!(late(&setup) > 1.5 * late(&plain), "{name}: {} and {}", late(&setup), late(&plain));
+    }
+}
+
+#[test]
+fn a_setup_can_be_another_with_a_few_things_changed() {
+    let text = "name = \"mine\"\nbased_on = \"bass\"\n[neck]\naction = 0.003\n[[string]]\n[[string]]\npitch = 40.0\n";
+    let (mine, bass) = (Setup::from_toml(text).expect("it is valid"), shipped("bass"));
+    let mut expected = Setup { name: "mine".into(), ..bass };
+    expected.neck.action = 0.003;
+    expected.string[1].pitch = 40.0;
+    assert_eq!(mine, expected);
+    for (text, words) in [
+        ("name = \"x\"\nbased_on = \"banjo\"", &["banjo", "electric"][..]),
+        ("name = \"x\"\nbased_on = 3", &["based_on"]),
+        ("name = \"x\"\nbased_on = \"bass\"\n[neck]\nactoin = 0.003", &["unknown key", "actoin"]),
+        ("name = \"x\"\nbased_on = \"bass\"\n[neck]\naction = 3.0", &["neck.action", "3"]),
+        ("name = \"x\"\nbased_on = \"bass\"\n[neck]\nworn = [[99, 0.001]]", &["worn", "99", "20"]),
+        ("name = \"x\"\nbased_on = \"bass\"\n[bridge]\nlength = 5.0\nradius = 1.0", &["bridge.length", "5"]),
+    ] {
+        let message = Setup::from_toml(text).expect_err(text).to_string();
+        assert!(!message.contains('\n') && words.iter().all(|word| message.contains(word)), "{message}");
+    }
+}
