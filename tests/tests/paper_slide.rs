@@ -11,14 +11,17 @@ fn a_fret_further_is_a_semitone_higher() {
     let scene = scene("figure_6");
     let mut samples = Vec::new();
     let mut force = (f64::INFINITY, 0.0f64);
+    let mut iterations = 0;
     run(&scene, |simulation, _| {
         samples.push(simulation.output() as f32);
         let finger = simulation.string(0).fingers().next().expect("there is a finger");
+        iterations = iterations.max(simulation.string(0).convergence.iterations);
         if simulation.steps() > 8820 {
             force = (force.0.min(finger.force), force.1.max(finger.force));
         }
     });
     assert!(force.0 > 0.0, "the finger leaves the string");
+    assert!(iterations < 50, "{iterations} iterations, and the paper has 50");
     let rate = scene.sample_rate;
     let part = |from: f64, to: f64| &samples[(from * rate) as usize..(to * rate) as usize];
     let before = frequency_near(part(0.25, 0.5), rate, 113.0);
