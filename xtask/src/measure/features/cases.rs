@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result};
 use low_action_dsp::curve::Curve;
+use low_action_dsp::setup::Fretting;
 use low_action_dsp::{
     Drive, EngineSettings, Gesture, Instrument, Model, Scene, Scratch, Setup, Simulation, State, Stencil,
     StringParameters, TimedGesture,
@@ -24,7 +25,7 @@ enum What {
     /// The bare string with nobody to ask what else there is: its model stepped by hand.
     ByHand,
     /// An instrument in which so many strings ring, of so many that are asked for.
-    Instrument { strings: usize, ringing: usize },
+    Instrument { strings: usize, ringing: usize, fretted: bool },
 }
 
 /// What is asked of a running scene besides its steps.
@@ -82,7 +83,7 @@ const fn asked(name: &'static str, extra: Extra) -> Case {
 
 /// An instrument with so many strings, so many of them ringing.
 const fn instrument(name: &'static str, strings: usize, ringing: usize) -> Case {
-    Case { name, over: ONE_RINGS, what: What::Instrument { strings, ringing } }
+    Case { name, over: ONE_RINGS, what: What::Instrument { strings, ringing, fretted: false } }
 }
 
 /// Everything that is measured, in the order of the table.
@@ -104,6 +105,11 @@ pub const CASES: &[Case] = &[
     instrument(ONE_RINGS, 1, 1),
     instrument(FIVE_SILENT, 6, 1),
     instrument("six strings, all ringing", 6, 6),
+    Case {
+        name: "six strings, all fretted and ringing",
+        over: ONE_RINGS,
+        what: What::Instrument { strings: 6, ringing: 6, fretted: true },
+    },
 ];
 
 impl Case {
@@ -117,7 +123,7 @@ impl Case {
         match &self.what {
             What::ByHand => prepare_by_hand(),
             What::Scene(string, rest, extra) => prepare_scene(string, rest, extra),
-            &What::Instrument { strings, ringing } => prepare_instrument(strings, ringing),
+            &What::Instrument { strings, ringing, fretted } => prepare_instrument(strings, ringing, fretted),
         }
     }
 }
@@ -163,7 +169,7 @@ fn prepare_scene(string: &str, rest: &str, extra: &Extra) -> Result<Box<dyn FnMu
 }
 
 /// The default instrument with its lowest strings, as many of which are plucked as are to ring.
-fn prepare_instrument(strings: usize, ringing: usize) -> Result<Box<dyn FnMut(usize)>> {
+fn prepare_instrument(strings: usize, ringing: usize, fretted: bool) -> Result<Box<dyn FnMut(usize)>> {
     let mut setup = Setup::builtin("electric").context("the default instrument is built in")?;
     setup.string.reverse();
     setup.string.truncate(strings);
@@ -171,6 +177,16 @@ fn prepare_instrument(strings: usize, ringing: usize) -> Result<Box<dyn FnMut(us
         EngineSettings { sample_rate: 48e3, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 };
     let mut instrument = Instrument::new(&setup, &settings)?;
     for string in 0..ringing {
+        if fretted {
+            let Fretting { touch, force, hover, landing, .. } = setup.player.fretting;
+            let position = instrument.geometry(string).finger_position(3 + string % 3);
+            for gesture in [
+                Gesture::Place { finger: 0, touch, position, clearance: hover },
+                Gesture::Press { finger: 0, force, duration: landing },
+            ] {
+                instrument.schedule(TimedGesture { time: 0, string, gesture })?;
+            }
+        }
         let gesture = Gesture::Pluck { position: 0.52, force: 0.4, duration: 0.003 };
         instrument.schedule(TimedGesture { time: 0, string, gesture })?;
     }
