@@ -1,104 +1,91 @@
-//! How long strings take, as time per sample of one string.
+//! How long strings take.
 //!
-//! The chord is the measure of the whole: all six strings of the default instrument fretted and ringing,
-//! `live` at 48 kHz. At T ns a string-sample six strings run 1e9/(48000·6·T) times faster than real time.
+//! The chord is the measure of the whole: all six strings of the default instrument fretted and ringing. At
+//! T ns a string-sample six strings run 1e9/(rate·6·T) times faster than real time. The single strings are a low
+//! E at 48 kHz with one grid, from a copy of its arrays over the shortest linear string that can be written
+//! to the whole model; their ratios are what other machines will find too. `cargo xtask measure speed` runs all
+//! this and makes the table of docs/speed.md.
+
+mod workloads;
 
 use std::hint::black_box;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use low_action_dsp::drive::Push;
-use low_action_dsp::{
-    Drive, EngineSettings, Gesture, Instrument, Model, Scratch, Setup, SolverSettings, State, Stencil,
-    StringParameters, TimedGesture,
-};
+use criterion::{BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use low_action_dsp::{Instrument, Stencil};
+use workloads::{Bare, Linear, SAMPLES, String, chord, over_frets, silent, strings_of};
 
-const RATE: f64 = 48_000.0;
-/// `live`, as the renderer and the plugin have it.
-const LIVE: EngineSettings =
-    EngineSettings { sample_rate: RATE, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 };
-/// Samples of one measurement: a tenth of a second.
-const SAMPLES: usize = 4800;
-
-/// Six strings fretted and plucked, as they ring from 0.1 s on.
-fn chord() -> Instrument {
-    let setup = Setup::builtin("electric").expect("it is built in");
-    let mut instrument = Instrument::new(&setup, &LIVE).expect("it can be built");
-    let player = &setup.player;
-    for string in 0..instrument.string_count() {
-        let geometry = instrument.geometry(string).clone();
-        let position = geometry.finger_position(3 + string % 3);
-        let touch = player.fretting.touch;
-        let away = geometry.length - player.pluck_position;
-        let force = 0.6 * player.pluck_force;
-        for gesture in [
-            Gesture::Place { finger: 0, touch, position, clearance: player.fretting.hover },
-            Gesture::Press { finger: 0, force: player.fretting.force, duration: player.fretting.landing },
-            Gesture::Pluck { position: away, force, duration: player.pluck_duration },
-        ] {
-            instrument.schedule(TimedGesture { time: 0, string, gesture }).expect("there is room");
-        }
-    }
-    let (mut left, mut right) = (vec![0.0; SAMPLES], vec![0.0; SAMPLES]);
-    instrument.process(&mut left, &mut right);
-    instrument
+/// Runs an instrument for [`SAMPLES`] samples.
+fn play(
+    group: &mut BenchmarkGroup<'_, criterion::measurement::WallTime>,
+    name: &str,
+    instrument: &Instrument,
+) {
+    group.throughput(Throughput::Elements((instrument.string_count() * SAMPLES) as u64));
+    group.bench_function(name, |bencher| {
+        let (mut left, mut right) = (vec![0.0f32; SAMPLES], vec![0.0f32; SAMPLES]);
+        bencher.iter_batched_ref(
+            || instrument.clone(),
+            |instrument| instrument.process(black_box(&mut left), black_box(&mut right)),
+            BatchSize::LargeInput,
+        );
+    });
 }
 
-/// A low E string alone, plucked, with nothing to touch.
-fn free_string(stencil: Stencil, tension_modulation: bool) -> (Model, State, Scratch, Drive) {
-    let string = StringParameters {
-        length: 0.6477,
-        linear_density: 6.8246e-3,
-        tension: 77.8,
-        tension_limit: 110.0,
-        youngs_modulus: 2.07e11,
-        core_radius: 2.286e-4,
-        loss_0: 0.285,
-        loss_1: 5.38e-4,
-        tension_modulation,
-    };
-    let settings = SolverSettings { stencil, ..SolverSettings::default() };
-    let model = Model::new(string, None, 0, settings, RATE).expect("it can be built");
-    let (mut state, mut scratch, mut drive) = (State::new(&model), Scratch::new(&model), Drive::new(&model));
-    drive.pushes.push(Push { reading: model.grid.reading(0.5), force: 1.0 });
-    for _ in 0..70 {
-        state.step(&model, &drive, &mut scratch);
-    }
-    drive.pushes.clear();
-    (model, state, scratch, drive)
+/// Steps one string for [`SAMPLES`] samples.
+fn step(group: &mut BenchmarkGroup<'_, criterion::measurement::WallTime>, name: &str, string: &String) {
+    group.throughput(Throughput::Elements(SAMPLES as u64));
+    group.bench_function(name, |bencher| {
+        bencher.iter_batched_ref(|| string.clone(), String::run, BatchSize::LargeInput);
+    });
 }
 
 fn strings(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("string-sample");
+    let mut group = criterion.benchmark_group("chord");
     group.sample_size(20);
-    group.throughput(Throughput::Elements(6 * SAMPLES as u64));
-    let ringing = chord();
-    group.bench_function("chord: six fretted strings ringing, live, 48 kHz", |bencher| {
-        let (mut left, mut right) = (vec![0.0f32; SAMPLES], vec![0.0f32; SAMPLES]);
-        bencher.iter_batched_ref(
-            || ringing.clone(),
-            |instrument| instrument.process(black_box(&mut left), black_box(&mut right)),
-            criterion::BatchSize::LargeInput,
-        );
-    });
+    for (name, rate) in [("48 kHz", 48e3), ("96 kHz", 96e3)] {
+        let (instrument, hash) = chord(rate);
+        println!("chord at {name}: its sound has the hash {hash:016x}");
+        play(&mut group, name, &instrument);
+    }
+    group.finish();
+
+    let mut group = criterion.benchmark_group("string");
+    group.sample_size(20);
+    let free = String::free(48e3, Stencil::Wide);
+    let fretted = String::fretted(48e3);
     group.throughput(Throughput::Elements(SAMPLES as u64));
-    for (name, stencil, stretch) in [
-        ("free low E, wide, tension modulation", Stencil::Wide, true),
-        ("free low E, wide", Stencil::Wide, false),
-        ("free low E, paper", Stencil::Paper, false),
-    ] {
-        let start = free_string(stencil, stretch);
-        group.bench_function(name, |bencher| {
-            bencher.iter_batched_ref(
-                || start.clone(),
-                |(model, state, scratch, drive)| {
-                    for _ in 0..SAMPLES {
-                        state.step(model, drive, scratch);
-                    }
-                    black_box(state.displacement()[0])
-                },
-                criterion::BatchSize::LargeInput,
-            );
-        });
+    let unknowns = free.model.grid.unknowns();
+    for (name, linear) in [("copy", Linear::Copied), ("bare", Linear::Stepped)] {
+        let mut bare = Bare::new(unknowns);
+        group.bench_function(name, |bencher| bencher.iter(|| black_box(&mut bare).run(linear)));
+    }
+    step(&mut group, "free", &free);
+    step(&mut group, "free, paper stencil", &String::free(48e3, Stencil::Paper));
+    step(&mut group, "fretted", &fretted);
+    step(&mut group, "free, without vectors", &free.clone().without_vectors());
+    step(&mut group, "fretted, without vectors", &fretted.without_vectors());
+    group.finish();
+
+    let mut group = criterion.benchmark_group("points");
+    group.sample_size(10);
+    for rate in [48e3, 96e3, 192e3, 384e3, 768e3] {
+        let string = String::free(rate, Stencil::Wide);
+        step(&mut group, &string.model.grid.unknowns().to_string(), &string);
+    }
+    group.finish();
+
+    let mut group = criterion.benchmark_group("strings");
+    group.sample_size(10);
+    for count in [1, 2, 4, 6] {
+        play(&mut group, &count.to_string(), &strings_of(count));
+    }
+    play(&mut group, "6 silent", &silent());
+    group.finish();
+
+    let mut group = criterion.benchmark_group("frets");
+    group.sample_size(10);
+    for count in [1, 6, 22, 100] {
+        step(&mut group, &count.to_string(), &over_frets(count));
     }
     group.finish();
 }

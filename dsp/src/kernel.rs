@@ -343,6 +343,11 @@ impl Kernel {
         Kernel { arch: Arch::new(), reach, stretch: model.stretch > 0.0, loss: model.string.loss_1 > 0.0 }
     }
 
+    /// The same passes with scalar instructions.
+    pub fn without_vectors(self) -> Self {
+        Kernel { arch: Arch::Scalar, ..self }
+    }
+
     /// Second differences v and the prediction w, with their products.
     pub fn predict(
         &self,

@@ -56,6 +56,12 @@ impl Scratch {
         }
     }
 
+    /// Has the string stepped by instructions that any processor has, from now on. The bits are the same; this
+    /// is for whoever measures what vectors are worth.
+    pub fn leave_vectors(&mut self) {
+        self.kernel = self.kernel.without_vectors();
+    }
+
     /// Back to the state of new room, without allocating.
     pub fn reset(&mut self) {
         self.active.clear();
