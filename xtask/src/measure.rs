@@ -4,8 +4,13 @@
 
 pub mod extremes;
 pub mod features;
+mod page;
+pub mod speed;
+
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
+use clap::Parser;
 
 /// One measurement.
 struct Measurement {
@@ -29,7 +34,29 @@ const MEASUREMENTS: &[Measurement] = &[
         summary: "what each element of a scene costs, in instructions and in time",
         run: features::run,
     },
+    Measurement {
+        name: "speed",
+        summary: "how fast strings are, over a bare one, by points, strings and frets",
+        run: speed::run,
+    },
 ];
+
+/// The folder of the repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Reads a measurement's arguments; nothing where they ask for help, which is then given.
+fn parse<T: Parser>(arguments: Vec<String>) -> Result<Option<T>> {
+    match T::try_parse_from(std::iter::once("measure".to_owned()).chain(arguments)) {
+        Ok(arguments) => Ok(Some(arguments)),
+        Err(error) if !error.use_stderr() => {
+            print!("{error}");
+            Ok(None)
+        }
+        Err(error) => bail!("{}", error.to_string().trim_end()),
+    }
+}
 
 /// The list of measurements, one line each.
 fn help() -> String {

@@ -4,18 +4,14 @@
 mod cases;
 mod count;
 
-use std::fs;
-use std::path::Path;
-
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use clap::Parser;
 
+use super::page;
 use cases::{BARE, CASES, Case};
 
 /// Where the table stands.
 const PAGE: &str = "docs/features.md";
-/// The lines between which it stands.
-const MARKS: [&str; 2] = ["<!-- begin: cargo xtask measure features -->", "<!-- end -->"];
 /// How far a count may be from the one in the table: compilers differ, computers hardly do.
 const AGREEMENT: f64 = 0.05;
 
@@ -53,15 +49,7 @@ struct Row {
 
 /// Runs the measurement.
 pub fn run(arguments: Vec<String>) -> Result<()> {
-    let words = std::iter::once("features".to_owned()).chain(arguments);
-    let arguments = match Arguments::try_parse_from(words) {
-        Ok(arguments) => arguments,
-        Err(error) if !error.use_stderr() => {
-            print!("{error}");
-            return Ok(());
-        }
-        Err(error) => bail!("{}", error.to_string().trim_end()),
-    };
+    let Some(arguments) = super::parse::<Arguments>(arguments)? else { return Ok(()) };
     if let Some(name) = &arguments.case {
         return count::child(name, arguments.part.as_deref() == Some("counted"));
     }
@@ -80,7 +68,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
         println!("as in {PAGE}, within {} %", 100.0 * AGREEMENT);
     }
     if arguments.write {
-        write(&table)?;
+        page::write(PAGE, "features", &table)?;
     }
     Ok(())
 }
@@ -141,10 +129,7 @@ fn check_promises(rows: &[Row]) -> Result<()> {
 
 /// The counts in the table of the documentation: name and instructions.
 fn committed() -> Result<Vec<(String, f64)>> {
-    let page = fs::read_to_string(page()).with_context(|| format!("cannot read {PAGE}"))?;
-    let [begin, end] = MARKS;
-    let inside = page.split_once(begin).and_then(|(_, rest)| rest.split_once(end));
-    let (table, _) = inside.with_context(|| format!("{PAGE} has no table between its marks"))?;
+    let table = page::read(PAGE, "features")?;
     let rows = table.lines().filter_map(|line| {
         let mut cells = line.split('|').map(str::trim);
         let (name, count) = (cells.nth(1)?, cells.next()?);
@@ -166,18 +151,4 @@ fn compare(rows: &[Row], committed: &[(String, f64)]) -> Result<()> {
         );
     }
     Ok(())
-}
-
-fn page() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(PAGE)
-}
-
-/// Puts the table into the documentation.
-fn write(table: &str) -> Result<()> {
-    let old = fs::read_to_string(page()).with_context(|| format!("cannot read {PAGE}"))?;
-    let [begin, end] = MARKS;
-    let (before, rest) = old.split_once(begin).with_context(|| format!("{PAGE} lacks `{begin}`"))?;
-    let (_, after) = rest.split_once(end).with_context(|| format!("{PAGE} lacks `{end}`"))?;
-    let new = format!("{before}{begin}\n{table}{end}{after}");
-    fs::write(page(), new).with_context(|| format!("cannot write {PAGE}"))
 }

@@ -1,0 +1,105 @@
+//! How fast strings are: the benchmarks of `dsp`, as ratios within one run.
+
+mod buzz;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+use clap::Parser;
+
+use super::page;
+
+/// Where the table stands.
+const PAGE: &str = "docs/speed.md";
+
+/// Runs the benchmarks of the physics and makes a table of their ratios.
+#[derive(Parser)]
+#[command(
+    name = "cargo xtask measure speed",
+    after_help = "Examples:\n  cargo xtask measure speed            times everything and prints the table (a few minutes)\n  \
+                  cargo xtask measure speed --write    puts it into docs/speed.md\n  \
+                  cargo xtask measure speed --last     makes the table of the last run again"
+)]
+struct Arguments {
+    /// Put the table into docs/speed.md.
+    #[arg(long)]
+    write: bool,
+    /// Do not run the benchmarks, take what the last run found.
+    #[arg(long)]
+    last: bool,
+}
+
+/// Runs the measurement.
+pub fn run(arguments: Vec<String>) -> Result<()> {
+    let Some(arguments) = super::parse::<Arguments>(arguments)? else { return Ok(()) };
+    if !arguments.last {
+        let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+            .args(["bench", "--package", "low-action-dsp"])
+            .current_dir(super::root())
+            .status()
+            .context("cargo cannot be run")?;
+        ensure!(status.success(), "the benchmarks failed");
+    }
+    let table = table()?;
+    println!("{table}");
+    if arguments.write {
+        page::write(PAGE, "speed", &table)?;
+    }
+    Ok(())
+}
+
+/// Mean time of a benchmark's iteration in the last run, ns.
+fn mean(group: &str, name: &str) -> Result<f64> {
+    let file = criterion_folder().join(group).join(name).join("new/estimates.json");
+    let text = std::fs::read_to_string(&file)
+        .with_context(|| format!("`{group}/{name}` has not been timed: {} cannot be read", file.display()))?;
+    let estimates: serde_json::Value = serde_json::from_str(&text)?;
+    let point = estimates["mean"]["point_estimate"].as_f64();
+    point.with_context(|| format!("{} has no mean", file.display()))
+}
+
+fn criterion_folder() -> PathBuf {
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| Path::new("target").into(), PathBuf::from);
+    super::root().join(target).join("criterion")
+}
+
+/// Samples of one iteration.
+const SAMPLES: f64 = 4800.0;
+
+fn table() -> Result<String> {
+    let mut text = String::from("| measure | found | aim |\n|---|--:|--:|\n");
+    let mut row = |name: &str, found: String, aim: &str| text += &format!("| {name} | {found} | {aim} |\n");
+    for (rate, khz, aim) in [(48e3, "48 kHz", "10 ×"), (96e3, "96 kHz", "3.5 ×")] {
+        let time = mean("chord", khz)? / SAMPLES;
+        let found = format!("{:.0} ns a string-sample, {:.1} × real time", time / 6.0, 1e9 / (time * rate));
+        row(&format!("six strings fretted and ringing, `live`, {khz}"), found, aim);
+    }
+    let string = |name: &str| mean("string", name);
+    let (copy, bare, free) = (string("copy")?, string("bare")?, string("free")?);
+    let fretted = string("fretted")?;
+    let times = |a: f64, b: f64| format!("{:.2} ×", a / b);
+    row("bare linear string, by hand", format!("{:.0} ns", bare / SAMPLES), "");
+    row("… over a copy of its arrays and back", times(bare, copy), "reported");
+    row("free string (`wide`, stiff, lossy, stretching) over the bare one", times(free, bare), "1.5 ×");
+    row("fretted string (a finger and two frets) over the free one", times(fretted, free), "1.9 ×");
+    let scalar = times(string("free, without vectors")?, free);
+    row("free string without vectors over with", scalar, "4 ×");
+    let scalar = times(string("fretted, without vectors")?, fretted);
+    row("fretted string without vectors over with", scalar, "4 ×");
+    let points = |count: &str| mean("points", count);
+    let growth = points("691")? / points("151")?;
+    row("free string of 691 points over one of 151 (4.58 times as many)", format!("{growth:.2} ×"), "linear");
+    row("six ringing strings over one", times(mean("strings", "6")?, mean("strings", "1")?), "6 ×");
+    row(
+        "six silent strings over one that rings",
+        times(mean("strings", "6 silent")?, mean("strings", "1")?),
+        "",
+    );
+    row("100 frets that nothing touches over one", times(mean("frets", "100")?, mean("frets", "1")?), "1 ×");
+    let buzz = buzz::iterations()?;
+    let found = format!("{:.1} × ({} and {:.2})", f64::from(buzz.most) / buzz.mean, buzz.most, buzz.mean);
+    row("heavy buzzing chord: Newton iterations of the worst sample over the mean", found, "6 ×");
+    Ok(text)
+}
