@@ -24,6 +24,7 @@ pub struct SceneFigure {
     samples: u64,
     step: f64,
     strings: Vec<StringRecord>,
+    string_count: usize,
     energies: [Course; 5],
     explained: Course,
     balance: f64,
@@ -82,6 +83,7 @@ impl SceneFigure {
             samples,
             step: 1.0 / simulation.sample_rate(),
             strings: strings.collect::<Result<_>>()?,
+            string_count: simulation.strings().len(),
             energies: std::array::from_fn(|_| course()),
             explained: course(),
             balance: opened,
@@ -162,9 +164,11 @@ impl SceneFigure {
         high = fingers.min(high + 0.5 * (high - low));
         let margin = 0.08 * (high - low).max(1e-9);
         let length = record.ground.length;
-        let title = match self.strings.len() {
+        let title = match self.string_count {
             1 => "The string at moments evenly through the scene, from light to dark".to_owned(),
-            _ => format!("String {number} at moments evenly through the scene, from light to dark"),
+            count => {
+                format!("String {number} of {count} at moments evenly through the scene, from light to dark")
+            }
         };
         let every = record.reach.len().div_ceil(1000).max(1);
         let reach = record.reach.iter().step_by(every).map(|&(x, low, high)| (x, 1e3 * low, 1e3 * high));

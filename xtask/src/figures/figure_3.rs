@@ -11,7 +11,7 @@ use low_action_figures::{Axis, Course, Layer, Panel, Sheet, Stroke};
 use super::Made;
 use super::figure_2::SCENE;
 use super::page::{Claim, Section};
-use super::running::{Repository, run, shortened};
+use super::running::{Repository, listen, run, shortened};
 
 /// Length of the runs, s: 8820 steps. The deepest contacts come in the first periods.
 const DURATION: f64 = 0.1;
@@ -84,7 +84,10 @@ pub fn make(repository: &Repository) -> Result<Made> {
         .map(|power| observe(&scene, libm::exp10(f64::from(power)), exponent))
         .collect::<Result<_>>()?;
     let picture = draw(&scene, &outcomes)?;
-    Ok(Made { picture, section: Some(section(&scene, &outcomes)?), sounds: Vec::new() })
+    let mut soft = with_law(&scene, 1e9, exponent)?;
+    soft.duration = scene.duration;
+    let sounds = vec![listen("paper_figure_3_soft_frets", &soft)?];
+    Ok(Made { picture, section: Some(section(&scene, &outcomes)?), sounds })
 }
 
 fn draw(scene: &Scene, outcomes: &[Outcome]) -> Result<String> {

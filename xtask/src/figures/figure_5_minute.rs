@@ -11,6 +11,7 @@ use super::Made;
 use super::figure_5::SCENE;
 use super::page::{Claim, Section};
 use super::running::{Repository, run, shortened};
+use super::sound::Sound;
 
 /// Length of the long run, s.
 const MINUTE: f64 = 60.0;
@@ -25,14 +26,20 @@ struct Minute {
     /// Samples with contact, and the largest force of a contact, N.
     contacts: u64,
     hardest: f64,
+    /// What is heard of the last [`HEARD`] seconds.
+    sound: Vec<f64>,
 }
+
+/// Length of the sound, s.
+const HEARD: f64 = 3.0;
 
 impl Minute {
     fn observe(scene: &Scene) -> Result<Minute> {
         let samples = (scene.duration * scene.sample_rate) as u64;
         let mut courses = [0, 1, 2].map(|_| Course::new(samples, BINS));
         let (mut first, mut solver, mut rounding) = (None, 0.0, 0.0);
-        let (mut contacts, mut hardest) = (0, 0.0f64);
+        let (mut contacts, mut hardest, mut sound) = (0, 0.0f64, Vec::new());
+        let heard = samples - (HEARD * scene.sample_rate) as u64;
         run(scene, |simulation, entry| {
             let total = entry.energies.total();
             let first = *first.get_or_insert(total);
@@ -41,11 +48,14 @@ impl Minute {
             rounding += if simulation.steps() > 1 { entry.residual } else { 0.0 };
             let parts = [total / first - 1.0, solver / first, rounding / first];
             courses.iter_mut().zip(parts).for_each(|(course, part)| course.add(part));
+            if simulation.steps() > heard {
+                sound.push(simulation.output());
+            }
             let string = simulation.string(0);
             contacts += u64::from(string.convergence.active > 0);
             hardest = string.scratch.forces().map(|(_, force)| force).fold(hardest, f64::max);
         })?;
-        Ok(Minute { courses, contacts, hardest })
+        Ok(Minute { courses, contacts, hardest, sound })
     }
 
     /// The largest variation of each course.
@@ -94,7 +104,9 @@ pub fn make(repository: &Repository) -> Result<Made> {
             significant(minute.hardest, 2),
             significant(scene.solver.tolerance * minute.hardest / first, 2)
         ));
-    Ok(Made { picture, section: Some(section), sounds: Vec::new() })
+    let name = "paper_figure_5_minute".to_owned();
+    let sounds = vec![Sound { name, rate: scene.sample_rate as u32, samples: minute.sound }];
+    Ok(Made { picture, section: Some(section), sounds })
 }
 
 fn draw(scene: &Scene, minute: &Minute, finer: &Minute) -> Result<String> {

@@ -8,7 +8,7 @@ use low_action_figures::{Axis, Layer, Panel, Sheet, Stroke};
 
 use super::Made;
 use super::page::{Claim, Section};
-use super::running::{Repository, run, shortened};
+use super::running::{Repository, listen, run, shortened};
 
 /// The scenes, with what they are called, their length, s, and their lines.
 const SCENES: [(&str, &str, f64, Stroke); 3] = [
@@ -73,8 +73,11 @@ pub fn make(repository: &Repository) -> Result<Made> {
         scene.solver.tolerance = tolerance;
         runs.push(CAPS.iter().map(|cap| observe(&scene, *cap)).collect::<Result<Vec<_>>>()?);
     }
-    let picture = draw(&repository.scene(SCENES[2].1)?, &runs)?;
-    Ok(Made { picture, section: Some(section(&runs, &coarse)), sounds: Vec::new() })
+    let slide = repository.scene(SCENES[2].1)?;
+    let mut capped = slide.clone();
+    capped.solver.max_iterations = 4;
+    let sounds = vec![listen("paper_iterations_cap_4", &capped)?];
+    Ok(Made { picture: draw(&slide, &runs)?, section: Some(section(&runs, &coarse)), sounds })
 }
 
 fn draw(scene: &Scene, runs: &[Vec<Run>]) -> Result<String> {

@@ -189,7 +189,7 @@ Each figure starts from a scene file in [`scenes/paper`](../scenes/paper). Copy 
 and look:
 
 ```sh
-low-action scene my.toml --figure my.svg --wav my.wav --trace my.npz
+low-action scene my.toml --figure my.svg --wav my.wav --trace my.npz --every 8
 ```
 
 ```python

@@ -72,6 +72,7 @@ pub fn make(repository: &Repository) -> Result<Made> {
 fn strummed(scene: &Scene) -> Scene {
     let mut strummed = Scene { duration: 3.0, ..scene.clone() };
     strummed.string.truncate(6);
+    strummed.string.iter_mut().for_each(|string| string.shape = None);
     strummed.output.position = ListeningPoint::Bridge;
     strummed.pluck = (0..6)
         .map(|string| low_action_dsp::scene::PluckSpec {
