@@ -1,6 +1,6 @@
 //! Figure 2: a string over a fretboard after a weak and a strong pluck.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use low_action_dsp::Scene;
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;
@@ -97,6 +97,7 @@ fn observe(scene: &Scene) -> Result<Outcome> {
 pub fn make(repository: &Repository) -> Result<Made> {
     let scene = repository.scene(SCENE)?;
     let (weak, strong) = (observe(&plucked(&scene, 0.5))?, observe(&plucked(&scene, 1.0))?);
+    ensure!(strong.profiles.len() == MOMENTS.len(), "the scene must last beyond the moments shown");
     let ground = Ground::under(&scene, 0)?;
     let sound = |name, force| listen(name, &plucked(&scene, force));
     let sounds = vec![sound("paper_figure_2_weak", 0.5)?, sound("paper_figure_2_strong", 1.0)?];

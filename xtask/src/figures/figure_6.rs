@@ -1,6 +1,6 @@
 //! Figure 6: a finger under constant force slides across a fret.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use low_action_dsp::Scene;
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;
@@ -68,6 +68,7 @@ pub fn make(repository: &Repository) -> Result<Made> {
     let sound = listen("paper_figure_6", &scene)?;
     let pitches = pitch::course(&sound.samples, scene.sample_rate, 90.0..135.0);
     let ground = Ground::under(&scene, 0)?;
+    ensure!(ground.crowns.len() >= FRET, "the scene must have {FRET} frets");
     let picture = draw(&scene, &ground, &slide, &pitches)?;
     let section = section(&scene, &ground, &slide, &pitches)?;
     Ok(Made { picture, section: Some(section), sounds: vec![sound] })
