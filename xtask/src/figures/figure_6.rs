@@ -97,7 +97,7 @@ fn draw(scene: &Scene, ground: &Ground, slide: &Slide, pitches: &[(f64, f64)]) -
     .with(Layer::line(
         "fret",
         Stroke::new(colour::METAL).dashed(),
-        vec![(0.0, crown), (scene.duration, crown)],
+        vec![(0.4, crown), (0.9, crown)],
     ))
     .with(Layer::line("lowest point", Stroke::thin(colour::BLUE), slide.lowest.clone()))
     .with(Layer::line("finger", Stroke::new(colour::GREEN), slide.finger.clone()));
