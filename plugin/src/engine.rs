@@ -242,6 +242,11 @@ impl Engine {
         }
     }
 
+    /// Whether a string sounds a key of a channel that has not been let go of.
+    pub fn sounds(&self, channel: u8, key: u8) -> bool {
+        self.performance.sounds(channel, key)
+    }
+
     /// Number of strings, and so of stems.
     pub fn string_count(&self) -> usize {
         self.instrument.string_count()

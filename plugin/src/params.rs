@@ -11,6 +11,7 @@ use nice_plug::prelude::*;
 pub use choices::{InputChoice, InstrumentChoice, QualityChoice, RenderChoice};
 
 use crate::engine::EngineOptions;
+use crate::plugin::state::Marked;
 
 /// Strings that have a tuning parameter of their own; those beyond stay as the set-up has them.
 pub const TUNED_STRINGS: usize = 8;
@@ -18,6 +19,9 @@ pub const TUNED_STRINGS: usize = 8;
 /// Everything a host can set, automate and save, in the groups in which hosts show it.
 #[derive(Params)]
 pub struct LowActionParams {
+    /// Whose state a session saves, and in which form.
+    #[persist = "state"]
+    pub mark: Marked,
     /// What is played, and how exactly.
     #[nested(group = "Instrument")]
     pub instrument: InstrumentParams,
@@ -175,6 +179,7 @@ const FINE_STEP: f32 = 0.1;
 impl Default for LowActionParams {
     fn default() -> Self {
         Self {
+            mark: Marked,
             instrument: InstrumentParams::default(),
             setup: SetupParams::default(),
             strings: std::array::from_fn(StringParams::new),

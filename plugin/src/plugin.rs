@@ -12,6 +12,7 @@ mod level;
 pub mod meters;
 mod order;
 mod playing;
+pub mod state;
 mod workshop;
 
 use std::sync::Arc;
@@ -26,6 +27,9 @@ use playing::Playing;
 
 /// Strings that have an output of their own, where a host asks for them.
 const STRING_OUTPUTS: usize = crate::params::TUNED_STRINGS;
+
+/// Notes that can sound at once at most: one a string, and set-ups have at most so many.
+const MOST_VOICES: u32 = 32;
 
 /// The plugin as a host sees it.
 pub struct LowAction {
@@ -96,11 +100,15 @@ impl Plugin for LowAction {
         self.params.clone()
     }
 
+    fn filter_state(state: &mut PluginState) {
+        state::admit(state);
+    }
+
     fn activate(
         &mut self,
         _layout: &AudioIOLayout,
         buffers: &BufferConfig,
-        _context: &mut impl ActivateContext<Self>,
+        context: &mut impl ActivateContext<Self>,
     ) -> bool {
         let offline = buffers.process_mode == ProcessMode::Offline;
         let order = Order::of(&self.params, buffers.sample_rate, offline);
@@ -117,6 +125,9 @@ impl Plugin for LowAction {
                     return false;
                 }
             },
+        }
+        if let Some(playing) = &self.playing {
+            context.set_current_voice_capacity(playing.string_count());
         }
         true
     }
@@ -156,6 +167,7 @@ impl Plugin for LowAction {
         playing.play(&self.params, left, right, &mut stems[..count]);
         self.output.shape(&self.params.output, left, right, &mut stems[..count]);
         self.meters.see_output(left, right);
+        playing.end_voices(|event| context.try_send_event(event).is_ok());
         playing.stop_clock(started, left.len(), self.params.instrument.relax.value());
         playing.status()
     }
@@ -169,6 +181,12 @@ impl ClapPlugin for LowAction {
     const CLAP_SUPPORT_URL: Option<&'static str> = None;
     const CLAP_FEATURES: &'static [ClapFeature] =
         &[ClapFeature::Instrument, ClapFeature::Synthesizer, ClapFeature::Stereo];
+
+    const CLAP_POLY_MODULATION_CONFIG: Option<PolyModulationConfig> = Some(PolyModulationConfig {
+        max_voice_capacity: MOST_VOICES,
+        // A key struck again is the same string plucked again.
+        supports_overlapping_voices: false,
+    });
 
     fn remote_controls(&self, context: &mut impl RemoteControlsContext) {
         order::remote_controls(&self.params, context);

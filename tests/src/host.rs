@@ -146,10 +146,19 @@ impl Host {
         let mut ports = AudioPorts::with_capacity(2, 1);
         let mut block_sizes = blocks.iter().cycle();
         let mut start = 0;
+        let mut running = None;
         while start < length {
             let size = *block_sizes.next().expect("a cycle has no end") as usize;
             let end = length.min(start + size);
             let events = events_between(score, start as u64, end as u64);
+            let block_transport = running.map(|running| transport(0, running));
+            for &(at, action) in score {
+                if let Action::Transport(playing) = action
+                    && (start as u64..end as u64).contains(&at)
+                {
+                    running = Some(playing);
+                }
+            }
             let mut buffers = ports.with_output_buffers([AudioPortBuffer {
                 latency: 0,
                 channels: AudioPortBufferType::f32_output_only(
@@ -163,7 +172,7 @@ impl Host {
                     &events.as_input(),
                     &mut OutputEvents::void(),
                     Some(start as u64),
-                    None,
+                    block_transport.as_ref(),
                 )
                 .expect("processing succeeds");
             // A plugin put to sleep between a note and its first sound would lose the note.

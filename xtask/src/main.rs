@@ -3,6 +3,7 @@
 //! Each command is one entry of [`COMMANDS`]; a command that outgrows a few lines gets a module.
 
 mod figures;
+mod hosts;
 
 use std::process::ExitCode;
 
@@ -43,6 +44,12 @@ const COMMANDS: &[Command] = &[
         summary: "draws the pictures of the documentation, or those named, and writes docs/paper.md; \
                   with --quick compares them with what is there",
         run: |arguments| figures::run(&arguments),
+    },
+    Command {
+        name: "hosts",
+        arguments: "[dawdreamer] [pedalboard]",
+        summary: "bundles the plugin and compares what hosts play through it with what is rendered",
+        run: |names| hosts::run(&names),
     },
     Command {
         name: "measure",

@@ -292,6 +292,11 @@ impl Performance {
         }
     }
 
+    /// Whether a string sounds a key of a channel, held or kept by a pedal.
+    pub fn sounds(&self, channel: u8, key: u8) -> bool {
+        self.strings.iter().any(|string| string.sounds(channel, key))
+    }
+
     /// What could not be played as written so far.
     pub fn compromises(&self) -> Compromises {
         self.compromises

@@ -34,6 +34,34 @@ impl Voices {
         self.next = (self.next + 1) % REMEMBERED;
     }
 
+    /// Forgets the notes that sound no more and those struck again under another number, telling of each.
+    pub fn end(&mut self, sounds: impl Fn(u8, u8) -> bool, send: &mut impl FnMut(NoteEvent<()>) -> bool) {
+        for index in 0..REMEMBERED {
+            let Some((id, channel, key)) = self.notes[index] else { continue };
+            if sounds(channel, key) && self.latest(channel, key) == Some(id) {
+                continue;
+            }
+            let ended = NoteEvent::VoiceTerminated {
+                timing: 0,
+                voice_id: VoiceID::ID(id),
+                channel: Channel::Number(channel),
+                key: Key::Number(key),
+            };
+            // A host whose queue is full is told after the next block.
+            if send(ended) {
+                self.notes[index] = None;
+            }
+        }
+    }
+
+    /// Number of the latest note of a key.
+    fn latest(&self, channel: u8, key: u8) -> Option<i32> {
+        (1..=REMEMBERED)
+            .filter_map(|back| self.notes[(self.next + REMEMBERED - back) % REMEMBERED])
+            .find(|note| (note.1, note.2) == (channel, key))
+            .map(|(id, ..)| id)
+    }
+
     /// Channel and key of a note; the latest if its number was used again.
     fn find(&self, id: i32) -> Option<(u8, u8)> {
         (1..=REMEMBERED)

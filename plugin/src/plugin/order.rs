@@ -81,7 +81,7 @@ pub(super) fn input(params: &LowActionParams) -> InputMode {
 
 /// Pages of eight knobs, the most played ones first.
 pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl RemoteControlsContext) {
-    let LowActionParams { instrument, setup, strings, player, control, output } = params;
+    let LowActionParams { instrument, setup, strings, player, control, output, .. } = params;
     context.add_section("Low Action", |section| {
         section.add_page("Play", |page| {
             page.add_param(&player.pluck_position);

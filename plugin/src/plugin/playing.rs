@@ -184,6 +184,17 @@ impl Playing {
         }
     }
 
+    /// Tells the host which of its notes have ended; `send` says whether it took that in.
+    pub fn end_voices(&mut self, mut send: impl FnMut(NoteEvent<()>) -> bool) {
+        let engine = &self.engine;
+        self.voices.end(|channel, key| engine.sounds(channel, key), &mut send);
+    }
+
+    /// Number of strings.
+    pub fn string_count(&self) -> u32 {
+        self.engine.string_count() as u32
+    }
+
     /// Begins to measure a block, in real time.
     pub fn start_clock(&self) -> Option<Instant> {
         (!self.offline).then(Instant::now)

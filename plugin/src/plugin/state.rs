@@ -1,0 +1,110 @@
+//! What a session saves, and what is taken back out of one.
+//!
+//! The framework writes parameters by identifier, as the values hosts show. Beside them stands a mark: whose
+//! state it is, and in which version of its form. A state of somebody else's, or of a form that is newer
+//! than this program, is refused as a whole and what was set stays; an older one is brought up to date here;
+//! values that are out of range are brought back into it.
+
+use std::collections::BTreeMap;
+
+use nice_plug::params::persist::PersistentField;
+use nice_plug::plugin::ParamValue;
+use nice_plug::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::params::LowActionParams;
+
+/// The form in which states are saved now. It grows when an older program could not read them rightly.
+const VERSION: u32 = 1;
+/// Whose state it is.
+const OWNER: &str = "low-action";
+/// Under which name the mark is saved.
+pub(crate) const MARK: &str = "state";
+/// The parameters of the form before there was a mark.
+const UNMARKED: [&str; 3] = ["instrument", "variation", "level"];
+
+/// The mark of a saved state.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Mark {
+    owner: String,
+    version: u32,
+}
+
+impl Default for Mark {
+    fn default() -> Self {
+        Self { owner: OWNER.into(), version: VERSION }
+    }
+}
+
+/// Saves the mark; there is nothing to take back from one.
+#[derive(Debug, Default)]
+pub struct Marked;
+
+impl<'a> PersistentField<'a, Mark> for Marked {
+    fn set(&self, _mark: Mark) {}
+
+    fn map<F, R>(&self, read: F) -> R
+    where
+        F: Fn(&Mark) -> R,
+    {
+        read(&Mark::default())
+    }
+}
+
+/// Makes of a saved state what can be loaded: all of it, brought up to date, or nothing.
+pub(super) fn admit(state: &mut PluginState) {
+    match judge(&state.fields, &state.params) {
+        Ok(()) => bring_into_range(&mut state.params),
+        Err(reason) => {
+            nice_error!("the saved state is refused, and everything stays as it is: {reason}");
+            state.params.clear();
+            state.fields.clear();
+        }
+    }
+}
+
+/// Whether a state is one of ours that this program can read.
+fn judge(fields: &BTreeMap<String, String>, params: &BTreeMap<String, ParamValue>) -> Result<(), String> {
+    let Some(mark) = fields.get(MARK) else {
+        // The first form had no mark: it can be told by its few parameters.
+        let ours = !params.is_empty() && params.keys().all(|id| UNMARKED.contains(&id.as_str()));
+        return if ours { Ok(()) } else { Err("it is not Low Action's".into()) };
+    };
+    let mark: Mark = serde_json::from_str(mark).map_err(|_| "its mark cannot be read".to_owned())?;
+    if mark.owner != OWNER {
+        return Err(format!("it is {}'s", mark.owner));
+    }
+    if mark.version > VERSION {
+        return Err(format!("its form {} is newer than this program's {VERSION}", mark.version));
+    }
+    Ok(())
+}
+
+/// Brings every number into the range of its parameter, and replaces a set-up that is not there any more by
+/// the usual one.
+fn bring_into_range(values: &mut BTreeMap<String, ParamValue>) {
+    let params = LowActionParams::default();
+    for (id, param, _) in params.param_map() {
+        let Some(value) = values.get_mut(&id) else { continue };
+        match (param, value) {
+            (ParamPtr::FloatParam(param), ParamValue::F32(value)) => {
+                // SAFETY: the pointer leads into `params`, which lives on.
+                let param = unsafe { &*param };
+                let (low, high) = (param.preview_plain(0.0), param.preview_plain(1.0));
+                *value = if value.is_finite() { value.clamp(low, high) } else { param.default_plain_value() };
+            }
+            (ParamPtr::IntParam(param), ParamValue::I32(value)) => {
+                // SAFETY: the pointer leads into `params`, which lives on.
+                let param = unsafe { &*param };
+                *value = (*value).clamp(param.preview_plain(0.0), param.preview_plain(1.0));
+            }
+            _ => {}
+        }
+    }
+    if let Some(ParamValue::String(name)) = values.get_mut("instrument")
+        && !crate::params::InstrumentChoice::ids().is_some_and(|ids| ids.contains(&name.as_str()))
+    {
+        nice_error!("the set-up {name:?} is not there: the usual one is played instead");
+        "electric".clone_into(name);
+    }
+}

@@ -1,0 +1,169 @@
+//! Promise: what hosts and keyboards say about single notes and channels is heard on those notes and channels,
+//! and on no others.
+
+use clack_host::events::event_types::NoteExpressionType;
+use low_action_tests::host::{Action, Host, Score, parameter};
+use low_action_tests::pitch::{cents, frequency_near};
+
+const RATE: f64 = 48_000.0;
+const LENGTH: usize = 36_000;
+
+fn on(at: u64, channel: u8, key: u8) -> (u64, Action) {
+    (at, Action::NoteOn { channel, key, velocity: 90 })
+}
+
+fn midi(at: u64, bytes: [u8; 3]) -> (u64, Action) {
+    (at, Action::Midi(bytes))
+}
+
+fn express(at: u64, what: NoteExpressionType, key: u8, value: f64) -> (u64, Action) {
+    (at, Action::Express { what, channel: 0, key, value })
+}
+
+/// The left channel, with plucks that are all alike.
+fn play(mut score: Score) -> Vec<f32> {
+    let mut host = Host::new();
+    host.play(RATE, &vec![(0, Action::Parameter(parameter("variation"), 0.0))], 64, &[64]);
+    score.sort_by_key(|&(at, _)| at);
+    let [left, _] = host.play(RATE, &score, LENGTH, &[512]);
+    left
+}
+
+/// How far the last half second is above a key, cents.
+fn above(sound: &[f32], key: f64) -> f64 {
+    let frequency = 440.0 * ((key - 69.0) / 12.0).exp2();
+    cents(frequency_near(&sound[LENGTH - 24_000..], RATE, frequency), frequency)
+}
+
+fn rms(sound: &[f32]) -> f64 {
+    (sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / sound.len() as f64).sqrt()
+}
+
+fn brightness(sound: &[f32]) -> f64 {
+    let differences: Vec<f32> = sound.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    rms(&differences) / rms(sound)
+}
+
+#[test]
+fn tuning_and_pressure_raise_the_note() {
+    let straight = above(&play(vec![on(0, 0, 48)]), 48.0);
+    let tuned = play(vec![on(0, 0, 48), express(0, NoteExpressionType::Tuning, 48, 1.0)]);
+    assert!((above(&tuned, 49.0) - straight).abs() < 3.0);
+    let later = play(vec![on(0, 0, 48), express(6000, NoteExpressionType::Tuning, 48, -1.0)]);
+    assert!((above(&later, 47.0) - straight).abs() < 3.0);
+    let pressed = play(vec![on(0, 0, 48), express(6000, NoteExpressionType::Pressure, 48, 1.0)]);
+    assert!(above(&pressed, 48.0) > straight + 1.0, "{} and {straight}", above(&pressed, 48.0));
+    let channel = play(vec![on(0, 0, 48), midi(6000, [0xD0, 127, 0])]);
+    assert!((above(&channel, 48.0) - above(&pressed, 48.0)).abs() < 0.1);
+    // Somebody else's key.
+    let other = play(vec![on(0, 0, 48), express(6000, NoteExpressionType::Pressure, 50, 1.0)]);
+    assert_eq!(other, play(vec![on(0, 0, 48)]));
+}
+
+#[test]
+fn brightness_and_controller_74_move_the_pluck() {
+    let usual = play(vec![on(0, 0, 45)]);
+    let bright = play(vec![on(0, 0, 45), express(0, NoteExpressionType::Brightness, 45, 1.0)]);
+    let dull = play(vec![on(0, 0, 45), express(0, NoteExpressionType::Brightness, 45, 0.0)]);
+    let [b, u, d] = [&bright, &usual, &dull].map(|sound| brightness(&sound[240..9600]));
+    assert!(b > 1.2 * u && d < 0.95 * u, "{b}, {u}, {d}");
+    // For notes to come, on its own channel.
+    let controlled = play(vec![midi(0, [0xB0, 74, 0]), on(0, 0, 45)]);
+    assert_eq!(controlled, dull);
+    assert_eq!(play(vec![midi(0, [0xB1, 74, 0]), on(0, 0, 45)]), usual);
+}
+
+#[test]
+fn vibrato_swings() {
+    let usual = play(vec![on(0, 0, 45)]);
+    let swung = play(vec![on(0, 0, 45), midi(100, [0xB0, 1, 127])]);
+    // At its deepest half a semitone either way: the pitch of tenths of a second differs.
+    let pitches = |sound: &[f32]| -> Vec<f64> {
+        sound[12_000..]
+            .chunks_exact(4000)
+            .map(|part| cents(frequency_near(part, RATE, 220.0), 220.0))
+            .collect()
+    };
+    let spread = |pitches: &[f64]| {
+        let most = pitches.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        most - pitches.iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    assert!(spread(&pitches(&usual)) < 6.0, "{:?}", pitches(&usual));
+    assert!(spread(&pitches(&swung)) > 20.0, "{:?}", pitches(&swung));
+}
+
+#[test]
+fn a_note_can_have_a_parameter_for_itself() {
+    let two = || vec![on(0, 0, 45), on(0, 0, 62)];
+    let usual = play(two());
+    let modulated = |key: u8| {
+        let modulation = Action::Modulate { parameter: parameter("pluck_force"), key, amount: -0.4 };
+        play([two(), vec![(0, modulation)]].concat())
+    };
+    // Both notes are heard in the mix; the one that is modulated is softer, the other as it was.
+    let partial = |sound: &[f32], frequency: f64| {
+        let turn = std::f64::consts::TAU * frequency / RATE;
+        let sum = |wave: fn(f64) -> f64| -> f64 {
+            sound[4800..].iter().enumerate().map(|(i, x)| f64::from(*x) * wave(turn * i as f64)).sum()
+        };
+        sum(f64::sin).hypot(sum(f64::cos))
+    };
+    let ratio = |key, frequency| partial(&modulated(key), frequency) / partial(&usual, frequency);
+    assert!(ratio(45, 110.0) < 0.4 && (ratio(45, 293.66) - 1.0).abs() < 0.2);
+    assert!(ratio(62, 293.66) < 0.6 && (ratio(62, 110.0) - 1.0).abs() < 0.05);
+}
+
+#[test]
+fn mpe_bends_by_48_semitones_and_all_by_two() {
+    // A keyboard announces fifteen member channels on channel 1.
+    let announce = [(101, 0), (100, 6), (6, 15)].map(|(number, value)| midi(0, [0xB0, number, value]));
+    let wheel = |channel: u8, at: u64, semitones: f64, reach: f64| {
+        let value = (8192.0 + semitones / reach * 8192.0).round().min(16_383.0) as u16;
+        midi(at, [0xE0 | channel, (value & 127) as u8, (value >> 7) as u8])
+    };
+    let straight = above(&play([announce.to_vec(), vec![on(10, 3, 48)]].concat()), 48.0);
+    for (score, semitones) in [
+        (vec![wheel(3, 10, 1.0, 48.0)], 1.0),
+        (vec![wheel(0, 10, 1.0, 2.0)], 1.0),
+        (vec![wheel(3, 10, 7.0, 48.0)], 7.0),
+        (vec![wheel(3, 10, 1.0, 48.0), wheel(0, 10, -2.0, 2.0)], -1.0),
+        (vec![wheel(5, 10, 7.0, 48.0)], 0.0),
+    ] {
+        let sound = play([announce.to_vec(), vec![on(10, 3, 48)], score].concat());
+        let off = above(&sound, 48.0 + semitones) - straight;
+        // A wheel of 14 bits over 96 semitones has steps of half a cent; slides end at the fret's own pitch.
+        assert!(off.abs() < 3.0, "{semitones} semitones: {off} cents");
+    }
+}
+
+#[test]
+fn pedals_keep_what_they_should() {
+    let off = |at| (at, Action::NoteOff { channel: 0, key: 45 });
+    let sounds = |score: Score| rms(&play(score)[30_000..]) > 1e-3;
+    assert!(!sounds(vec![on(0, 0, 45), off(6000)]));
+    assert!(sounds(vec![midi(0, [0xB0, 64, 127]), on(0, 0, 45), off(6000)]));
+    assert!(!sounds(vec![midi(0, [0xB1, 64, 127]), on(0, 0, 45), off(6000)]));
+    // Sostenuto keeps what sounds when it goes down, and nothing that comes later.
+    assert!(sounds(vec![on(0, 0, 45), midi(3000, [0xB0, 66, 127]), off(6000)]));
+    assert!(!sounds(vec![midi(0, [0xB0, 66, 127]), on(100, 0, 45), off(6000)]));
+    assert!(!sounds(vec![on(0, 0, 45), midi(3000, [0xB0, 66, 127]), off(6000), midi(9000, [0xB0, 66, 0])]));
+    // These always work.
+    for controller in [120, 121, 123] {
+        let pedal = if controller == 123 { 0 } else { 127 };
+        let score =
+            vec![midi(0, [0xB0, 64, pedal]), on(0, 0, 45), off(6000), midi(9000, [0xB0, controller, 0])];
+        assert!(!sounds(score), "controller {controller}");
+    }
+}
+
+#[test]
+fn expression_is_a_factor_of_the_force() {
+    let usual = rms(&play(vec![on(0, 0, 45)])[480..]);
+    let half = rms(&play(vec![midi(0, [0xB0, 11, 64]), on(0, 0, 45)])[480..]);
+    let quarter = rms(&play(vec![midi(0, [0xB0, 11, 64]), midi(0, [0xB0, 2, 64]), on(0, 0, 45)])[480..]);
+    // Nearly: a harder pluck stretches the string and may touch a fret.
+    assert!(
+        (half / usual - 0.5).abs() < 0.1 && (quarter / usual - 0.25).abs() < 0.07,
+        "{usual} {half} {quarter}"
+    );
+}

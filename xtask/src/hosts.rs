@@ -1,0 +1,104 @@
+//! `cargo xtask hosts`: the VST3 bundle played by hosts that others wrote.
+//!
+//! DawDreamer and pedalboard (Python packages, pinned, in a virtual environment made under `target`) play a
+//! clip through the bundle. The sound must be that of `low-action render`, sample for sample after a
+//! constant shift, to 1e-4 of its size: pitch, onset and level then agree far below what is heard. So that
+//! this can fail, the same hosts play the clip with a note taken away, and that must not pass.
+//!
+//! Where Python or the packages cannot be had the command says so and passes over them; under `CI=true`
+//! that is a failure.
+
+mod clip;
+mod compare;
+mod python;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+
+use compare::{Comparison, Sound};
+
+/// Hz, at which everything is played; a tick of the clip is a whole number of samples there.
+const RATE: u32 = 48_000;
+/// Length of what is compared, s: the clip and a second of its tail.
+const SECONDS: u32 = 5;
+/// Largest relative RMS difference from the rendering: 80 dB below the sound.
+const TOLERANCE: f64 = 1e-4;
+
+/// Hosts, by the name of their script.
+const HOSTS: [&str; 2] = ["dawdreamer", "pedalboard"];
+
+/// Runs the command.
+pub fn run(arguments: &[String]) -> Result<()> {
+    let hosts: Vec<&str> = match arguments {
+        [] => HOSTS.to_vec(),
+        named => named.iter().map(|name| known(name)).collect::<Result<_>>()?,
+    };
+    let folder = repository().join("target/hosts");
+    fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    let python = match python::environment(&folder) {
+        Ok(python) => python,
+        Err(error) if std::env::var("CI").as_deref() == Ok("true") => {
+            return Err(error.context("the hosts cannot be had, and under CI=true they must"));
+        }
+        Err(error) => {
+            eprintln!("passed over: the hosts cannot be had: {error:#}");
+            return Ok(());
+        }
+    };
+    let plugin = bundle()?;
+    let clips = [("clip", None), ("without_a_note", Some(clip::TAKEN_AWAY))];
+    for (name, without) in clips {
+        fs::write(folder.join(name).with_extension("mid"), clip::midi(without))?;
+    }
+    let rendering = render(&folder, "clip")?;
+    for host in hosts {
+        // Loading the plugin takes pedalboard half a minute, so one run plays both.
+        let played = python.play(host, &plugin, &folder, &clips.map(|(name, _)| name), RATE, SECONDS)?;
+        let comparisons: Vec<Comparison> =
+            played.iter().map(|sound| compare::compare(&rendering, sound)).collect();
+        println!("{host}: {}", comparisons[0]);
+        comparisons[0].accept(TOLERANCE).with_context(|| format!("{host} does not play what is rendered"))?;
+        println!("{host}, a note taken away: {}", comparisons[1]);
+        if comparisons[1].accept(TOLERANCE).is_ok() {
+            bail!("{host}: a note was taken away and nobody noticed");
+        }
+    }
+    Ok(())
+}
+
+fn known(name: &str) -> Result<&'static str> {
+    let found = HOSTS.into_iter().find(|host| *host == name);
+    found.with_context(|| format!("unknown host {name:?}: there are {}", HOSTS.join(" and ")))
+}
+
+/// The root of the repository.
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the chores are a folder of the repository").into()
+}
+
+/// Builds the VST3 bundle.
+fn bundle() -> Result<PathBuf> {
+    let words = ["bundle", "low-action", "--release"].map(str::to_owned);
+    nice_plug_xtask::main_with_args("cargo xtask", words)?;
+    Ok(repository().join("target/bundled/Low Action.vst3"))
+}
+
+/// Renders a clip with the command line.
+fn render(folder: &Path, clip: &str) -> Result<Sound> {
+    let (song, sound) = (folder.join(clip).with_extension("mid"), folder.join("rendered.wav"));
+    let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        .current_dir(repository())
+        .args(["run", "--release", "--quiet", "-p", "low-action", "--", "render"])
+        .arg(&song)
+        .arg("--output")
+        .arg(&sound)
+        .args(["--sample-rate", &RATE.to_string(), "--bit-depth", "32f", "--tail", &SECONDS.to_string()])
+        .status()?;
+    if !status.success() {
+        bail!("low-action render ended with {status}");
+    }
+    Sound::from_wav(&sound, (RATE * SECONDS) as usize)
+}
