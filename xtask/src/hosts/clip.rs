@@ -7,17 +7,18 @@ const TICKS: u16 = 480;
 /// Which note-on of the clip is taken away to see whether the comparison notices.
 pub(super) const TAKEN_AWAY: u8 = 64;
 
-/// When, in ticks, and the bytes of each message.
+/// When, in ticks, and the bytes of each message. Notes come at any time. VST3 knows controllers as parameters,
+/// and hosts built with JUCE pass them on at the start of a block: those stand at every 256th tick, where
+/// blocks of 512 samples begin.
 const MESSAGES: &[(u32, [u8; 3])] = &[
     (240, [0x90, 45, 100]),
     (480, [0x90, 52, 90]),
     (720, [0x90, 64, 70]),
-    (800, [0xB0, 64, 127]),
+    (768, [0xB0, 64, 127]),
     (960, [0x80, 45, 0]),
-    (1000, [0xE0, 0, 80]),
-    (1040, [0xE0, 0, 96]),
-    (1200, [0xE0, 0, 64]),
-    (1300, [0xB0, 64, 0]),
+    (1024, [0xE0, 0, 96]),
+    (1280, [0xE0, 0, 64]),
+    (1280, [0xB0, 64, 0]),
     (1400, [0x80, 52, 0]),
     (1440, [0x80, 64, 0]),
     (1500, [0x90, 57, 120]),
