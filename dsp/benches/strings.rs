@@ -12,7 +12,7 @@ use std::hint::black_box;
 
 use criterion::{BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use low_action_dsp::{Instrument, Stencil};
-use workloads::{Bare, Linear, SAMPLES, String, chord, over_frets, silent, strings_of};
+use workloads::{Bare, Linear, OneString, SAMPLES, chord, over_frets, silent, strings_of};
 
 /// Runs an instrument for [`SAMPLES`] samples.
 fn play(
@@ -32,10 +32,10 @@ fn play(
 }
 
 /// Steps one string for [`SAMPLES`] samples.
-fn step(group: &mut BenchmarkGroup<'_, criterion::measurement::WallTime>, name: &str, string: &String) {
+fn step(group: &mut BenchmarkGroup<'_, criterion::measurement::WallTime>, name: &str, string: &OneString) {
     group.throughput(Throughput::Elements(SAMPLES as u64));
     group.bench_function(name, |bencher| {
-        bencher.iter_batched_ref(|| string.clone(), String::run, BatchSize::LargeInput);
+        bencher.iter_batched_ref(|| string.clone(), OneString::run, BatchSize::LargeInput);
     });
 }
 
@@ -51,8 +51,8 @@ fn strings(criterion: &mut Criterion) {
 
     let mut group = criterion.benchmark_group("string");
     group.sample_size(20);
-    let free = String::free(48e3, Stencil::Wide);
-    let fretted = String::fretted(48e3);
+    let free = OneString::free(48e3, Stencil::Wide);
+    let fretted = OneString::fretted(48e3);
     group.throughput(Throughput::Elements(SAMPLES as u64));
     let unknowns = free.model.grid.unknowns();
     for (name, linear) in [("copy", Linear::Copied), ("bare", Linear::Stepped)] {
@@ -60,7 +60,7 @@ fn strings(criterion: &mut Criterion) {
         group.bench_function(name, |bencher| bencher.iter(|| black_box(&mut bare).run(linear)));
     }
     step(&mut group, "free", &free);
-    step(&mut group, "free, paper stencil", &String::free(48e3, Stencil::Paper));
+    step(&mut group, "free, paper stencil", &OneString::free(48e3, Stencil::Paper));
     step(&mut group, "fretted", &fretted);
     step(&mut group, "free, without vectors", &free.clone().without_vectors());
     step(&mut group, "fretted, without vectors", &fretted.without_vectors());
@@ -69,7 +69,7 @@ fn strings(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("points");
     group.sample_size(10);
     for rate in [48e3, 96e3, 192e3, 384e3, 768e3] {
-        let string = String::free(rate, Stencil::Wide);
+        let string = OneString::free(rate, Stencil::Wide);
         step(&mut group, &string.model.grid.unknowns().to_string(), &string);
     }
     group.finish();

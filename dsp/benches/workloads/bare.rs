@@ -29,8 +29,8 @@ impl Bare {
     pub fn new(unknowns: usize) -> Self {
         let room = unknowns.div_ceil(LANES) * LANES + 2 * LANES;
         let mut displacement = vec![0.0; room];
-        for point in 1..=unknowns {
-            displacement[point] = 1e-3 * point.min(unknowns + 1 - point) as f64 / unknowns as f64;
+        for (point, height) in displacement.iter_mut().enumerate().skip(1).take(unknowns) {
+            *height = 1e-3 * point.min(unknowns + 1 - point) as f64 / unknowns as f64;
         }
         Bare { arch: Arch::new(), displacement, motion: vec![0.0; room], unknowns }
     }

@@ -6,7 +6,7 @@ mod strings;
 
 pub use bare::{Bare, Linear};
 pub use instruments::{chord, silent, strings_of};
-pub use strings::{String, over_frets};
+pub use strings::{OneString, over_frets};
 
 /// Samples of one measurement: a tenth of a second at 48 kHz.
 pub const SAMPLES: usize = 4800;

@@ -12,7 +12,7 @@ use super::SAMPLES;
 
 /// A string under way.
 #[derive(Clone)]
-pub struct String {
+pub struct OneString {
     /// Its coefficients.
     pub model: Model,
     state: State,
@@ -32,7 +32,7 @@ const LOW_E: StringParameters = StringParameters {
     tension_modulation: true,
 };
 
-impl String {
+impl OneString {
     /// Plucked and ringing, with nothing to touch.
     pub fn free(rate: f64, stencil: Stencil) -> Self {
         let mut string = Self::new(rate, stencil, None, 0);
@@ -64,7 +64,7 @@ impl String {
         let settings = SolverSettings { stencil, max_iterations: 20, tolerance: 1e-12 };
         let model = Model::new(LOW_E, barrier, fingers, settings, rate).expect("it can be built");
         let (state, scratch, drive) = (State::new(&model), Scratch::new(&model), Drive::new(&model));
-        String { model, state, scratch, drive }
+        OneString { model, state, scratch, drive }
     }
 
     /// A push of 3 ms, and as long until the first waves are everywhere.
@@ -95,7 +95,7 @@ impl String {
 }
 
 /// A free string over so many frets that it never reaches.
-pub fn over_frets(count: usize) -> String {
+pub fn over_frets(count: usize) -> OneString {
     let setup = Setup::builtin("electric").expect("it is built in");
     let neck = Neck { fret_height: 1e-3, ..setup.neck };
     let frets: Vec<f64> = (1..=count).map(|fret| 0.5 * LOW_E.length * fret as f64 / count as f64).collect();
@@ -104,7 +104,7 @@ pub fn over_frets(count: usize) -> String {
     for fret in &mut barrier.frets {
         fret[1] = -0.02;
     }
-    let mut string = String::new(48e3, Stencil::Wide, Some(&barrier), 0);
+    let mut string = OneString::new(48e3, Stencil::Wide, Some(&barrier), 0);
     string.pluck(0.5);
     string
 }

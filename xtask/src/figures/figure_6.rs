@@ -94,11 +94,7 @@ fn draw(scene: &Scene, ground: &Ground, slide: &Slide, pitches: &[(f64, f64)]) -
     let places = Panel::new("Where the finger is, and the lowest point of the string", during, {
         Axis::linear("place, m from the nut", 0.145..0.195).ticks(6)
     })
-    .with(Layer::line(
-        "fret",
-        Stroke::new(colour::METAL).dashed(),
-        vec![(0.4, crown), (0.9, crown)],
-    ))
+    .with(Layer::line("fret", Stroke::new(colour::METAL).dashed(), vec![(0.4, crown), (0.9, crown)]))
     .with(Layer::line("lowest point", Stroke::thin(colour::BLUE), slide.lowest.clone()))
     .with(Layer::line("finger", Stroke::new(colour::GREEN), slide.finger.clone()));
     let pitch = Panel::new(
