@@ -118,7 +118,7 @@ impl Plugin for LowAction {
             // Hosts activate often, and building takes a tenth of a second: the same order is the same
             // engine, silent and at its first sample again.
             Some(playing) if playing.is(&order) => playing.reset(offline),
-            playing => match Playing::new(order, offline, buffers.max_buffer_size, self.meters.clone()) {
+            playing => match Playing::new(order, offline, self.meters.clone()) {
                 Ok(new) => *playing = Some(new),
                 Err(error) => {
                     nice_error!("{error}");

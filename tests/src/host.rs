@@ -2,11 +2,12 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use clack_extensions::audio_ports_config::PluginAudioPortsConfig;
 use clack_extensions::render::{PluginRender, RenderMode};
 use clack_extensions::state::PluginState;
 use clack_host::events::event_types::{
-    MidiEvent, NoteChokeEvent, NoteExpressionEvent, NoteExpressionType, NoteOffEvent, NoteOnEvent,
-    ParamModEvent, ParamValueEvent, TransportEvent, TransportFlags,
+    MidiEvent, NoteChokeEvent, NoteEndEvent, NoteExpressionEvent, NoteExpressionType, NoteOffEvent,
+    NoteOnEvent, ParamModEvent, ParamValueEvent, TransportEvent, TransportFlags,
 };
 use clack_host::events::{EventFlags, EventHeader};
 use clack_host::prelude::*;
@@ -92,6 +93,16 @@ impl HostHandlers for Handlers {
     type AudioProcessor<'a> = ();
 }
 
+/// What came out of the plugin.
+pub struct Performed {
+    /// Both channels.
+    pub stereo: [Vec<f32>; 2],
+    /// The mono outputs.
+    pub stems: Vec<Vec<f32>>,
+    /// Keys of the notes that the plugin says have ended, and the end of the block in which it said so.
+    pub ended: Vec<(u64, u8)>,
+}
+
 /// The plugin, loaded and ready to be activated.
 pub struct Host {
     instance: PluginInstance<Handlers>,
@@ -136,14 +147,29 @@ impl Host {
     /// Activates the plugin at a sample rate in Hz, plays the score for `length` samples in blocks of the
     /// given sizes (repeated as often as needed), deactivates it, and gives back both channels.
     pub fn play(&mut self, sample_rate: f64, score: &Score, length: usize, blocks: &[u32]) -> [Vec<f32>; 2] {
+        let Performed { stereo, .. } = self.perform(sample_rate, score, length, blocks, 0);
+        stereo
+    }
+
+    /// The same with so many mono outputs beside the stereo one; gives back all that came out.
+    pub fn perform(
+        &mut self,
+        sample_rate: f64,
+        score: &Score,
+        length: usize,
+        blocks: &[u32],
+        strings: usize,
+    ) -> Performed {
         let largest = blocks.iter().copied().max().expect("there is a block size");
         let configuration =
             PluginAudioConfiguration { sample_rate, min_frames_count: 1, max_frames_count: largest };
         let stopped = self.instance.activate(|_, _| (), configuration).expect("the plugin activates");
         let mut processor = stopped.start_processing().expect("processing starts");
 
-        let mut output = [vec![0.0; length], vec![0.0; length]];
-        let mut ports = AudioPorts::with_capacity(2, 1);
+        let mut stereo = [vec![0.0; length], vec![0.0; length]];
+        let mut stems = vec![vec![0.0; length]; strings];
+        let mut ended = Vec::new();
+        let mut ports = AudioPorts::with_capacity(2 + strings, 1 + strings);
         let mut block_sizes = blocks.iter().cycle();
         let mut start = 0;
         let mut running = None;
@@ -159,28 +185,42 @@ impl Host {
                     running = Some(playing);
                 }
             }
-            let mut buffers = ports.with_output_buffers([AudioPortBuffer {
+            let mut parts: Vec<Vec<&mut [f32]>> =
+                vec![stereo.iter_mut().map(|channel| &mut channel[start..end]).collect()];
+            parts.extend(stems.iter_mut().map(|channel| vec![&mut channel[start..end]]));
+            let mut buffers = ports.with_output_buffers(parts.into_iter().map(|channels| AudioPortBuffer {
                 latency: 0,
-                channels: AudioPortBufferType::f32_output_only(
-                    output.iter_mut().map(|channel| &mut channel[start..end]),
-                ),
-            }]);
+                channels: AudioPortBufferType::f32_output_only(channels.into_iter()),
+            }));
+            let mut said = EventBuffer::with_capacity(256);
             let status = processor
                 .process(
                     &InputAudioBuffers::empty(),
                     &mut buffers,
                     &events.as_input(),
-                    &mut OutputEvents::void(),
+                    &mut said.as_output(),
                     Some(start as u64),
                     block_transport.as_ref(),
                 )
                 .expect("processing succeeds");
             // A plugin put to sleep between a note and its first sound would lose the note.
             assert_eq!(status, ProcessStatus::Continue);
+            ended.extend(
+                said.iter()
+                    .filter_map(|event| event.as_event::<NoteEndEvent>())
+                    .filter_map(|event| event.pckn().key.into_specific().map(|key| (end as u64, key as u8))),
+            );
             start = end;
         }
         self.instance.deactivate(processor.stop_processing());
-        output
+        Performed { stereo, stems, ended }
+    }
+
+    /// Chooses one of the plugin's port layouts; counts from the next activation on.
+    pub fn choose_ports(&mut self, layout: u32) {
+        let handle = self.instance.plugin_handle();
+        let layouts = handle.get_extension::<PluginAudioPortsConfig>().expect("there are layouts");
+        layouts.select(&handle, ClapId::new(layout)).expect("the layout can be chosen");
     }
 
     /// Tells the plugin how it is going to be run; counts from the next activation on.

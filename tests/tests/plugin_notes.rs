@@ -167,3 +167,19 @@ fn expression_is_a_factor_of_the_force() {
         "{usual} {half} {quarter}"
     );
 }
+
+#[test]
+fn hosts_hear_when_a_note_has_ended() {
+    let score = vec![
+        on(0, 0, 45),
+        on(100, 0, 62),
+        (6000, Action::NoteOff { channel: 0, key: 45 }),
+        // Struck again while it sounds: the same string, and so the same note goes on.
+        on(12_000, 0, 62),
+        (18_000, Action::NoteOff { channel: 0, key: 62 }),
+    ];
+    let ended = Host::new().perform(RATE, &score, LENGTH, &[512], 0).ended;
+    let times = |key| ended.iter().filter(|(_, other)| *other == key).map(|(at, _)| *at).collect::<Vec<_>>();
+    assert_eq!(times(45), [6144]);
+    assert!(times(62).last().is_some_and(|&at| at == 18_432), "{:?}", times(62));
+}

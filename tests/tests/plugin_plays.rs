@@ -184,6 +184,33 @@ fn no_variation_is_exact() {
 }
 
 #[test]
+fn strings_have_outputs_of_their_own() {
+    let mut host = Host::new();
+    host.choose_ports(1);
+    let found = host.perform(RATE, &score(), 24_000, &[480, 33], 8);
+    let mut engine = Engine::new(&options("electric", RATE)).expect("the built-in set-up is sound");
+    for (at, action) in score() {
+        engine.event(at as u32, player_event(action));
+    }
+    let mut stems = vec![vec![0.0; 24_000]; engine.string_count()];
+    let mut parts: Vec<&mut [f32]> = stems.iter_mut().map(|stem| &mut stem[..]).collect();
+    let mut stereo = [vec![0.0; 24_000], vec![0.0; 24_000]];
+    let [left, right] = &mut stereo;
+    engine.process_stems(&mut parts, left, right);
+    assert_same_bits(&stereo, &found.stereo, "with outputs for strings");
+    assert!(stems == found.stems[..6], "the strings' own outputs differ");
+    assert!(stems.iter().filter(|stem| rms(stem) > 1e-3).count() >= 3);
+    // There is no seventh string.
+    assert!(found.stems[6..].iter().flatten().all(|&sample| sample == 0.0));
+}
+
+#[test]
+fn silence_is_silence() {
+    let [left, right] = Host::new().play(RATE, &Score::new(), 48_000, &[512]);
+    assert!(left.iter().chain(&right).all(|&sample| sample == 0.0));
+}
+
+#[test]
 fn other_sample_rates_play_too() {
     let score = vec![(0, Action::NoteOn { channel: 0, key: 57, velocity: 100 })];
     for rate in [8000.0, 44_100.0, 96_000.0, 192_000.0] {

@@ -40,12 +40,7 @@ pub(super) struct Playing {
 
 impl Playing {
     /// Builds the engine and opens the workshop; allocates.
-    pub fn new(
-        order: Order,
-        offline: bool,
-        _largest_block: u32,
-        meters: Arc<Meters>,
-    ) -> Result<Self, String> {
+    pub fn new(order: Order, offline: bool, meters: Arc<Meters>) -> Result<Self, String> {
         let engine = Engine::new(&order.options()?).map_err(|error| error.to_string())?;
         let workshop = Workshop::open().map_err(|error| format!("cannot start a thread: {error}"))?;
         Ok(Self {
