@@ -1,0 +1,129 @@
+//! What channels mean, and what controllers and note expressions do to the strings.
+
+use super::channel::{Channel, Request, pressure_factor};
+use super::technique::BRIGHTNESS_REACH;
+use super::{Expression, GestureSink, Performance, Struck};
+
+/// What the channels of notes mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum InputMode {
+    /// MPE once a keyboard announces it by registered parameter 6, a keyboard until then.
+    #[default]
+    Auto,
+    /// The player picks string and fret for every note.
+    Keyboard,
+    /// Each string has a channel, the first string this one (0 to 15), the next one the next.
+    Strings {
+        /// Channel of the first string.
+        first: u8,
+    },
+    /// Each note has a channel of its own; channel 0 acts on all.
+    Mpe,
+}
+
+/// Semitones of a full turn of the wheel in MPE, while no other range is announced: of a note's own
+/// channel, and of the one that bends all.
+const MPE_RANGES: (f64, f64) = (48.0, 2.0);
+/// The channel that acts on all in MPE.
+const MANAGER: u8 = 0;
+
+impl Performance {
+    /// Whether channel 0 acts on the notes of all.
+    pub(super) fn is_mpe(&self) -> bool {
+        let announced = self.channels[usize::from(MANAGER)].members.is_some_and(|members| members > 0);
+        self.input == InputMode::Mpe || (self.input == InputMode::Auto && announced)
+    }
+
+    /// Whether a pedal keeps the notes of a channel.
+    pub(super) fn pedal(&self, channel: u8) -> bool {
+        self.channels[usize::from(channel)].pedal
+            || (self.is_mpe() && self.channels[usize::from(MANAGER)].pedal)
+    }
+
+    /// Bend by the wheels that act on a channel, semitones.
+    pub(super) fn bend(&self, channel: u8) -> f64 {
+        let own = &self.channels[usize::from(channel)];
+        if !self.is_mpe() {
+            return own.bend(None);
+        }
+        let all = self.channels[usize::from(MANAGER)].bend(Some(MPE_RANGES.1));
+        if channel == MANAGER { all } else { own.bend(Some(MPE_RANGES.0)) + all }
+    }
+
+    /// Changes a channel's state and carries the consequences to the strings.
+    pub(super) fn control(
+        &mut self,
+        number: u8,
+        change: impl FnOnce(&mut Channel) -> Request,
+        out: &mut impl GestureSink,
+    ) {
+        let Some(channel) = self.channels.get_mut(usize::from(number)) else { return };
+        let request = change(channel);
+        let manner = channel.manner;
+        let (time, acts_on_all) = (self.now, self.is_mpe() && number == MANAGER);
+        for index in 0..self.strings.len() {
+            let Some(channel) = self.strings[index].channel().filter(|&own| own == number || acts_on_all)
+            else {
+                continue;
+            };
+            let (pedal, bend) = (self.pedal(channel), self.bend(channel));
+            let string = &mut self.strings[index];
+            match request {
+                Request::None => {}
+                Request::PedalUp if pedal => {}
+                Request::PedalUp => string.pedal_up(time, channel),
+                Request::Catch => string.catch(channel),
+                Request::LetFall => string.let_fall(time, channel, pedal),
+                Request::Bend => string.bend(time, channel, bend),
+                Request::Press => string.press(time, manner.pressure, out),
+                Request::Swing => string.swing(time, manner.vibrato),
+                Request::ReleaseKeys => string.release_channel(time, channel, pedal),
+                Request::Silence => string.silence(time, Some(channel)),
+                Request::Reset => {
+                    string.let_fall(time, channel, pedal);
+                    string.pedal_up(time, channel);
+                    string.bend(time, channel, bend);
+                    string.press(time, manner.pressure, out);
+                    string.swing(time, manner.vibrato);
+                }
+            }
+        }
+    }
+
+    /// Something changes about one note.
+    pub(super) fn express(
+        &mut self,
+        channel: u8,
+        key: u8,
+        expression: Expression,
+        out: &mut impl GestureSink,
+    ) {
+        let value = |value: f32| if value.is_finite() { f64::from(value) } else { 0.0 };
+        let struck =
+            self.chord.iter_mut().find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
+        if let Some(Struck { manner, .. }) = struck {
+            match expression {
+                Expression::Tuning(semitones) => manner.tuning = value(semitones),
+                Expression::Pressure(pressure) => manner.pressure = pressure_factor(pressure),
+                Expression::Brightness(part) => {
+                    manner.place = (1.0 - 2.0 * value(part).clamp(0.0, 1.0)) * BRIGHTNESS_REACH;
+                }
+                Expression::Vibrato(depth) => manner.vibrato = value(depth).clamp(0.0, 1.0),
+                Expression::PluckPlace(metres) => manner.place = value(metres),
+                Expression::PluckForce(factor) => manner.force = value(factor).clamp(0.0, 100.0),
+                Expression::FingerForce(factor) => manner.pressure = value(factor).clamp(0.0, 100.0),
+            }
+            return;
+        }
+        let time = self.now;
+        let Some(string) = self.strings.iter_mut().find(|string| string.sounds(channel, key)) else { return };
+        match expression {
+            Expression::Tuning(semitones) => string.tune(time, value(semitones)),
+            Expression::Pressure(pressure) => string.press(time, pressure_factor(pressure), out),
+            Expression::FingerForce(factor) => string.press(time, value(factor).clamp(0.0, 100.0), out),
+            Expression::Vibrato(depth) => string.swing(time, value(depth).clamp(0.0, 1.0)),
+            // It has been plucked already.
+            Expression::Brightness(_) | Expression::PluckPlace(_) | Expression::PluckForce(_) => {}
+        }
+    }
+}
