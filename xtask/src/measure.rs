@@ -6,6 +6,7 @@ pub mod extremes;
 pub mod features;
 mod page;
 pub mod speed;
+pub mod trade;
 
 use std::path::{Path, PathBuf};
 
@@ -38,6 +39,11 @@ const MEASUREMENTS: &[Measurement] = &[
         name: "speed",
         summary: "how fast strings are, over a bare one, by points, strings and frets",
         run: speed::run,
+    },
+    Measurement {
+        name: "trade",
+        summary: "what rates, stencils, caps, tolerances and contact laws cost, and what they buy",
+        run: trade::run,
     },
 ];
 

@@ -1,0 +1,118 @@
+//! The Pareto front: error over cost, and why energy is no measure of it.
+
+use anyhow::Result;
+use low_action_dsp::Stencil;
+use low_action_figures::style::colour;
+use low_action_figures::{Axis as Scale, Layer, Panel, Sheet, Stroke};
+
+use super::Outcome;
+use super::scenes::{Kind, SCENES};
+use super::settings::{Axis, Setting, settings, stencil_name};
+use super::table::{mean_time, of};
+
+/// The stencils with their lines.
+const STENCILS: [(Stencil, Stroke); 3] = [
+    (Stencil::Paper, Stroke::new(colour::ORANGE)),
+    (Stencil::Corrected, Stroke::new(colour::GREEN)),
+    (Stencil::Wide, Stroke::new(colour::BLUE)),
+];
+
+/// Something that can go wrong, for the vertical axis: title, label, range, scenes, and what it is.
+type Wrong = (&'static str, &'static str, [f64; 2], &'static [Kind], fn(&Outcome) -> f64);
+
+const ALL: &[Kind] = &[Kind::Open, Kind::Pressed, Kind::BuzzingLight, Kind::BuzzingHeavy, Kind::Mixed];
+/// What is drawn over the cost.
+const ERRORS: [Wrong; 4] = [
+    ("Partials of open strings up to 4 kHz", "largest error, cents", [1e-3, 1e2], &[Kind::Open], |o| {
+        o.errors.partials
+    }),
+    ("Waveform from the pluck to the first contact", "largest error, %", [1.0, 1e2], ALL, |o| {
+        100.0 * o.errors.waveform
+    }),
+    ("Contact impulses of stopped strings", "largest error, %", [1e-2, 1e1], &[Kind::Pressed], |o| {
+        100.0 * o.errors.impulses
+    }),
+    (
+        "Contact impulses of buzzing strings",
+        "largest error, %",
+        [1.0, 1e3],
+        &[Kind::BuzzingLight, Kind::BuzzingHeavy],
+        |o| 100.0 * o.errors.impulses,
+    ),
+];
+
+/// The largest error of a kind of a setting.
+fn largest((_, _, _, kinds, value): &Wrong, setting: &Setting, outcomes: &[Outcome]) -> f64 {
+    let seen = of(setting, outcomes).filter(|outcome| kinds.contains(&SCENES[outcome.scene].kind));
+    seen.map(value).fold(0.0, f64::max)
+}
+
+/// Cost of a string, % of a core.
+fn cost(setting: &Setting, outcomes: &[Outcome]) -> f64 {
+    1e-7 * mean_time(setting, outcomes) * setting.rate
+}
+
+/// Draws it.
+pub fn draw(outcomes: &[Outcome]) -> Result<String> {
+    let mut panels: Vec<Panel> = ERRORS.iter().map(|wrong| front(wrong, outcomes)).collect();
+    let below = panels.split_off(2);
+    let caption = "Each dot is one sample rate with one stencil; the number is the rate in kHz. Lines join the rates \
+                   of a stencil; the broken line is the front: for each price the smallest error. Cost: the mean over \
+                   all scenes on the machine that wrote the tables. Error: that of the worst scene against the reference. \
+                   Below: every row of the first two tables, with the largest part of the energy booked to the solver in any scene.";
+    Sheet::new("What accuracy costs", caption)
+        .row(1200, panels)
+        .row(1200, below)
+        .row(1200, vec![energy(outcomes)])
+        .draw()
+}
+
+fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
+    let (title, label, [low, high], ..) = wrong;
+    let x = Scale::log("cost of a string, % of a core", 1.0..100.0).ticks(4);
+    let mut panel = Panel::new(*title, x, Scale::log(*label, *low..*high).ticks(6));
+    let grid = settings(Axis::Grid);
+    let place = |setting: &Setting| (cost(setting, outcomes), largest(wrong, setting, outcomes));
+    let mut best: Vec<(f64, f64)> = grid.iter().map(place).collect();
+    best.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut least = f64::INFINITY;
+    best.retain(|(_, error)| {
+        let better = *error < least;
+        least = least.min(*error);
+        better
+    });
+    panel = panel.with(Layer::line("front", Stroke::thin(colour::INK).dashed(), best));
+    for (stencil, stroke) in STENCILS {
+        let own: Vec<&Setting> = grid.iter().filter(|setting| setting.stencil == stencil).collect();
+        let points: Vec<(f64, f64)> = own.iter().map(|setting| place(setting)).collect();
+        panel = panel.with(Layer::line(stencil_name(stencil), stroke, points.clone()));
+        panel = panel.with(Layer::dots("", stroke, points.clone()));
+        if stencil == Stencil::Wide {
+            let words = own.iter().zip(points).map(|(setting, at)| {
+                // A little above the dot; two neighbours would stand in each other's way.
+                let above = if setting.rate < 48e3 { 0.12 } else { 0.06 };
+                let height = at.1 * (high / low).powf(above);
+                Layer::words((at.0 * 1.02, height), format!("{}", setting.rate / 1e3))
+            });
+            panel = panel.with_all(words.collect::<Vec<_>>());
+        }
+    }
+    panel
+}
+
+/// Waveform error over energy booked to the solver: neither tells the other.
+fn energy(outcomes: &[Outcome]) -> Panel {
+    let x = Scale::log("energy booked to the solver, part of the largest energy", 1e-14..1.0).ticks(8);
+    let y = Scale::log("largest error of the waveform, %", 1.0..1e2).ticks(3);
+    let booked =
+        |setting: &Setting| of(setting, outcomes).map(|outcome| outcome.booked.abs()).fold(1e-14, f64::max);
+    let place = |setting: &Setting| (booked(setting), largest(&ERRORS[1], setting, outcomes));
+    let mut panel = Panel::new("Energy conserved is not accuracy", x, y);
+    for (axis, name, stroke) in [
+        (Axis::Grid, "rates and stencils, solved to 1e-12 m", Stroke::new(colour::BLUE)),
+        (Axis::Solver, "caps and tolerances, wide", Stroke::new(colour::VERMILION)),
+    ] {
+        panel = panel.with(Layer::dots(name, stroke, settings(axis).iter().map(place).collect()));
+    }
+    panel
+}

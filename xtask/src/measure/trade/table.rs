@@ -1,0 +1,262 @@
+//! The tables of the page, and their comparison with what was committed.
+
+use anyhow::{Context, Result, ensure};
+
+use super::Outcome;
+use super::scenes::{Kind, SCENES};
+use super::settings::{Axis, LIVE, Setting, settings};
+
+/// How a column is compared.
+#[derive(Clone, Copy)]
+struct Agreement {
+    /// How far a number may be from the one in the table, as a part of it.
+    part: f64,
+    /// And how far at least, in the unit of the column.
+    least: f64,
+}
+
+/// Errors of what does not depend on how strings bounce change with the scheme alone: a solver that is
+/// exact to another last digit does not move them.
+const SMOOTH: Agreement = Agreement { part: 0.1, least: 0.05 };
+/// A string that bounces forgets within some contacts where it came from: another last digit is another
+/// bounce. The figures then differ as much as between contact laws of neighbouring exponents, by up to half.
+const BOUNCING: Agreement = Agreement { part: 0.6, least: 2.0 };
+
+/// One column of errors: what it is called, of which scenes, what, and how it is compared.
+struct Column {
+    name: &'static str,
+    of: fn(&Outcome) -> f64,
+    kinds: &'static [Kind],
+    median: bool,
+    agreement: Agreement,
+}
+
+const ALL: &[Kind] = &[Kind::Open, Kind::Pressed, Kind::BuzzingLight, Kind::BuzzingHeavy, Kind::Mixed];
+
+/// A column of the largest error over scenes of some kinds.
+const fn worst(
+    name: &'static str,
+    kinds: &'static [Kind],
+    of: fn(&Outcome) -> f64,
+    agreement: Agreement,
+) -> Column {
+    Column { name, of, kinds, median: false, agreement }
+}
+
+/// A column of the median over all scenes.
+const fn median(name: &'static str, of: fn(&Outcome) -> f64, agreement: Agreement) -> Column {
+    Column { name, of, kinds: ALL, median: true, agreement }
+}
+
+const COLUMNS: &[Column] = &[
+    median("waveform, median, %", |o| 100.0 * o.errors.waveform, SMOOTH),
+    worst("worst, %", ALL, |o| 100.0 * o.errors.waveform, SMOOTH),
+    worst("pitch, stopped, cents", &[Kind::Pressed], |o| o.errors.pitch, SMOOTH),
+    worst("partials, open, cents", &[Kind::Open], |o| o.errors.partials, SMOOTH),
+    worst("partials, stopped, cents", &[Kind::Pressed], |o| o.errors.partials, SMOOTH),
+    worst("decay, open, %", &[Kind::Open], |o| 100.0 * o.errors.decay, SMOOTH),
+    worst("impulses, stopped, %", &[Kind::Pressed], |o| 100.0 * o.errors.impulses, SMOOTH),
+    worst("buzzing, light, %", &[Kind::BuzzingLight], |o| 100.0 * o.errors.impulses, BOUNCING),
+    worst("buzzing, heavy, %", &[Kind::BuzzingHeavy], |o| 100.0 * o.errors.impulses, BOUNCING),
+    worst("bridge, worst, %", ALL, |o| 100.0 * o.errors.level, BOUNCING),
+    median("spectrum, median, dB", |o| o.errors.spectrum, BOUNCING),
+    worst("spectrum, worst, dB", ALL, |o| o.errors.spectrum, BOUNCING),
+];
+
+impl Column {
+    /// Its number for a setting.
+    fn value(&self, setting: &Setting, outcomes: &[Outcome]) -> f64 {
+        let these = outcomes.iter().filter(|outcome| outcome.setting == *setting);
+        let kind = |outcome: &&Outcome| self.kinds.contains(&SCENES[outcome.scene].kind);
+        let mut values: Vec<f64> = these.filter(kind).map(self.of).filter(|value| !value.is_nan()).collect();
+        values.sort_by(f64::total_cmp);
+        let place = if self.median { values.len() / 2 } else { values.len().saturating_sub(1) };
+        values.get(place).copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// A number with about three digits, always written out so that it can be read again.
+fn plain(value: f64) -> String {
+    match value {
+        value if value.is_nan() => "–".into(),
+        value if value.abs() < 0.995 => format!("{value:.3}"),
+        value if value.abs() < 9.95 => format!("{value:.2}"),
+        value if value.abs() < 99.5 => format!("{value:.1}"),
+        value => format!("{value:.0}"),
+    }
+}
+
+fn head(names: impl IntoIterator<Item = String>) -> String {
+    let names: Vec<String> = names.into_iter().collect();
+    format!("| | {} |\n|---|{}\n", names.join(" | "), "--:|".repeat(names.len()))
+}
+
+/// Errors, a row for each setting.
+pub fn accuracy(axis: Axis, settings: &[Setting], outcomes: &[Outcome]) -> String {
+    let mut text = head(COLUMNS.iter().map(|column| column.name.to_owned()));
+    for setting in settings {
+        let cells: Vec<String> =
+            COLUMNS.iter().map(|column| plain(column.value(setting, outcomes))).collect();
+        text += &format!("| {} | {} |\n", setting.name(axis), cells.join(" | "));
+    }
+    text
+}
+
+/// The mean time of a setting over scenes, ns per sample and string.
+pub fn mean_time(setting: &Setting, outcomes: &[Outcome]) -> f64 {
+    let times: Vec<f64> = of(setting, outcomes).filter_map(|outcome| outcome.time).collect();
+    times.iter().sum::<f64>() / times.len() as f64
+}
+
+/// All outcomes of a setting.
+pub fn of<'a>(setting: &Setting, outcomes: &'a [Outcome]) -> impl Iterator<Item = &'a Outcome> {
+    outcomes.iter().filter(move |outcome| outcome.setting == *setting)
+}
+
+/// Cost and energy, a row for each setting.
+fn cost(axis: Axis, outcomes: &[Outcome]) -> String {
+    let names = [
+        "ns per string-sample",
+        "dearest scene",
+        "of a core, a string, %",
+        "iterations at most",
+        "fallbacks, %",
+        "energy booked, at most",
+        "deepest, µm",
+    ];
+    let mut text = head(names.map(str::to_owned));
+    for setting in &settings(axis) {
+        let most = |value: fn(&Outcome) -> f64| of(setting, outcomes).map(value).fold(0.0f64, f64::max);
+        let time = mean_time(setting, outcomes);
+        text += &format!(
+            "| {} | {time:.0} | {:.0} | {:.2} | {} | {} | {:.0e} | {} |\n",
+            setting.name(axis),
+            most(|outcome| outcome.time.unwrap_or(f64::NAN)),
+            1e-7 * time * setting.rate,
+            most(|outcome| f64::from(outcome.iterations)),
+            plain(100.0 * most(|outcome| outcome.fallbacks)),
+            most(|outcome| outcome.booked.abs()),
+            plain(1e6 * most(|outcome| outcome.penetration[0])),
+        );
+    }
+    text
+}
+
+/// Everything of one setting, a row for each scene.
+fn by_scene(setting: &Setting, outcomes: &[Outcome]) -> String {
+    let names = [
+        "ns",
+        "iterations at most",
+        "energy booked",
+        "deepest, µm (reference)",
+        "waveform, %",
+        "pitch, cents",
+        "partials, cents",
+        "decay, %",
+        "impulses, %",
+        "bridge, %",
+        "spectrum, dB",
+    ];
+    let mut text = head(names.map(str::to_owned));
+    for outcome in of(setting, outcomes) {
+        let errors = &outcome.errors;
+        let [deepest, reference] = outcome.penetration.map(|depth| plain(1e6 * depth));
+        let cells = [
+            100.0 * errors.waveform,
+            errors.pitch,
+            errors.partials,
+            100.0 * errors.decay,
+            100.0 * errors.impulses,
+            100.0 * errors.level,
+            errors.spectrum,
+        ];
+        text += &format!(
+            "| {} | {:.0} | {} | {:.0e} | {deepest} ({reference}) | {} |\n",
+            SCENES[outcome.scene].name,
+            outcome.time.unwrap_or(f64::NAN),
+            outcome.iterations,
+            outcome.booked,
+            cells.map(plain).join(" | ")
+        );
+    }
+    text
+}
+
+/// All tables, under their headings.
+pub fn all(outcomes: &[Outcome]) -> String {
+    let mut text = String::new();
+    for (axis, title) in [
+        (Axis::Grid, "Sample rate and stencil (cap 20, tolerance 1e-12 m)"),
+        (Axis::Solver, "Cap and tolerance (wide)"),
+        (Axis::Exponent, "Exponent of the contact law (wide, cap 20, tolerance 1e-12 m)"),
+    ] {
+        let errors = accuracy(axis, &settings(axis), outcomes);
+        text +=
+            &format!("\n### {title}\n\nErrors:\n\n{errors}\nCost and energy:\n\n{}", cost(axis, outcomes));
+    }
+    for (rate, what) in [(LIVE.rate, "`live`, scene by scene"), (192e3, "192 kHz, wide, scene by scene")] {
+        text += &format!("\n### {what}\n\n{}", by_scene(&Setting { rate, ..LIVE }, outcomes));
+    }
+    text + "\n"
+}
+
+/// Refuses errors that are not those of the committed tables, column by column.
+pub fn compare(now: &str, committed: &str) -> Result<()> {
+    let names = COLUMNS.iter().map(|column| column.name.to_owned());
+    let title = head(names);
+    let first = title.lines().next().unwrap_or_default();
+    ensure!(
+        committed.contains(first),
+        "the table has other columns: run `cargo xtask measure trade --write`"
+    );
+    for line in now.lines().skip(2) {
+        let (name, found) = cells(line).with_context(|| format!("`{line}` is no row"))?;
+        let stated = committed.lines().filter_map(cells).find(|(known, _)| *known == name);
+        let (_, stated) = stated.with_context(|| format!("{} has no row `{name}`", super::PAGE))?;
+        ensure!(found.len() == stated.len(), "row `{name}` has other columns");
+        for (column, (found, stated)) in COLUMNS.iter().zip(found.iter().zip(stated)) {
+            let (Ok(found), Ok(stated)) = (found.parse::<f64>(), stated.parse::<f64>()) else {
+                ensure!(
+                    *found == stated,
+                    "`{name}`, {}: {found}, but {} says {stated}",
+                    column.name,
+                    super::PAGE
+                );
+                continue;
+            };
+            let Agreement { part, least } = column.agreement;
+            ensure!(
+                (found - stated).abs() <= least.max(part * stated),
+                "`{name}`, {}: {found}, but {} says {stated}: if that is meant, run `cargo xtask measure trade --write`",
+                column.name,
+                super::PAGE
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Name and cells of a row.
+fn cells(line: &str) -> Option<(&str, Vec<&str>)> {
+    let mut cells = line.strip_prefix('|')?.strip_suffix('|')?.split('|').map(str::trim);
+    Some((cells.next()?, cells.collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{COLUMNS, compare, head};
+
+    #[test]
+    fn a_changed_number_is_refused_and_a_last_digit_is_not() {
+        let names = || COLUMNS.iter().map(|column| column.name.to_owned());
+        let table = |first: &str| {
+            let rest = " | 2.00".repeat(COLUMNS.len() - 1);
+            format!("{}| 48 kHz, wide | {first}{rest} |\n", head(names()))
+        };
+        assert!(compare(&table("2.06"), &table("2.01")).is_ok());
+        let refused = compare(&table("2.51"), &table("2.01")).unwrap_err().to_string();
+        assert!(refused.contains(COLUMNS[0].name) && refused.contains("2.51"), "{refused}");
+        assert!(compare(&table("–"), &table("2.00")).is_err());
+        assert!(compare(&table("2.00"), "nothing").is_err());
+    }
+}
