@@ -19,12 +19,13 @@ enum Power {
     General(f64),
 }
 
-/// A power-law spring: Φ(η) = K/(α+1)·\[η\]₊^(α+1).
+/// A power-law spring: Φ(η) = K/(α+1)·\[η\]₊^(α+1), straight beyond the [`knee`](ContactLaw::knee).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactLaw {
     stiffness: f64,
     exponent: f64,
     power: Power,
+    knee: f64,
 }
 
 impl ContactLaw {
@@ -51,7 +52,22 @@ impl ContactLaw {
             3.0 => Power::Three,
             alpha => Power::General(alpha),
         };
-        ContactLaw { stiffness, exponent, power }
+        ContactLaw { stiffness, exponent, power, knee: f64::INFINITY }
+    }
+
+    /// The same law, growing no steeper than `slope`, N/m: beyond the penetration where φ′ reaches it the
+    /// force goes on as a straight line. With α = 1 that is a smaller stiffness.
+    pub fn no_steeper_than(&self, slope: f64) -> Self {
+        if self.exponent == 1.0 {
+            return self.with_stiffness(self.stiffness.min(slope));
+        }
+        let knee = libm::pow(slope / (self.exponent * self.stiffness), 1.0 / (self.exponent - 1.0));
+        ContactLaw { knee: knee.max(LEAST_KNEE), ..*self }
+    }
+
+    /// The penetration beyond which the force grows as a straight line, m.
+    pub fn knee(&self) -> f64 {
+        self.knee
     }
 
     /// Stiffness K, N/m^α.
@@ -69,9 +85,15 @@ impl ContactLaw {
         ContactLaw { stiffness, ..*self }
     }
 
-    /// φ(η) = Φ′(η) = K\[η\]₊^α, the static force, N.
+    /// φ(η) = Φ′(η), K\[η\]₊^α up to the knee: the static force, N.
     #[inline(always)]
     pub fn force(&self, penetration: f64) -> f64 {
+        if penetration > self.knee { self.straight(penetration).0 } else { self.power(penetration) }
+    }
+
+    /// K\[η\]₊^α.
+    #[inline(always)]
+    fn power(&self, penetration: f64) -> f64 {
         if penetration <= 0.0 {
             return 0.0;
         }
@@ -87,24 +109,49 @@ impl ContactLaw {
         self.stiffness * power
     }
 
+    /// φ′ at the knee and beyond, N/m.
+    fn steepest(&self) -> f64 {
+        self.exponent * self.power(self.knee) / self.knee
+    }
+
+    /// Force and energy beyond the knee.
+    #[cold]
+    #[inline(never)]
+    fn straight(&self, penetration: f64) -> (f64, f64) {
+        let (at_knee, beyond) = (self.power(self.knee), penetration - self.knee);
+        let force = at_knee + self.steepest() * beyond;
+        (force, at_knee * self.knee / (self.exponent + 1.0) + 0.5 * (at_knee + force) * beyond)
+    }
+
     /// φ′(η), the static stiffness, N/m.
     #[inline(always)]
     pub fn slope(&self, penetration: f64) -> f64 {
         if penetration <= 0.0 {
             return if self.exponent == 1.0 && penetration == 0.0 { self.stiffness } else { 0.0 };
         }
-        self.exponent * self.force(penetration) / penetration
+        let at = penetration.min(self.knee);
+        self.exponent * self.power(at) / at
     }
 
     /// Φ(η), the stored energy, J.
     #[inline(always)]
     pub fn energy(&self, penetration: f64) -> f64 {
-        self.force(penetration) * penetration.max(0.0) / (self.exponent + 1.0)
+        if penetration > self.knee {
+            return self.straight(penetration).1;
+        }
+        self.power(penetration) * penetration.max(0.0) / (self.exponent + 1.0)
     }
 
     /// The penetration at which the static force is `force`, m.
     pub fn penetration_at(&self, force: f64) -> f64 {
-        if force <= 0.0 { 0.0 } else { libm::pow(force / self.stiffness, 1.0 / self.exponent) }
+        if force <= 0.0 {
+            return 0.0;
+        }
+        let curved = libm::pow(force / self.stiffness, 1.0 / self.exponent);
+        if curved <= self.knee {
+            return curved;
+        }
+        self.knee + (force - self.power(self.knee)) / self.steepest()
     }
 
     /// The discrete gradient λ and its slope dλ/dr over a change `r` from the penetration `before`,
@@ -115,23 +162,61 @@ impl ContactLaw {
         if after <= 0.0 && before.penetration <= 0.0 {
             return (0.0, 0.0);
         }
+        if after > self.knee || before.penetration > self.knee {
+            return self.gradient_beyond(before, r);
+        }
+        self.curved_gradient(before, r)
+    }
+
+    /// The same where the law is curved.
+    #[inline(always)]
+    fn curved_gradient(&self, before: &Before, r: f64) -> (f64, f64) {
+        let after = before.penetration + r;
         let alpha = self.exponent;
         let middle = before.penetration + 0.5 * r;
         if r.abs() < NEARLY_STILL * middle {
             // λ about the midpoint m: λ = φ(m)[1 + α(α−1)/24 (r/m)²], its slope likewise.
-            let force = self.force(middle);
+            let force = self.power(middle);
             let x = r / middle;
             let curved = alpha * (alpha - 1.0);
             let lambda = force * (1.0 + curved / 24.0 * x * x);
             let slope = force / middle * (0.5 * alpha + curved * x * (1.0 / 12.0 + (alpha - 2.0) / 48.0 * x));
             return (lambda, slope);
         }
-        let force = self.force(after);
+        let force = self.power(after);
         let energy = force * after.max(0.0) / (alpha + 1.0);
         let lambda = (energy - before.energy) / r;
         (lambda, ((force - lambda) / r).max(0.0))
     }
+
+    /// The same where the change begins or ends beyond the knee.
+    #[cold]
+    #[inline(never)]
+    fn gradient_beyond(&self, before: &Before, r: f64) -> (f64, f64) {
+        let after = before.penetration + r;
+        let steepest = self.steepest();
+        let (low, high) = (before.penetration.min(after), before.penetration.max(after));
+        // On the straight part λ is the force half way, whatever the change.
+        let half_way = |low: f64| self.straight(0.5 * (low + high)).0;
+        if low >= self.knee {
+            return (half_way(low), 0.5 * steepest);
+        }
+        // Across the knee the works on both parts add up.
+        let at_knee = Before::new(self, self.knee);
+        let (below, beyond) = (low - self.knee, high - self.knee);
+        let curved = self.curved_gradient(&at_knee, below).0;
+        let lambda = (half_way(self.knee) * beyond - curved * below) / (high - low);
+        let slope = if (high - low) < NEARLY_STILL * high {
+            0.5 * steepest
+        } else {
+            ((self.force(after) - lambda) / r).clamp(0.0, steepest)
+        };
+        (lambda, slope)
+    }
 }
+
+/// The smallest knee, m: far below anything there is, and no power of it is 0.
+const LEAST_KNEE: f64 = 1e-50;
 
 /// Below this |r|/η the quotient λ loses more digits to cancellation than the series to its next
 /// term: 2e-16/1e-3 against (1e-3)⁴·α(α−1)(α−2)(α−3)/1920.

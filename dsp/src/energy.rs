@@ -77,6 +77,9 @@ pub struct Ledger {
     pub residual_sum: f64,
     /// The largest |residual| over the largest energy up to its sample.
     pub worst_residual: f64,
+    /// How well the balance can be known at all, J: what a unit in the last place of every number that enters
+    /// it is worth, summed over all steps.
+    pub rounding: f64,
 }
 
 impl Ledger {
@@ -92,6 +95,7 @@ impl Ledger {
             put_in: 0.0,
             residual_sum: 0.0,
             worst_residual: 0.0,
+            rounding: 0.0,
         };
         ledger.look(model, state, tension);
         let initial = ledger.energies.total();
@@ -126,7 +130,7 @@ impl Ledger {
             self.energies.finger = fingers_motion(model, &scratch.fingers);
             entered = self.energies.total() - before;
         }
-        let stiffness = model.stiffness(drive.tension);
+        let stiffness = *scratch.stiffness();
         let (string, stretched) = string_energy(model, &stiffness, now, state);
         self.board = board_energy(model, &state.heights, &state.displacement, now, state);
         let contact = self.board + fingers_energy(&state.fingers, &state.displacement, now);
@@ -158,11 +162,12 @@ impl Ledger {
                 input += active.force * (past(&active.reading) - past(&old.reading_before)) / two_k;
             }
         }
-        if drive.tension != self.tension {
+        if stiffness.tension != self.tension {
             let old = model.stiffness(self.tension);
             input += stiffness_change(model, &stiffness, &old, now, motion_now) / k;
-            self.tension = drive.tension;
+            self.tension = stiffness.tension;
         }
+        self.rounding += f64::EPSILON * gross(model, &stiffness, (now, motion_now), state, scratch);
         let residual = energies.total() - (self.energies.total() - entered) + k * (loss + solver - input);
         self.energies = energies;
         self.largest = self.largest.max(energies.total());
@@ -187,6 +192,51 @@ impl Ledger {
     pub fn energies(&self) -> Energies {
         self.energies
     }
+}
+
+/// What is added and taken off in a step's balance, J, each part as large as it is however much of it cancels:
+/// a unit in the last place of this is what rounding may do to the balance.
+fn gross(
+    model: &Model,
+    stiffness: &Stiffness,
+    (now, motion_now): (&[f64], &[f64]),
+    state: &State,
+    scratch: &Scratch,
+) -> f64 {
+    let (k, h) = (model.grid.time_step, model.grid.spacing);
+    let string = &model.string;
+    let square = |array: &[f64]| -> f64 { array.iter().map(|d| d * d).sum() };
+    let kinetic = 0.5 * string.linear_density * h / (k * k) * (square(motion_now) + square(&state.motion));
+    // A difference of neighbours is known no better than they are.
+    let size = |i: usize| now[i].abs() + state.displacement[i].abs();
+    let slope: f64 = (NUT..NUT + model.grid.intervals)
+        .map(|i| {
+            (size(i) + size(i + 1))
+                * ((now[i + 1] - now[i]).abs() + (state.displacement[i + 1] - state.displacement[i]).abs())
+        })
+        .sum();
+    // Differences of higher order are at most four times as large each.
+    let h2 = h * h;
+    let per_slope = 0.5 / h
+        * (stiffness.tension
+            + 4.0 * string.linear_density * (stiffness.kappa_2 + 4.0 * stiffness.kappa_6 / h2) / h2);
+    let stretched = if string.tension_modulation {
+        let product = slopes(model, now, &state.displacement);
+        string.axial_stiffness() / (4.0 * string.length * h2) * (product.abs() + f64::EPSILON * slope) * slope
+    } else {
+        0.0
+    };
+    let (mut contacts, mut forces) = (0.0, 0.0);
+    for active in &scratch.active {
+        let (before, after) = (active.before.penetration, active.before.penetration + active.change);
+        let place = before.abs() + active.change.abs() + active.raised.abs();
+        let place = place + active.reading.of(&state.displacement).abs() + active.reading.of(now).abs();
+        contacts += (active.law.force(before) + active.law.force(after) + active.force.abs()) * place;
+        forces += active.force.abs();
+    }
+    // Each change of penetration is a sum over all forces, and may be off by a last digit for each of them.
+    let sums = scratch.active.len() as f64 * model.mobility * forces * forces;
+    kinetic + per_slope * slope + stretched + contacts + sums
 }
 
 /// Σ of products of neighbours' differences, (δa)ᵀδb over all intervals.

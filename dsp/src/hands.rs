@@ -111,7 +111,11 @@ impl Hands {
             Gesture::Place { finger, touch, position, clearance } => {
                 if finger < FINGERS_PER_STRING {
                     let place = inside(position);
-                    let height = state.displacement_at(&model.grid.reading(place)) + clearance.max(0.0);
+                    let reading = model.grid.reading(place);
+                    let now = state.displacement_at(&reading);
+                    // Touching nothing a step ago either: a string that comes from above would be inside it.
+                    let before = now - state.velocity_at(model, &reading) * model.grid.time_step;
+                    let height = (now + clearance.max(0.0)).max(before);
                     self.take_away(finger, state);
                     if state.place_finger(model, finger, touch, place, height, 0.0).is_ok() {
                         let held = Held { force: Ramp::at(0.0), position: Ramp::at(place), leaving: false };

@@ -260,9 +260,9 @@ impl Model {
         } else {
             0.0
         };
-        let contacts = barrier.map_or(Ok(Vec::new()), |barrier| barrier.contacts(&grid))?;
-        for contact in &contacts {
-            check_conditioning("fretboard.stiffness", &contact.law, mobility)?;
+        let mut contacts = barrier.map_or(Ok(Vec::new()), |barrier| barrier.contacts(&grid))?;
+        for contact in &mut contacts {
+            contact.law = conditioned("fretboard.stiffness", contact.law, mobility)?;
         }
         let string = StringParameters { loss_0, ..string };
         Ok(Model { grid, string, settings, contacts, finger_slots, decay, inverse_s, mobility, stretch })
@@ -323,8 +323,7 @@ impl Model {
         let law = ContactLaw::new("finger", touch.stiffness, touch.exponent)?;
         let k = self.grid.time_step;
         let mobility = self.mobility + k * k / (touch.mass + 0.5 * touch.hand_damping * k);
-        check_conditioning("finger.stiffness", &law, mobility)?;
-        Ok(law)
+        conditioned("finger.stiffness", law, mobility)
     }
 }
 
@@ -334,19 +333,28 @@ const LEAST_INTERVALS: usize = 4;
 /// The most intervals of a grid, a limit against descriptions that would fill the memory.
 const MOST_INTERVALS: usize = 1_000_000;
 
-/// Refuses a contact whose force at 1 cm of motion in one step changes by more than doubles can tell:
-/// Mα K^(1/α) F^(1−1/α) ≤ 1e10 with F = 1 cm/M, M the mobility in m/N.
-fn check_conditioning(name: &str, law: &ContactLaw, mobility: f64) -> Result<(), Error> {
-    const LIMIT: f64 = 1e10;
-    let alpha = law.exponent();
+/// A contact is refused if M φ′ is above this at 1 cm of motion in one step.
+const CONDITIONING: f64 = 1e10;
+
+/// Beyond this M φ′ a contact grows no steeper: it then yields 1e-8 of what the point would move without it,
+/// and the last digit of a motion still is 1e-8 of the force.
+pub(crate) const STEEPEST: f64 = 1e8;
+
+/// The stiffest contact of an exponent, N/m^exponent, that is accepted where one newton moves a point by
+/// `mobility`, m/N, in a step: Mα K^(1/α) F^(1−1/α) ≤ 1e10 with F = 1 cm/M, M the mobility.
+pub fn stiffest(exponent: f64, mobility: f64) -> f64 {
     let force = 0.01 / mobility;
-    let conditioning = |stiffness: f64| {
-        mobility * alpha * libm::pow(stiffness, 1.0 / alpha) * libm::pow(force, 1.0 - 1.0 / alpha)
-    };
-    if conditioning(law.stiffness()) <= LIMIT {
-        return Ok(());
+    let conditioning = mobility * exponent * libm::pow(force, 1.0 - 1.0 / exponent);
+    libm::pow(CONDITIONING / conditioning, exponent)
+}
+
+/// Refuses a contact that is stiffer than that, and lets the law of any other grow no steeper than doubles
+/// can tell.
+fn conditioned(name: &str, law: ContactLaw, mobility: f64) -> Result<ContactLaw, Error> {
+    let limit = stiffest(law.exponent(), mobility);
+    if law.stiffness() <= limit {
+        return Ok(law.no_steeper_than(STEEPEST / mobility));
     }
-    let limit = libm::pow(LIMIT / conditioning(1.0), alpha);
     let accepted = format!("at this sample rate it must be at most {limit:.2e} N/m^exponent");
     Err(Error::range(name, plain(law.stiffness()), accepted))
 }

@@ -97,17 +97,31 @@ impl Simulation {
 
     /// Advances every string from sample n to n + 1. Returns the sum of the ledgers' entries.
     pub fn step(&mut self) -> Option<Entry> {
+        self.step_under(|_, _| {})
+    }
+
+    /// The same under more than the scene describes: before each string is stepped, `act` may change what
+    /// acts on it (its `drive`, as the scene has filled it) and place fingers or take them away. A tension
+    /// above the model's limit is not allowed: the grid has no room for it.
+    #[inline(always)]
+    pub fn step_under(&mut self, mut act: impl FnMut(usize, &mut SceneString)) -> Option<Entry> {
         // (A signed number of steps turns into a float in one instruction.)
         let time = self.step.cast_signed() as f64 / self.sample_rate;
         self.step += 1;
         let next = self.step.cast_signed() as f64 / self.sample_rate;
         let Some(ledgers) = &mut self.ledgers else {
-            self.strings.iter_mut().for_each(|string| string.step(time, next));
+            for (index, string) in self.strings.iter_mut().enumerate() {
+                string.prepare(time, next);
+                act(index, string);
+                string.advance();
+            }
             return None;
         };
         let mut sum = Entry::default();
-        for (string, ledger) in self.strings.iter_mut().zip(ledgers) {
-            string.step(time, next);
+        for (index, (string, ledger)) in self.strings.iter_mut().zip(ledgers).enumerate() {
+            string.prepare(time, next);
+            act(index, string);
+            string.advance();
             sum += ledger.record(&string.model, &string.state, &string.scratch, &string.drive);
         }
         Some(sum)
@@ -226,8 +240,9 @@ impl SceneString {
         })
     }
 
+    /// Fills the drive of the next step.
     #[inline(always)]
-    fn step(&mut self, time: f64, next: f64) {
+    fn prepare(&mut self, time: f64, next: f64) {
         self.drive.tension = self.tension.at(time);
         self.drive.pushes.clear();
         for (pluck, reading) in &self.plucks {
@@ -241,6 +256,11 @@ impl SceneString {
             hand.position = finger.position.at(next);
             hand.force = finger.force.at(time);
         }
+        self.drive.heights.clear();
+    }
+
+    /// Takes the step.
+    fn advance(&mut self) {
         self.convergence = self.state.step(&self.model, &self.drive, &mut self.scratch);
     }
 

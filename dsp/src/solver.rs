@@ -27,8 +27,12 @@ pub(crate) struct Active {
     pub lossy: f64,
     /// Penetration and energy at n − 1.
     pub before: Before,
-    /// c: the penetration lost between n − 1 and n + 1 were there no contact, m.
-    pub opening: f64,
+    /// What the penetration loses between n − 1 and n + 1 besides the string's own motion to n + 1, m.
+    pub rest: f64,
+    /// The force that the string's prediction already holds, N; 0 when the solution begins.
+    pub base: f64,
+    /// The change of penetration under the base forces, −c when the solution begins, m.
+    pub centre: f64,
     /// bⁿ⁺¹ − bⁿ⁻¹, how far the barrier itself rose, m.
     pub raised: f64,
     /// k²/(M + Rk/2) of a finger, 0 of the board, m/N.
@@ -136,6 +140,7 @@ struct Room<'a> {
     roots: &'a mut [f64],
     unknown: &'a mut [f64],
     start: &'a mut [f64],
+    /// Forces beyond the base.
     forces: &'a mut [f64],
 }
 
@@ -169,9 +174,16 @@ const WORK_TOLERANCE: f64 = 1e-13;
 /// Attempts at a shorter step before it is taken as it is; the secant guard still stands behind it.
 const LINE_SEARCHES: usize = 12;
 
-/// Attempts of the fallback; its stiffnesses double from the fifth on, so that long before the last
-/// the contacts hardly move at all.
-const FALLBACKS: u32 = 200;
+/// Attempts of the fallback; its stiffnesses double after the first few, so that long before the last the
+/// contacts hardly move at all.
+const FALLBACKS: u32 = 60;
+
+/// Steps on the way to an answer that takes nothing, and the part of what was taken at which it is near enough.
+const APPROACHES: usize = 16;
+const NEUTRAL: f64 = 1e-3;
+
+/// Attempts in which a secant that pulls may be eased.
+const EASINGS: u32 = 6;
 
 impl Solver {
     /// Room for fixed contacts with these spans, in order of place, and so many fingers.
@@ -234,42 +246,91 @@ fn solve(
     convergence: &mut Convergence,
 ) -> f64 {
     for (start, row) in room.start.iter_mut().zip(rows.iter()) {
-        *start = row.force;
+        *start = row.force - row.base;
     }
     place(rows, answer, &mut room, 0.0);
     let work_tolerance = WORK_TOLERANCE * scale.present;
     let mut iterations = 0;
-    loop {
+    let mut progress = Progress::default();
+    let settled = loop {
         let mut work = 0.0;
         for (residual, (row, force)) in room.residual.iter_mut().zip(rows.iter().zip(&*room.forces)) {
-            *residual = row.required - force;
+            *residual = row.required - (row.base + force);
             work += *residual * row.change;
         }
         answer.product(room.residual, room.motion);
         // |Mδ| of a full Newton step is at most |M R|.
-        let settled = largest(room.motion) <= settings.tolerance && work.abs() <= work_tolerance;
-        if settled || iterations == settings.max_iterations {
-            break;
+        let error = largest(room.motion);
+        if error <= settings.tolerance && work.abs() <= work_tolerance {
+            break true;
+        }
+        if iterations >= settings.max_iterations || progress.has_ended(error, rows) {
+            break false;
         }
         iterations += 1;
         if newton_step(rows, answer, &mut room) == 0.0 {
-            break;
+            break false;
         }
-    }
+    };
     convergence.iterations += iterations as u32;
     let mut gain = 0.5 * created(rows, room.forces);
     // Written so that what is not a number is refused too.
-    let accepted = gain <= scale.credit;
-    if !accepted {
-        gain = fall_back(rows, answer, &mut room, convergence);
+    let usable = gain <= scale.credit && (settled || bounded(rows, room.forces, settings.tolerance));
+    if !(settled && usable) {
+        gain = stop_early(rows, answer, &mut room, usable, scale, convergence);
     }
     for (row, force) in rows.iter_mut().zip(&*room.forces) {
-        row.force = *force;
+        row.force = row.base + *force;
     }
     gain
 }
 
-/// r = −c − M(f + tδ) from the forces `start` and the step δ; evaluates the laws there.
+/// Whether the iteration still gets somewhere.
+#[derive(Default)]
+struct Progress {
+    best: f64,
+    without: u32,
+}
+
+/// Iterations that do not halve the error after which a small one is taken for rounding.
+const STALLED: u32 = 4;
+
+/// What is small: this part of the motion without contacts. Rounding of the forces leaves 1e-16 of it in the
+/// motion, and the steepest contact makes 1e-8 of that.
+const SMALL: f64 = 1e-7;
+
+impl Progress {
+    #[inline(always)]
+    fn has_ended(&mut self, error: f64, rows: &[Active]) -> bool {
+        if error < 0.5 * self.best || self.best == 0.0 {
+            self.best = error;
+            self.without = 0;
+            return false;
+        }
+        self.without += 1;
+        self.without >= STALLED
+            && error <= SMALL * rows.iter().fold(0.0f64, |most, row| most.max(row.centre.abs()))
+    }
+}
+
+/// Whether forces that should only push are bounded by what they do together. Between the same grid points
+/// barriers may push against each other by any amount that the string does not feel, but then some pull: where
+/// the pulls are less than half of the pushes no force is more than the net push and a half.
+#[inline(always)]
+fn bounded(rows: &[Active], forces: &[f64], tolerance: f64) -> bool {
+    let (mut pushes, mut pulls, mut mobility) = (0.0, 0.0, 0.0);
+    for (row, force) in rows.iter().zip(forces) {
+        if row.own_mobility == 0.0 {
+            let force = row.base + force;
+            pushes += force.max(0.0);
+            pulls -= force.min(0.0);
+            mobility = row.mobility;
+        }
+    }
+    mobility * (pulls - 0.5 * pushes) <= tolerance
+}
+
+/// r = r₀ − M(f + tδ) from the forces `start` beyond the base and the step δ; evaluates the laws there.
 #[inline(always)]
 fn place(rows: &mut [Active], answer: &impl Answer, room: &mut Room, t: f64) {
     for ((force, start), step) in room.forces.iter_mut().zip(&*room.start).zip(&*room.step) {
@@ -277,7 +338,7 @@ fn place(rows: &mut [Active], answer: &impl Answer, room: &mut Room, t: f64) {
     }
     answer.product(room.forces, room.unknown);
     for (row, answer) in rows.iter_mut().zip(&*room.unknown) {
-        row.evaluate(-row.opening - answer);
+        row.evaluate(row.centre - answer);
     }
 }
 
@@ -304,7 +365,7 @@ fn newton_step(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) -
         place(rows, answer, room, t);
         let mut value = 0.0;
         for (i, row) in rows.iter().enumerate() {
-            value -= room.motion[i] * (row.required - room.forces[i]);
+            value -= room.motion[i] * (row.required - (row.base + room.forces[i]));
         }
         if value.abs() <= 0.5 * downhill.abs() || (t == 1.0 && value <= 0.0) {
             break;
@@ -321,55 +382,159 @@ fn newton_step(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) -
     t * largest(room.motion)
 }
 
-/// Forces f = λ(0) + S r with secants S steep enough that no energy is created.
+/// Makes the best of an iteration that did not come to its end, whose forces are `usable` or not. Returns the
+/// energy they give to the string, J.
 #[cold]
 #[inline(never)]
+fn stop_early(
+    rows: &mut [Active],
+    answer: &mut impl Answer,
+    room: &mut Room,
+    usable: bool,
+    scale: EnergyScale,
+    convergence: &mut Convergence,
+) -> f64 {
+    let gain =
+        if usable { 0.5 * created(rows, room.forces) } else { fall_back(rows, answer, room, convergence) };
+    let taken = 0.5 * demanded(rows, room.forces);
+    if gain <= scale.credit && taken.abs() > WORK_TOLERANCE * scale.present {
+        return approach(rows, answer, room, taken, scale.credit);
+    }
+    gain
+}
+
+/// Forces that create no energy: f = λ(0) + S r with secants S steep enough. Returns the energy they give to
+/// the string, J: not above 0 unless rounding leaves no better.
 fn fall_back(
     rows: &mut [Active],
     answer: &mut impl Answer,
     room: &mut Room,
     convergence: &mut Convergence,
 ) -> f64 {
-    // The secants take the place of the residual.
+    // The secants take the place of the residual, the best forces so far that of the step.
     for (i, row) in rows.iter_mut().enumerate() {
         row.evaluate(0.0);
-        room.start[i] = row.lambda;
+        room.start[i] = row.lambda - row.base;
         room.residual[i] = row.slope;
     }
-    let mut gain = 0.0;
+    let mut least = f64::INFINITY;
     for attempt in 0..FALLBACKS {
         convergence.fallbacks += 1;
-        // y = (1 + √S M √S)⁻¹ √S(−c − Mλ(0)), f = λ(0) + √S y.
+        // y = (1 + √S M √S)⁻¹ √S(r₀ − Mλ(0)), f = λ(0) + √S y.
         answer.product(room.start, room.motion);
         for (i, row) in rows.iter().enumerate() {
             room.roots[i] = room.residual[i].sqrt();
-            room.unknown[i] = room.roots[i] * (-row.opening - room.motion[i]);
+            room.unknown[i] = room.roots[i] * (row.centre - room.motion[i]);
         }
         answer.solve(room.roots, room.unknown);
         for i in 0..rows.len() {
             room.forces[i] = room.start[i] + room.roots[i] * room.unknown[i];
         }
-        answer.product(room.forces, room.motion);
-        for (row, answer) in rows.iter_mut().zip(&*room.motion) {
-            row.evaluate(-row.opening - answer);
+        let gain = settle(rows, answer, room.forces, room.motion);
+        if gain <= 0.0 && (attempt >= EASINGS || bounded(rows, room.forces, 0.0)) {
+            return gain;
         }
-        gain = 0.5 * created(rows, room.forces);
-        if gain <= 0.0 {
-            break;
+        if gain < least {
+            least = gain;
+            room.step.copy_from_slice(room.forces);
         }
         for (i, row) in rows.iter().enumerate() {
-            let secant = (row.lambda - room.start[i]) / row.change;
-            let raised = if attempt < 4 { room.residual[i] } else { 2.0 * room.residual[i] };
-            room.residual[i] = if secant.is_finite() { raised.max(secant) } else { raised };
+            let secant = (row.lambda - (row.base + room.start[i])) / row.change;
+            let pulls = row.base + room.forces[i] < 0.0;
+            let present = room.residual[i];
+            room.residual[i] = if !secant.is_finite() {
+                present
+            } else if attempt < EASINGS {
+                if pulls { secant.max(0.0) } else { present.max(secant) }
+            } else {
+                2.0 * present.max(secant)
+            };
         }
     }
-    gain
+    room.forces.copy_from_slice(room.step);
+    settle(rows, answer, room.forces, room.motion)
+}
+
+/// Goes on from forces that create nothing, by which the solver takes `taken`, in the direction of a Newton step
+/// as far as it takes nothing: an answer that is not exact, but neither takes energy nor gives any.
+fn approach(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room, taken: f64, credit: f64) -> f64 {
+    for (i, row) in rows.iter().enumerate() {
+        room.residual[i] = row.required - (row.base + room.forces[i]);
+        room.roots[i] = row.slope.sqrt();
+    }
+    answer.product(room.residual, room.motion);
+    for i in 0..rows.len() {
+        room.unknown[i] = -room.roots[i] * room.motion[i];
+    }
+    answer.solve(room.roots, room.unknown);
+    for i in 0..rows.len() {
+        room.step[i] = room.residual[i] + room.roots[i] * room.unknown[i];
+    }
+    let error = largest(room.motion);
+    room.start.copy_from_slice(room.forces);
+    let (mut best, mut least) = (0.0, taken.abs());
+    // Lengths of the step with what is given there (negative: taken), either side of nothing.
+    let mut low = (0.0, taken);
+    let mut high: Option<(f64, f64)> = None;
+    let mut t = 1.0;
+    for attempt in 0..APPROACHES {
+        let gain = stretch_to(t, rows, answer, room);
+        let given = 0.5 * demanded(rows, room.forces);
+        if gain <= credit && given.abs() < least && bounded(rows, room.forces, 0.0) {
+            for (i, row) in rows.iter().enumerate() {
+                room.residual[i] = row.required - (row.base + room.forces[i]);
+            }
+            answer.product(room.residual, room.motion);
+            if largest(room.motion) <= 0.5 * error {
+                (best, least) = (t, given.abs());
+            }
+        }
+        if least <= NEUTRAL * taken.abs() || low.1 > 0.0 {
+            break;
+        }
+        if given > 0.0 {
+            high = Some((t, given));
+        } else {
+            low = (t, given);
+        }
+        t = match high {
+            None => 4.0 * t,
+            Some(high) => {
+                // The chord, and every other time beyond it, or the far end would never move.
+                let chord = low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1)).clamp(0.0, 1.0);
+                if attempt % 2 == 0 { chord } else { 0.5 * (chord + high.0) }
+            }
+        };
+    }
+    stretch_to(best, rows, answer, room)
+}
+
+/// Takes the forces so many steps from the start; returns the energy given to the string, J.
+fn stretch_to(t: f64, rows: &mut [Active], answer: &impl Answer, room: &mut Room) -> f64 {
+    for i in 0..rows.len() {
+        room.forces[i] = room.start[i] + t * room.step[i];
+    }
+    settle(rows, answer, room.forces, room.motion)
+}
+
+/// Evaluates the laws under forces beyond the base; returns the energy given to the string, J.
+fn settle(rows: &mut [Active], answer: &impl Answer, forces: &[f64], motion: &mut [f64]) -> f64 {
+    answer.product(forces, motion);
+    for (row, answer) in rows.iter_mut().zip(&*motion) {
+        row.evaluate(row.centre - answer);
+    }
+    0.5 * created(rows, forces)
+}
+
+/// Σ(law − f)r, twice the energy given to the string beyond what the contacts' laws have it get.
+fn demanded(rows: &[Active], forces: &[f64]) -> f64 {
+    rows.iter().zip(forces).map(|(row, force)| (row.required - (row.base + force)) * row.change).sum()
 }
 
 /// Σ(λ − f)r, twice the energy given to the string beyond what the contacts gave up.
 #[inline(always)]
 fn created(rows: &[Active], forces: &[f64]) -> f64 {
-    rows.iter().zip(forces).map(|(row, force)| (row.lambda - force) * row.change).sum()
+    rows.iter().zip(forces).map(|(row, force)| (row.lambda - (row.base + force)) * row.change).sum()
 }
 
 #[inline(always)]

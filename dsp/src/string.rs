@@ -4,7 +4,7 @@ use crate::contact::Before;
 use crate::drive::Drive;
 use crate::grid::{READING_NORM, Reading};
 use crate::kernel::{Kernel, Products, Weights};
-use crate::model::{Model, Stiffness};
+use crate::model::{Model, STEEPEST, Stiffness};
 use crate::solver::{Active, Convergence, EnergyScale, Solver};
 use crate::state::{Finger, ForceHistory, State};
 
@@ -102,7 +102,9 @@ impl State {
     /// Never allocates, never fails: whatever the numbers, the energy cannot exceed what was put in.
     pub fn step(&mut self, model: &Model, drive: &Drive, scratch: &mut Scratch) -> Convergence {
         let unknowns = model.grid.unknowns();
-        if drive.tension != scratch.stiffness.tension {
+        // What is known of the energy before anything is computed.
+        let resting = self.energy_scale.max(scratch.string_energy(model)) > MOST_ENERGY;
+        if drive.tension != scratch.stiffness.tension && !resting {
             scratch.stiffness = model.stiffness(drive.tension);
             scratch.weights = Weights::new(model, &scratch.stiffness);
         }
@@ -121,10 +123,13 @@ impl State {
         }
         let mut convergence = Convergence::default();
         if model.contacts.is_empty() && self.fingers.iter().all(Option::is_none) {
+            // Nothing of the last contact may be left in the record.
+            scratch.active.clear();
+            scratch.fingers.fill(None);
             let pull = pull(model, &products, 0.0);
             self.advance(model, pull, scratch);
         } else {
-            self.contact_step(model, drive, &products, scratch, &mut convergence);
+            self.contact_step(model, drive, &products, resting, scratch, &mut convergence);
         }
         std::mem::swap(&mut self.displacement, &mut scratch.displacement);
         std::mem::swap(&mut self.motion, &mut scratch.motion);
@@ -147,37 +152,51 @@ impl State {
         model: &Model,
         drive: &Drive,
         products: &Products,
+        resting: bool,
         scratch: &mut Scratch,
         convergence: &mut Convergence,
     ) {
-        if !drive.heights.is_empty() {
+        if !drive.heights.is_empty() && !resting {
             self.heights_next.copy_from_slice(&drive.heights);
             self.settling = 2;
         }
         let free_pull = pull(model, products, 0.0);
         scratch.active.clear();
         self.find_active(model, free_pull, scratch);
-        self.find_fingers(model, drive, free_pull, scratch);
-        let mut spread_pull = free_pull;
+        self.find_fingers(model, drive, free_pull, resting, scratch);
         let mut created = 0.0;
         loop {
-            if !scratch.active.is_empty() {
+            let mut largest = 0.0;
+            if scratch.active.is_empty() {
+                largest = self.advance(model, free_pull, scratch);
+            } else {
                 // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
                 let factor = model.mobility * model.stretch / (1.0 + model.stretch * products.curvature);
                 let scale = self.energy_scale(model, scratch);
-                created =
-                    scratch.solver.solve(&mut scratch.active, factor, &model.settings, scale, convergence);
-                let mut along = 0.0;
                 for active in &mut scratch.active {
                     let at = active.reading.first;
                     active.saved.copy_from_slice(&scratch.prediction[at..at + 4]);
-                    let amount = model.mobility * active.sign * active.force;
-                    active.reading.spread(&mut scratch.prediction, amount);
-                    along += model.mobility * active.force * active.pull;
                 }
-                spread_pull = pull(model, products, along);
+                let mut along = 0.0;
+                for round in 0.. {
+                    created = scratch.solver.solve(
+                        &mut scratch.active,
+                        factor,
+                        &model.settings,
+                        scale,
+                        convergence,
+                    );
+                    let spread = spread(model, &mut scratch.active, &mut scratch.prediction);
+                    along += spread.along;
+                    largest = self.advance(model, pull(model, products, along), scratch);
+                    let rounding = f64::EPSILON * model.mobility * spread.sum * spread.sum;
+                    let exact = rounding <= ROUNDING * self.energy_scale && created <= scale.credit;
+                    if exact || round == REFINEMENTS {
+                        break;
+                    }
+                    self.recentre(scratch);
+                }
             }
-            let largest = self.advance(model, spread_pull, scratch);
             let before = scratch.active.len();
             for active in &scratch.active {
                 scratch.held[active.slot] = self.steps + 1;
@@ -186,12 +205,18 @@ impl State {
             if scratch.active.len() == before {
                 break;
             }
-            // Something was driven into a contact that was not in the solution: take the forces back,
-            // last first, and solve again with it.
+            // Something was driven into a contact that was not in the solution: take the forces back
+            // and solve again with it.
             convergence.repeats += 1;
-            for active in scratch.active[..before].iter().rev() {
+            for active in &mut scratch.active[..before] {
                 let at = active.reading.first;
                 scratch.prediction[at..at + 4].copy_from_slice(&active.saved);
+                active.base = 0.0;
+            }
+            for index in 0..before {
+                let free = self.free_motion(&scratch.active[index].reading, free_pull, scratch);
+                let active = &mut scratch.active[index];
+                active.centre = -(active.sign * free + active.rest);
             }
             scratch.active.sort_unstable_by(|a, b| {
                 a.reading.centre().total_cmp(&b.reading.centre()).then(a.slot.cmp(&b.slot))
@@ -200,6 +225,16 @@ impl State {
         convergence.active = scratch.active.len() as u32;
         self.solver_balance = (self.solver_balance + created).max(0.0);
         self.finish(model, scratch);
+    }
+
+    /// Takes the string as it has come out for the place from which forces are solved for.
+    #[cold]
+    fn recentre(&self, scratch: &mut Scratch) {
+        for active in &mut scratch.active {
+            active.base = active.force;
+            let moved = active.sign * active.reading.of(&scratch.motion);
+            active.centre = -(moved + active.rest + active.own_mobility * active.base);
+        }
     }
 
     /// Adds the fixed contacts near the string that touch it at n − 1 or would at n + 1.
@@ -228,6 +263,7 @@ impl State {
     fn activate(&self, model: &Model, index: usize, before: f64, free: f64, scratch: &Scratch) -> Active {
         let contact = &model.contacts[index];
         let raised = self.heights_next[index] - self.heights_before[index];
+        let rest = contact.reading.of(&self.motion) - raised;
         Active {
             slot: index,
             reading: contact.reading,
@@ -235,7 +271,9 @@ impl State {
             law: contact.law,
             lossy: 0.0,
             before: Before::new(&contact.law, before),
-            opening: free + contact.reading.of(&self.motion) - raised,
+            rest,
+            base: 0.0,
+            centre: -(free + rest),
             raised,
             own_mobility: 0.0,
             mobility: model.mobility,
@@ -257,12 +295,22 @@ impl State {
 
     /// Moves every finger as if it were free, and adds those that touch the string at n − 1, n or, as
     /// predicted, n + 1.
-    fn find_fingers(&mut self, model: &Model, drive: &Drive, free_pull: f64, scratch: &mut Scratch) {
+    fn find_fingers(
+        &mut self,
+        model: &Model,
+        drive: &Drive,
+        free_pull: f64,
+        resting: bool,
+        scratch: &mut Scratch,
+    ) {
         let k = model.grid.time_step;
         scratch.fingers.copy_from_slice(&self.fingers);
         for slot in 0..self.fingers.len() {
             let Some(finger) = &mut self.fingers[slot] else { continue };
-            let hand = drive.hands[slot];
+            let mut hand = drive.hands[slot];
+            if resting {
+                hand.position = finger.position;
+            }
             let touch = finger.touch;
             let half_loss = 0.5 * touch.hand_damping * k;
             let own_mobility = k * k / (touch.mass + half_loss);
@@ -287,15 +335,17 @@ impl State {
             let string_free = self.free_motion(&reading, free_pull, scratch);
             let after = reading.of(&self.displacement) + string_free - (height + free);
             let slid = if reading == reading_before { 0.0 } else { past(&reading) - past(&reading_before) };
-            let opening = -(string_free + reading.of(&self.motion)) - slid + (free + motion);
+            let rest = (free + motion) - slid - reading.of(&self.motion);
             let active = Active {
                 slot: model.contacts.len() + slot,
                 reading,
                 sign: -1.0,
                 law,
-                lossy: damping * law.force(now) / (2.0 * k),
+                lossy: (damping * law.force(now) / (2.0 * k)).min(STEEPEST / (model.mobility + own_mobility)),
                 before: Before::new(&law, before),
-                opening,
+                rest,
+                base: 0.0,
+                centre: -(rest - string_free),
                 raised: 0.0,
                 own_mobility,
                 mobility: model.mobility,
@@ -390,7 +440,7 @@ impl State {
         // The prediction holds forces by now; the free one is what was saved under them.
         let mut window = [0.0; 4];
         window.copy_from_slice(&scratch.prediction[reading.first..reading.first + 4]);
-        for active in scratch.active[..held].iter().rev() {
+        for active in &scratch.active[..held] {
             for (offset, &saved) in active.saved.iter().enumerate() {
                 let node = active.reading.first + offset;
                 if node >= reading.first && node < reading.first + 4 {
@@ -445,11 +495,43 @@ impl State {
     }
 }
 
+/// Above this energy, J, hands neither slide nor bend nor move a board: each of these multiplies what there is,
+/// and if it were repeated for ever would reach infinity.
+const MOST_ENERGY: f64 = 1e30;
+
 /// Steps ahead for which contacts are listed as near.
 const WATCH_STEPS: f64 = 16.0;
 
+/// Where rounding of the forces moves the string so much that the energy is off by more than this part of the
+/// largest, the string as it came out is solved for again.
+const ROUNDING: f64 = 1e-15;
+
+/// How often that is repeated at most.
+const REFINEMENTS: usize = 3;
+
 /// Inexact solutions may put in at most this part of the largest energy, all together.
 const CREATED_AT_MOST: f64 = 1e-12;
+
+/// What forces beyond the base do to the string.
+struct Spread {
+    /// What they add to vᵀw, m².
+    along: f64,
+    /// Sum of their sizes, N.
+    sum: f64,
+}
+
+/// Adds the forces beyond the base to a prediction.
+#[inline(always)]
+fn spread(model: &Model, rows: &mut [Active], prediction: &mut [f64]) -> Spread {
+    let mut done = Spread { along: 0.0, sum: 0.0 };
+    for row in rows {
+        let force = row.force - row.base;
+        row.reading.spread(prediction, model.mobility * row.sign * force);
+        done.along += model.mobility * force * row.pull;
+        done.sum += force.abs();
+    }
+    done
+}
 
 /// ψ = G(vᵀw + 2vᵀu − vᵀd)/(1 + G vᵀv), so that dⁿ⁺¹ = w − ψ v; `along` is what contact forces add to
 /// vᵀw. With a = γv and G = γ²/s this is χγ/s of the rank-one update.

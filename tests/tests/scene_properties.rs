@@ -1,13 +1,13 @@
 //! Promise: whatever stands in a scene file, it is either refused in one line or computed, in bounded
-//! time and memory and without a panic; and a scene of forces and speeds that hands can reach stays finite
-//! and closes its energy balance, be its other numbers as odd as they are.
+//! time and memory and without a panic; and whatever is accepted stays finite and closes its energy balance.
 
 use low_action_dsp::{Scene, Simulation};
 use proptest::prelude::*;
 
 /// Samples computed of each accepted scene.
 const SAMPLES: u64 = 48;
-/// How far the balance may be open, as a part of the largest energy: what the `scene` command accepts.
+/// How far the balance may be open, as a part of the largest energy, beside what rounding alone may do: what the
+/// `scene` command accepts.
 const BALANCE: f64 = 1e-9;
 /// Grid points above which an accepted scene is not computed here, to keep the test short.
 const POINTS: usize = 20_000;
@@ -44,7 +44,7 @@ fn compute(simulation: &mut Simulation) {
     for ledger in simulation.ledgers() {
         let open = ledger.residual_sum.abs();
         assert!(
-            open <= BALANCE * ledger.largest,
+            open <= BALANCE * ledger.largest + ledger.rounding,
             "the balance is open by {open:e} of {:e} J",
             ledger.largest
         );
@@ -165,13 +165,10 @@ fn over_or_nothing(low: f64, high: f64) -> impl Strategy<Value = f64> {
     prop_oneof![Just(0.0), over(low, high)]
 }
 
-/// Strings from a bass's low one, cold, to a thread of steel: the waves' speed decides the grid.
 fn string() -> impl Strategy<Value = String> {
     let bending = (over_or_nothing(1e8, 1e12), over(1e-4, 1e-3), any::<bool>());
-    let losses = (over_or_nothing(1e-2, 1e3), over_or_nothing(1e-6, 1e-2));
-    (over(0.3, 2.0), over(1e-4, 1e-1), over(30.0, 500.0), bending, losses).prop_map(
-        |(length, density, speed, (modulus, radius, modulation), (loss_0, loss_1))| {
-            let tension = density * speed * speed;
+    (over(0.05, 2.0), over(1e-4, 1e-1), over(1.0, 1e3), bending, over_or_nothing(1e-2, 1e3), over_or_nothing(1e-6, 1e-2))
+        .prop_map(|(length, density, tension, (modulus, radius, modulation), loss_0, loss_1)| {
             format!(
                 "[[string]]\nlength = {length}\nlinear_density = {density}\ntension = [[0, {tension}], [0.002, {}]]\n\
                  youngs_modulus = {modulus:e}\ncore_radius = {radius}\ntension_modulation = {modulation}\n\
@@ -180,12 +177,11 @@ fn string() -> impl Strategy<Value = String> {
                 length / 3.0,
                 length / 300.0,
             )
-        },
-    )
+        })
 }
 
 fn fretboard() -> impl Strategy<Value = String> {
-    let heights = (over(1e-5, 1e-2), over(1e-5, 1e-2), 0..13_usize);
+    let heights = (over(1e-5, 1e-2), over(1e-5, 1e-2), 0..20_usize);
     (over(1e3, 1e15), 1.0..5.0, heights, any::<bool>(), proptest::option::of(over(1e-4, 0.1))).prop_map(
         |(stiffness, exponent, (board, top, frets), nearest, spacing)| {
             let spacing = spacing.map_or(String::new(), |spacing| format!("board_reference_spacing = {spacing}\n"));
@@ -201,19 +197,15 @@ fn fretboard() -> impl Strategy<Value = String> {
     )
 }
 
-/// Fingers from a fly's to a fist, sliding at up to 2 m/s: what slides is moved by force, and faster slides
-/// do work without bound.
 fn finger() -> impl Strategy<Value = String> {
-    let pad = (over(1e3, 1e12), 1.0..5.0, over_or_nothing(1e-2, 1e3));
-    let hand = (over(1e-5, 0.5), over_or_nothing(1e-2, 1e3), -1.0..50.0);
-    let course = (0.015..0.035, -2.0..2.0, over(1e-5, 1e-2), -5.0..1.0);
-    (pad, hand, course).prop_map(
-        |((stiffness, exponent, damping), (mass, hand_damping, force), (place, slide, height, velocity))| {
+    let touch =
+        (over(1e-5, 1.0), over(1e3, 1e12), 1.0..5.0, over_or_nothing(1e-2, 1e3), over_or_nothing(1e-2, 1e3));
+    (touch, 0.001..0.049, 0.001..0.049, over(1e-5, 1e-2), -20.0..1.0, -1.0..50.0).prop_map(
+        |((mass, stiffness, exponent, damping, hand), from, to, height, velocity, force)| {
             format!(
                 "[[finger]]\nmass = {mass}\nstiffness = {stiffness:e}\nexponent = {exponent}\ndamping = {damping}\n\
-                 hand_damping = {hand_damping}\nposition = [[0, {place}], [0.005, {}]]\nheight = {height}\n\
-                 velocity = {velocity}\nforce = [[0, 0], [0.001, {force}]]\n",
-                place + 0.005 * slide,
+                 hand_damping = {hand}\nposition = [[0, {from}], [0.005, {to}]]\nheight = {height}\n\
+                 velocity = {velocity}\nforce = [[0, 0], [0.001, {force}]]\n"
             )
         },
     )
@@ -225,13 +217,12 @@ fn pluck() -> impl Strategy<Value = String> {
     })
 }
 
-/// A scene of values that all are in range, though few would be met on an instrument. The grids are fine
-/// enough to have more points than there are contacts: otherwise forces are not determined by the motion.
+/// A scene of values that all are in range, though few would be met on an instrument.
 fn scene() -> impl Strategy<Value = String> {
     let solver =
         (0..60_usize, over(1e-18, 1e-6), prop_oneof![Just("paper"), Just("corrected"), Just("wide")]);
     (
-        over(16e3, 2e5),
+        over(8e3, 2e5),
         solver,
         proptest::collection::vec(string(), 1..3),
         proptest::option::of(fretboard()),

@@ -1,8 +1,176 @@
-//! Nothing blows up: random scenes and event streams that are absurd but legal.
+//! Nothing blows up: random scenes and event streams that are absurd but legal, every one held to three
+//! promises. Its numbers are finite; its energy is never above what was put in; its balance closes.
+//!
+//! A [`Trial`] is a scene and perhaps a stream of events, drawn from a seed and a number. A run of many is
+//! tallied; what fails is made small and written where the tests replay it.
 
-use anyhow::{Result, bail};
+mod campaign;
+mod draw;
+mod playing;
+mod scenes;
+mod shrink;
+mod stream;
+mod tally;
+mod trial;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use clap::Parser;
+
+use campaign::Campaign;
+use low_action_dsp::Setup;
+pub use trial::{Fault, Outcome, Record, TOLERANCE, Trial};
+
+/// Draws absurd but legal scenes and event streams and holds each to its promises: always finite, energy never
+/// above what was put in, the balance closes.
+#[derive(Debug, Parser)]
+#[command(
+    name = "cargo xtask measure extremes",
+    after_help = "Examples:\n  \
+        cargo xtask measure extremes                    the run whose table is in docs/stability.md\n  \
+        cargo xtask measure extremes --quick            its beginning, compared with the table\n  \
+        cargo xtask measure extremes --seed 7 --trials 20000\n  \
+        cargo xtask measure extremes --replay tests/regressions/extremes/seed-1-trial-59.toml\n\n\
+        A run that was stopped goes on where it was when it is started again. Trials that fail are made small\n\
+        and written to tests/regressions/extremes, where `cargo test` replays them."
+)]
+struct Arguments {
+    /// Trials to draw
+    #[arg(long, default_value_t = 100_000)]
+    trials: u64,
+    /// Where the random numbers begin
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Threads at work [default: as many as the machine has]
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Seconds of hard playing through the engine, over all built-in instruments
+    #[arg(long, default_value_t = 600.0)]
+    playing: f64,
+    /// The first trials of seed 1 and a little playing; the tables must be those in docs/stability.md
+    #[arg(long)]
+    quick: bool,
+    /// Write the tables into docs/stability.md
+    #[arg(long)]
+    write: bool,
+    /// Begin anew even if there is something to go on with
+    #[arg(long)]
+    fresh: bool,
+    /// Run one trial from its file and say what it comes to
+    #[arg(long)]
+    replay: Option<PathBuf>,
+}
+
+/// Trials and seconds of playing of `--quick`.
+const QUICK: (u64, f64) = (1000, 8.0);
 
 /// Runs the measurement.
-pub fn run(_arguments: Vec<String>) -> Result<()> {
-    bail!("not measured yet")
+///
+/// # Errors
+/// When a promise is broken, the tables are not those of the documentation, or a file cannot be written.
+pub fn run(arguments: Vec<String>) -> Result<()> {
+    let name = "cargo xtask measure extremes".to_owned();
+    let arguments = match Arguments::try_parse_from(std::iter::once(name).chain(arguments)) {
+        Ok(arguments) => arguments,
+        Err(error) if !error.use_stderr() => return error.print().map_err(Into::into),
+        Err(error) => bail!("{}", error.render()),
+    };
+    if let Some(file) = &arguments.replay {
+        let text = std::fs::read_to_string(file).with_context(|| format!("{}", file.display()))?;
+        println!("{:#?}", Trial::from_toml(&text)?.run());
+        return Ok(());
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let (trials, playing) = if arguments.quick { QUICK } else { (arguments.trials, arguments.playing) };
+    let seed = if arguments.quick { 1 } else { arguments.seed };
+    let threads = arguments.threads.or_else(|| std::thread::available_parallelism().ok().map(Into::into));
+    println!("{trials} trials from seed {seed}, {playing} s of hard playing");
+    let campaign = Campaign {
+        seed,
+        trials,
+        threads: threads.unwrap_or(1),
+        kept: (!arguments.fresh && !arguments.quick).then(|| root.join("target/extremes")),
+        failures: root.join("tests/regressions/extremes"),
+    };
+    let tally = campaign.run()?;
+    for (number, fault) in &tally.faults {
+        println!("trial {number}: {fault}");
+    }
+    let tables = tally.tables();
+    println!("{tables}");
+    for name in Setup::BUILTIN {
+        let loudest = playing::play(name, seed, playing / Setup::BUILTIN.len() as f64)?;
+        println!("hard playing on {name}: finite, loudest sample {loudest:.3e}");
+    }
+    let section = if arguments.quick { "quick" } else { "full" };
+    let page = root.join("docs/stability.md");
+    if arguments.write {
+        write_section(&page, section, &tables)?;
+    } else if arguments.quick {
+        compare_section(&page, section, &tables)?;
+    }
+    if !tally.faults.is_empty() {
+        bail!("{} trials broke a promise; they are in tests/regressions/extremes", tally.faults.len());
+    }
+    Ok(())
+}
+
+/// The lines between which a section's tables stand on the page.
+fn marks(section: &str) -> [String; 2] {
+    [format!("<!-- extremes {section} -->\n"), format!("<!-- end of extremes {section} -->\n")]
+}
+
+/// What stands before, in and after a section.
+fn split_page<'a>(page: &'a str, section: &str) -> Result<[&'a str; 3]> {
+    let [begin, end] = marks(section);
+    let parts = page.split_once(&begin).and_then(|(before, rest)| {
+        let (inside, after) = rest.split_once(&end)?;
+        Some([before, inside, after])
+    });
+    parts.with_context(|| format!("docs/stability.md has no place for the {section} tables"))
+}
+
+fn write_section(file: &Path, section: &str, tables: &str) -> Result<()> {
+    let page = std::fs::read_to_string(file).with_context(|| format!("{}", file.display()))?;
+    let [before, _, after] = split_page(&page, section)?;
+    let [begin, end] = marks(section);
+    std::fs::write(file, format!("{before}{begin}\n{tables}\n{end}{after}"))?;
+    Ok(())
+}
+
+fn compare_section(file: &Path, section: &str, tables: &str) -> Result<()> {
+    let page = std::fs::read_to_string(file).with_context(|| format!("{}", file.display()))?;
+    let [_, inside, _] = split_page(&page, section)?;
+    if inside.trim() != tables.trim() {
+        bail!("the tables differ from those in docs/stability.md; --write puts them there");
+    }
+    println!("as in docs/stability.md");
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{compare_section, run, write_section};
+
+    #[test]
+    fn arguments_are_explained_and_refused_in_words() {
+        assert!(run(vec!["--help".into()]).is_ok());
+        let message = run(vec!["--sead".into(), "3".into()]).expect_err("not an argument").to_string();
+        assert!(message.contains("--sead"), "{message}");
+    }
+
+    #[test]
+    fn tables_are_written_and_compared_between_their_marks() {
+        let file = std::env::temp_dir().join(format!("low-action-page-{}.md", std::process::id()));
+        let page = "a\n<!-- extremes quick -->\nold\n<!-- end of extremes quick -->\nb\n";
+        std::fs::write(&file, page).expect("it can be written");
+        assert!(compare_section(&file, "quick", "new").is_err());
+        write_section(&file, "quick", "new\n").expect("it has a place");
+        compare_section(&file, "quick", "new").expect("it is there");
+        assert!(write_section(&file, "full", "new").is_err());
+        let text = std::fs::read_to_string(&file).expect("it is there");
+        assert!(text.starts_with("a\n") && text.ends_with("\nb\n"), "{text}");
+        std::fs::remove_file(&file).expect("it is there");
+    }
 }

@@ -1,0 +1,55 @@
+//! Promise: no scene and no stream of events makes it blow up, however absurd, as long as it is legal. Numbers
+//! stay finite; energy is never above what was put in so far, and the balance closes, both to 1e-9 of what was
+//! put in, or to the last digits of the numbers in the balance where these are worth more; at every cap of the
+//! solver. `docs/stability.md` says why; `cargo xtask measure extremes` tries very many more.
+
+use xtask::measure::extremes::{Outcome, Trial};
+
+/// The seed of the trials, unless `EXTREMES_SEED` says another. It is not that of the long run.
+const SEED: u64 = 2;
+/// How many are tried here.
+const TRIALS: u64 = 400;
+
+/// What is wrong with a trial, if anything is.
+fn fault(trial: &Trial) -> Option<String> {
+    match trial.run() {
+        Outcome::Computed(record) => record.fault.map(|fault| fault.to_string()),
+        Outcome::Refused(_) => None,
+    }
+}
+
+#[test]
+fn random_scenes_and_streams() {
+    let seed = std::env::var("EXTREMES_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(SEED);
+    println!("seed {seed}");
+    let mut computed = 0;
+    for number in 0..TRIALS {
+        let trial = Trial::random(seed, number);
+        if let Some(fault) = fault(&trial) {
+            panic!("trial {number} of seed {seed}: {fault}\n{}", trial.to_toml());
+        }
+        computed += u64::from(matches!(trial.run(), Outcome::Computed(_)));
+    }
+    // Refusals may only be rare: a generator of illegal scenes would check nothing.
+    assert!(computed * 100 >= TRIALS * 99, "only {computed} of {TRIALS} were computed");
+}
+
+/// What failed once is tried for ever.
+#[test]
+fn regressions() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/regressions/extremes");
+    let mut tried = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|end| end == "toml") {
+            let trial = Trial::from_toml(&std::fs::read_to_string(&path).unwrap()).unwrap();
+            assert!(matches!(trial.run(), Outcome::Computed(_)), "{} is refused", path.display());
+            if let Some(fault) = fault(&trial) {
+                panic!("{}: {fault}", path.display());
+            }
+            tried += 1;
+        }
+    }
+    println!("{tried} regressions");
+    assert!(tried >= 5, "the regressions are not there");
+}

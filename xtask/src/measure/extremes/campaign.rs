@@ -1,0 +1,126 @@
+//! Many trials on several threads, in chunks whose tallies are kept, so that a run that was stopped goes on
+//! where it was.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::hash::Hasher;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use anyhow::{Context, Result};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::shrink::shrink;
+use super::tally::Tally;
+use super::trial::{Outcome, Trial};
+
+/// Trials whose tally is kept as one.
+const CHUNK: u64 = 250;
+
+/// A run of so many trials from a seed.
+#[derive(Debug, Clone)]
+pub struct Campaign {
+    /// Where the random numbers begin.
+    pub seed: u64,
+    /// Number of trials.
+    pub trials: u64,
+    /// Threads at work.
+    pub threads: usize,
+    /// Where tallies are kept and looked for; nowhere, if nothing is to be resumed.
+    pub kept: Option<PathBuf>,
+    /// Where trials that fail are written, made small.
+    pub failures: PathBuf,
+}
+
+impl Campaign {
+    /// Runs all trials, or those that are left.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn run(&self) -> Result<Tally> {
+        let folder = self.kept.as_ref().map(|kept| this_programs(kept, self.seed)).transpose()?;
+        let chunks = self.trials.div_ceil(CHUNK);
+        let style =
+            ProgressStyle::with_template("{wide_bar} {pos}/{len} trials, {elapsed} of {duration}, {msg}")?;
+        let progress = ProgressBar::new(self.trials).with_style(style).with_message("no fault");
+        let (next, faults) = (AtomicU64::new(0), AtomicU64::new(0));
+        let tallies = Mutex::new(BTreeMap::new());
+        let work = || -> Result<()> {
+            loop {
+                let chunk = next.fetch_add(1, Ordering::Relaxed);
+                if chunk >= chunks {
+                    return Ok(());
+                }
+                let numbers = chunk * CHUNK..((chunk + 1) * CHUNK).min(self.trials);
+                let name = format!("{:07}-{:07}.toml", numbers.start, numbers.end);
+                let file = folder.as_ref().map(|folder| folder.join(name));
+                let mut tally = Tally::default();
+                if let Some(known) = file.as_deref().and_then(read) {
+                    tally = known;
+                    progress.inc(tally.trials);
+                } else {
+                    for number in numbers {
+                        tally.count(number, &self.one(number)?);
+                        progress.inc(1);
+                    }
+                    if let Some(file) = &file {
+                        write(file, &toml::to_string(&tally)?)?;
+                    }
+                }
+                let count = tally.faults.len() as u64;
+                if faults.fetch_add(count, Ordering::Relaxed) + count > 0 {
+                    progress.set_message(format!("{} faults", faults.load(Ordering::Relaxed)));
+                }
+                tallies.lock().expect("no thread panics with it").insert(chunk, tally);
+            }
+        };
+        std::thread::scope(|scope| {
+            let threads: Vec<_> = (0..self.threads.max(1)).map(|_| scope.spawn(work)).collect();
+            threads.into_iter().try_for_each(|thread| thread.join().expect("trials catch their panics"))
+        })?;
+        progress.finish_and_clear();
+        // In order, so that sums are the same whatever the threads did.
+        let tallies = tallies.into_inner().expect("no thread panics with it");
+        let mut sum = Tally::default();
+        tallies.values().for_each(|tally| sum.add(tally));
+        Ok(sum)
+    }
+
+    /// Runs one trial; writes it down, made small, if it fails.
+    fn one(&self, number: u64) -> Result<Outcome> {
+        let trial = Trial::random(self.seed, number);
+        let outcome = trial.run();
+        if let Outcome::Computed(record) = &outcome
+            && let Some(fault) = &record.fault
+        {
+            let small = shrink(&trial, fault);
+            let text = format!("# Trial {number} of seed {}: {fault}.\n\n{}", self.seed, small.to_toml());
+            fs::create_dir_all(&self.failures)?;
+            write(&self.failures.join(format!("seed-{}-trial-{number}.toml", self.seed)), &text)?;
+        }
+        Ok(outcome)
+    }
+}
+
+/// The folder of what this very program has tallied from a seed: one built anew begins anew.
+fn this_programs(kept: &Path, seed: u64) -> Result<PathBuf> {
+    let program = fs::read(std::env::current_exe()?).context("the program itself")?;
+    let mut hasher = std::hash::DefaultHasher::new();
+    hasher.write(&program);
+    let folder = kept.join(format!("{:016x}-seed-{seed}", hasher.finish()));
+    fs::create_dir_all(&folder).with_context(|| format!("{}", folder.display()))?;
+    Ok(folder)
+}
+
+fn read(file: &Path) -> Option<Tally> {
+    toml::from_str(&fs::read_to_string(file).ok()?).ok()
+}
+
+/// Writes beside and renames, so that a file is whole or not there.
+fn write(file: &Path, text: &str) -> Result<()> {
+    let beside = file.with_extension("part");
+    fs::write(&beside, text)
+        .and_then(|()| fs::rename(&beside, file))
+        .with_context(|| format!("{}", file.display()))
+}
