@@ -226,17 +226,20 @@ fn gross(
     } else {
         0.0
     };
-    let (mut contacts, mut forces) = (0.0, 0.0);
+    let (mut contacts, mut forces, mut fingers) = (0.0, 0.0, 0.0);
     for active in &scratch.active {
         let (before, after) = (active.before.penetration, active.before.penetration + active.change);
         let place = before.abs() + active.change.abs() + active.raised.abs();
         let place = place + active.reading.of(&state.displacement).abs() + active.reading.of(now).abs();
         contacts += (active.law.force(before) + active.law.force(after) + active.force.abs()) * place;
         forces += active.force.abs();
+        // A finger's own motion without contact and its answer to the force may all but cancel.
+        let answer = active.own_mobility * active.force.abs();
+        fingers += answer * active.force.abs();
     }
     // Each change of penetration is a sum over all forces, and may be off by a last digit for each of them.
     let sums = scratch.active.len() as f64 * model.mobility * forces * forces;
-    kinetic + per_slope * slope + stretched + contacts + sums
+    kinetic + per_slope * slope + stretched + contacts + sums + fingers
 }
 
 /// Σ of products of neighbours' differences, (δa)ᵀδb over all intervals.

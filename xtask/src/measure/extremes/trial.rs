@@ -226,12 +226,11 @@ impl Balance {
         }
         let allowed = TOLERANCE + self.rounding;
         // Written so that what is not a number breaks the promise.
-        if !(self.created <= allowed) {
-            return Some(Fault::Created(self.created));
+        let (passive, closed) = (self.created <= allowed, self.open <= allowed);
+        match (passive, closed) {
+            (false, _) => Some(Fault::Created(self.created)),
+            (true, false) => Some(Fault::Open(self.open)),
+            (true, true) => None,
         }
-        if !(self.open <= allowed) {
-            return Some(Fault::Open(self.open));
-        }
-        None
     }
 }
