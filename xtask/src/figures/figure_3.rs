@@ -127,7 +127,7 @@ fn draw(scene: &Scene, outcomes: &[Outcome]) -> Result<String> {
     .with(Layer::line("on average", Stroke::new(colour::GREEN), points(&Outcome::mean_iterations)))
     .with(Layer::dots("", Stroke::new(colour::GREEN), points(&Outcome::mean_iterations)));
     let caption = format!(
-        "{} The first {} ms, tolerance {} m. The energy bound on a penetration is (2(α+1)𝔥/K)^(1/(α+1)).",
+        "{} The first {} ms, tolerance {} m. The energy bound on a penetration is (2(α+1)H/K)^(1/(α+1)), H the energy of all.",
         describe(scene),
         1e3 * DURATION,
         significant(scene.solver.tolerance, 3)

@@ -121,7 +121,7 @@ fn draw(scene: &Scene, partition: &Partition) -> Result<String> {
     let variation = partition.variation.iter().map(|&(time, part)| (time, 1e14 * part)).collect();
     let extent = 1.2e14 * partition.largest.1;
     let variation = Panel::new(
-        "Variation of all energy, (𝔥 − 𝔥₀)/𝔥₀",
+        "Variation of all energy H, (H − H₀)/H₀",
         time,
         Axis::linear("variation, 10⁻¹⁴", -extent..extent),
     )

@@ -116,7 +116,7 @@ fn draw(scene: &Scene, minute: &Minute, finer: &Minute) -> Result<String> {
     let strokes = [Stroke::thin(colour::INK), Stroke::new(colour::VERMILION), Stroke::new(colour::BLUE)];
     let extent = 1.2e13 * minute.largest().into_iter().fold(0.0, f64::max);
     let mut panel = Panel::new(
-        "Variation of all energy, (𝔥 − 𝔥₀)/𝔥₀",
+        "Variation of all energy H, (H − H₀)/H₀",
         Axis::linear("time, s", 0.0..MINUTE),
         Axis::linear("variation, 10⁻¹³", -extent..extent),
     );
