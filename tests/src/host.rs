@@ -192,7 +192,7 @@ impl Host {
                 latency: 0,
                 channels: AudioPortBufferType::f32_output_only(channels.into_iter()),
             }));
-            let mut said = EventBuffer::with_capacity(256);
+            let mut said = EventBuffer::with_capacity(256 + 2 * score.len());
             let status = processor
                 .process(
                     &InputAudioBuffers::empty(),
