@@ -342,10 +342,10 @@ fn place(rows: &mut [Active], answer: &impl Answer, room: &mut Room, t: f64) {
     }
 }
 
-/// One Newton step with a line search; returns the largest change of penetration it made.
+/// The step δ of Newton's method from the residual R and M R, which stand in `residual` and `motion`:
+/// (1 + √D M √D) y = −√D M R, δ = R + √D y.
 #[inline(always)]
-fn newton_step(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) -> f64 {
-    // (1 + √D M √D) y = −√D M R, δ = R + √D y.
+fn newton_direction(rows: &[Active], answer: &mut impl Answer, room: &mut Room) {
     for (i, row) in rows.iter().enumerate() {
         room.roots[i] = row.slope.sqrt();
         room.unknown[i] = -room.roots[i] * room.motion[i];
@@ -354,6 +354,12 @@ fn newton_step(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) -
     for i in 0..rows.len() {
         room.step[i] = room.residual[i] + room.roots[i] * room.unknown[i];
     }
+}
+
+/// One Newton step with a line search; returns the largest change of penetration it made.
+#[inline(always)]
+fn newton_step(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) -> f64 {
+    newton_direction(rows, answer, room);
     answer.product(room.step, room.motion);
     room.start.copy_from_slice(room.forces);
     // Along the step −(Mδ)ᵀ(law − f) rises monotonically through 0, where the best point is.
@@ -460,16 +466,9 @@ fn fall_back(
 fn approach(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room, taken: f64, credit: f64) -> f64 {
     for (i, row) in rows.iter().enumerate() {
         room.residual[i] = row.required - (row.base + room.forces[i]);
-        room.roots[i] = row.slope.sqrt();
     }
     answer.product(room.residual, room.motion);
-    for i in 0..rows.len() {
-        room.unknown[i] = -room.roots[i] * room.motion[i];
-    }
-    answer.solve(room.roots, room.unknown);
-    for i in 0..rows.len() {
-        room.step[i] = room.residual[i] + room.roots[i] * room.unknown[i];
-    }
+    newton_direction(rows, answer, room);
     let error = largest(room.motion);
     room.start.copy_from_slice(room.forces);
     let (mut best, mut least) = (0.0, taken.abs());

@@ -56,6 +56,9 @@ fn corner(sound: &[f32]) -> f32 {
     sound.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).abs()).fold(0.0, f32::max)
 }
 
+/// Samples in which corners are compared with those around: 5 ms.
+const WINDOW: usize = 240;
+
 /// A set-up as a player would change it, near another.
 fn changed(setup: &Setup, action: f64, loss: f64, pickup: f64, tuning: f64) -> Setup {
     let mut setup = setup.clone();
@@ -93,7 +96,7 @@ fn there_is_no_click() {
     let electric = Setup::builtin("electric").expect("it is built in");
     let changes = [
         ("action up", changed(&electric, 1.5, 1.0, 0.0, 0.0)),
-        ("action down", changed(&electric, 0.85, 1.0, 0.0, 0.0)),
+        ("action down", changed(&electric, 0.7, 1.0, 0.0, 0.0)),
         ("more loss", changed(&electric, 1.0, 4.0, 0.0, 0.0)),
         ("pickup moved", changed(&electric, 1.0, 1.0, 0.08, 0.0)),
         ("a tone down", changed(&electric, 1.0, 1.0, 0.0, -2.0)),
@@ -112,8 +115,19 @@ fn assert_no_click(what: &str, old: &Setup, new: &Setup) {
     play(&mut instrument, 9600, &mut sound);
     // What either sound does by itself in the 50 ms before, and from 100 ms after on.
     let usual = corner(&sound[9600..12_000]).max(corner(&sound[16_800..]));
-    let here = corner(&sound[11_990..16_800]);
-    assert!(here <= 2.0 * usual, "{what}: a corner of {here:e} where {usual:e} is usual");
+    // A click stands alone. Frets that rise under a wide swing make it buzz, sharper than anything before, but
+    // again and again: within 20 ms, beside the neighbours, which a click between two windows would share.
+    let corners: Vec<f32> = sound[11_990..16_802].chunks_exact(WINDOW).map(corner).collect();
+    for (at, &here) in corners.iter().enumerate() {
+        let near = corners.iter().enumerate().filter(|(other, _)| (2..=4).contains(&other.abs_diff(at)));
+        let around = near.fold(usual, |most, (_, &other)| most.max(other));
+        println!("{what}: {here:.1e} where {around:.1e} is usual");
+        let time = 1e3 * (at * WINDOW) as f64 / RATE;
+        assert!(
+            here <= 2.0 * around,
+            "{what}: a corner of {here:e} where {around:e} is usual, {time} ms after"
+        );
+    }
 }
 
 #[test]
@@ -166,8 +180,11 @@ fn any_setup(which: usize, numbers: &[f64]) -> Setup {
     setup
 }
 
+/// The same cases in every run.
+const SEED: proptest::test_runner::RngSeed = proptest::test_runner::RngSeed::Fixed(1);
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 16, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 16, rng_seed: SEED, failure_persistence: None, ..ProptestConfig::default() })]
     #[test]
     fn the_ledger_closes(
         which in 0_usize..3,
