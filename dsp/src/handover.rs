@@ -132,12 +132,14 @@ impl Instrument {
 }
 
 impl State {
-    /// Takes over the motion of a string on another model of the same time step, and the fingers on it;
-    /// one whose pad is too stiff for this model is left out.
+    /// Takes over the motion of a string on another model, and the fingers on it; one whose pad is too
+    /// stiff for this model is left out. What moved in a step of the old model moves its share of that in
+    /// a step of this one.
     pub(crate) fn take_over(&mut self, model: &Model, old: &State, old_model: &Model) {
         let (grid, old_grid) = (&model.grid, &old_model.grid);
         let same_grid = grid == old_grid;
         let scale = grid.length / old_grid.length;
+        let share = grid.time_step / old_grid.time_step;
         if same_grid {
             self.displacement.copy_from_slice(&old.displacement);
             self.motion.copy_from_slice(&old.motion);
@@ -147,7 +149,7 @@ impl State {
             for node in 1..grid.intervals {
                 let reading = old_grid.reading(grid.place(node) / scale);
                 self.displacement[NUT + node] = reading.of(&old.displacement);
-                self.motion[NUT + node] = reading.of(&old.motion);
+                self.motion[NUT + node] = share * reading.of(&old.motion);
             }
         }
         for slot in 0..self.fingers.len() {
@@ -163,7 +165,8 @@ impl State {
                 finger.reading = grid.reading(finger.position);
                 finger.reading_before = finger.reading;
                 finger.height += self.displacement_at(&finger.reading) - height_before;
-                finger.motion += finger.reading.of(&self.motion) - motion_before;
+                finger.motion *= share;
+                finger.motion += finger.reading.of(&self.motion) - share * motion_before;
                 Some(finger)
             });
         }
@@ -187,6 +190,8 @@ impl State {
             ContactKind::Fret { .. } => a.kind == b.kind,
             ContactKind::Board { .. } => same_grid && a.kind == b.kind,
         };
+        // Where steps grow longer the depth before is not guessed at: it might be far deeper than anything was.
+        let share = (model.grid.time_step / old_model.grid.time_step).min(1.0);
         let count = old_model.contacts.len();
         // Both lists are in order of place, so the partner of a contact follows that of the one before.
         let mut next = 0;
@@ -203,6 +208,9 @@ impl State {
                 let string = reading.of(&old.displacement);
                 depth = old.heights[partner] - string;
                 depth_before = old.heights_before[partner] - (string - reading.of(&old.motion));
+                if share < 1.0 {
+                    depth_before = depth + share * (depth_before - depth);
+                }
             }
             if depth.max(depth_before) > 0.0 {
                 self.heights[index] = now + depth;
@@ -217,27 +225,25 @@ impl State {
 }
 
 impl Hands {
-    /// Takes over what the hands on another string of the same sample rate are doing.
+    /// Takes over what the hands on another string are doing.
     pub(crate) fn take_over(&mut self, old: &Hands, model: &Model, old_model: &Model) {
         let scale = model.grid.length / old_model.grid.length;
+        let factor = self.sample_rate / old.sample_rate;
         self.plucks.clear();
         for pluck in &old.plucks {
             let position = pluck.position * scale;
             let reading = model.grid.reading(position);
-            self.plucks.push(crate::hands::Pluck { position, reading, ..*pluck });
+            self.plucks.push(crate::hands::Pluck { position, reading, ..pluck.resampled(factor) });
         }
         for (held, before) in self.fingers.iter_mut().zip(&old.fingers) {
-            *held = *before;
-            if let Some(held) = held {
-                held.position = held.position.scaled(scale);
-            }
+            *held = before.map(|before| before.carried(scale, factor));
         }
         // From the tension there is, as far as this string bears it, to the same bend of the new one.
         let ratio = (old.tension.goal() / old_model.string.tension).min(Self::highest_ratio(model));
         self.tension = Ramp::at(old.tension.value().min(model.string.tension_limit));
         let goal = model.string.tension * ratio;
         if self.tension.value() != goal {
-            let left = old.tension.left().max(self.samples(FADE));
+            let left = old.tension.resampled(factor).left().max(self.samples(FADE));
             self.tension.go(goal, left);
         }
     }

@@ -32,14 +32,31 @@ pub(crate) struct Pluck {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Held {
     force: Ramp,
-    pub position: Ramp,
+    position: Ramp,
     leaving: bool,
+}
+
+impl Pluck {
+    /// The same push in samples of another length, of which there are `factor` for each of the old.
+    pub fn resampled(self, factor: f64) -> Self {
+        Pluck { done: (self.done as f64 * factor).round() as u64, ..self }
+    }
+}
+
+impl Held {
+    /// The same motion over a string `scale` times as long, in samples of which there are `factor` for each
+    /// of the old.
+    pub fn carried(self, scale: f64, factor: f64) -> Self {
+        let position = self.position.scaled(scale).resampled(factor);
+        Held { position, force: self.force.resampled(factor), ..self }
+    }
 }
 
 /// The hands on one string.
 #[derive(Debug, Clone)]
 pub(crate) struct Hands {
-    sample_rate: f64,
+    /// Of the string, Hz.
+    pub sample_rate: f64,
     pub plucks: Vec<Pluck>,
     pub fingers: [Option<Held>; FINGERS_PER_STRING],
     pub tension: Ramp,

@@ -1,9 +1,10 @@
 //! An instrument: strings over a neck under two hands, heard through a pickup.
 //!
 //! Everything is allocated when it is built. Strings do not hear each other, so each is stepped through
-//! a whole run of samples at a time; gestures cut runs at their exact samples, and so the samples are the
-//! same however they are asked for.
+//! a whole run of samples at a time, at a whole multiple of the sample rate of its own ([`crate::settings`]);
+//! gestures cut runs at their exact samples, and so the samples are the same however they are asked for.
 
+use crate::decimate::DELAY;
 use crate::error::Error;
 use crate::gesture::TimedGesture;
 use crate::intonation::finger_place;
@@ -11,23 +12,10 @@ use crate::model::Model;
 use crate::queue::Queue;
 pub use crate::queue::QueueFull;
 use crate::ramp::Ramp;
-use crate::scene::{SolverSettings, Stencil};
+use crate::settings::EngineSettings;
 use crate::setup::{Setup, tension_ratio};
 use crate::state::State;
 use crate::voice::{RUN, Voice};
-
-/// How an instrument is computed: speed against accuracy.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EngineSettings {
-    /// Sample rate, Hz, 8e3 to 1e6.
-    pub sample_rate: f64,
-    /// Difference operator of the strings.
-    pub stencil: Stencil,
-    /// Newton iterations at most in a sample.
-    pub max_iterations: usize,
-    /// Largest change of penetration at which the iteration may stop, m.
-    pub tolerance: f64,
-}
 
 /// What a player needs to know of one string.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,21 +67,19 @@ pub struct Instrument {
 const LEVEL_TIME: f64 = 0.05;
 
 impl Instrument {
+    /// How much later than it happens everything is heard, samples: the same for all instruments, so that
+    /// one can take over from another. What a sample holds happened so many samples before.
+    pub const LATENCY: u32 = DELAY as u32;
+
     /// Builds an instrument: tunes strings, places frets, compiles models, allocates.
     ///
     /// # Errors
     /// When a value is out of range, or a string is too short for its grid at this sample rate.
     pub fn new(setup: &Setup, settings: &EngineSettings) -> Result<Instrument, Error> {
         setup.check()?;
-        crate::error::within("sample_rate", settings.sample_rate, 8e3, 1e6, "Hz")?;
-        let solver = SolverSettings {
-            max_iterations: settings.max_iterations,
-            tolerance: settings.tolerance,
-            stencil: settings.stencil,
-        };
-        solver.check()?;
+        settings.check()?;
         let voices = (0..setup.string.len())
-            .map(|index| Voice::new(setup, index, solver, settings.sample_rate))
+            .map(|index| Voice::new(setup, index, settings))
             .collect::<Result<Vec<_>, Error>>()?;
         Ok(Instrument {
             voices,
@@ -114,6 +100,11 @@ impl Instrument {
     /// What a player needs to know of a string.
     pub fn geometry(&self, string: usize) -> &StringGeometry {
         &self.voices[string].geometry
+    }
+
+    /// How many steps of a string a sample has.
+    pub fn ratio(&self, string: usize) -> usize {
+        self.voices[string].ratio()
     }
 
     /// The model of a string.

@@ -40,7 +40,6 @@ struct Bench<'a> {
     fretting: &'a Fretting,
     settings: SolverSettings,
     sample_rate: f64,
-    tension_modulation: bool,
 }
 
 /// Steps of a search for one number; each gains several digits.
@@ -68,7 +67,6 @@ pub fn intonate(
         fretting: &setup.player.fretting,
         settings: SolverSettings { stencil, ..SolverSettings::default() },
         sample_rate,
-        tension_modulation: setup.tension_modulation,
     };
     let target = std::f64::consts::TAU * frequency(string.pitch + setup.tuning);
     let tuned = bench.tuned(string, setup.highest_tension_ratio(), target)?;
@@ -79,6 +77,25 @@ pub fn intonate(
     Ok(Intonated { string: tuned, frets })
 }
 
+/// A string of a set-up with the tension that would tune it if it were flexible.
+pub(crate) fn flexible(setup: &Setup, string: &SetupString) -> StringParameters {
+    let length = setup.neck.scale_length;
+    let angular = std::f64::consts::TAU * frequency(string.pitch + setup.tuning);
+    let wave_speed = length * angular / std::f64::consts::PI;
+    let tension = wave_speed * wave_speed * string.linear_density;
+    StringParameters {
+        length,
+        linear_density: string.linear_density,
+        tension,
+        tension_limit: tension * setup.highest_tension_ratio(),
+        youngs_modulus: string.youngs_modulus,
+        core_radius: string.core_radius,
+        loss_0: string.loss_0,
+        loss_1: string.loss_1,
+        tension_modulation: setup.tension_modulation,
+    }
+}
+
 impl Bench<'_> {
     fn model(&self, string: &StringParameters, frets: &[f64]) -> Result<Model, Error> {
         let barrier = self.setup.barrier(frets)?;
@@ -87,20 +104,8 @@ impl Bench<'_> {
 
     /// The string with the tension that puts its first partial at `target` (1/s) on its own grid.
     fn tuned(&self, string: &SetupString, ratio: f64, target: f64) -> Result<StringParameters, Error> {
-        let length = self.neck.scale_length;
-        let wave_speed = length * target / std::f64::consts::PI;
-        let mut tension = wave_speed * wave_speed * string.linear_density;
-        let mut tuned = StringParameters {
-            length,
-            linear_density: string.linear_density,
-            tension,
-            tension_limit: tension * ratio,
-            youngs_modulus: string.youngs_modulus,
-            core_radius: string.core_radius,
-            loss_0: string.loss_0,
-            loss_1: string.loss_1,
-            tension_modulation: self.tension_modulation,
-        };
+        let mut tuned = flexible(self.setup, string);
+        let mut tension = tuned.tension;
         for _ in 0..MOST_STEPS {
             let off = open_frequency(&self.model(&tuned, &[])?, 1) / target;
             tension /= off * off;

@@ -62,6 +62,13 @@ impl Ramp {
         Ramp { from: self.from * factor, to: self.to * factor, ..self }
     }
 
+    /// The same ramp in samples of another length: `factor` of them for each of the old.
+    pub fn resampled(self, factor: f64) -> Self {
+        let samples = |count: u64| (count as f64 * factor).round() as u64;
+        let total = samples(self.total);
+        Ramp { done: samples(self.done).min(total), total, ..self }
+    }
+
     /// Whether it has arrived.
     #[inline]
     pub fn rests(&self) -> bool {

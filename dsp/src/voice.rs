@@ -1,5 +1,6 @@
 //! One string of an instrument: its model, its motion, the hands on it and what is heard of it.
 
+use crate::decimate::Decimator;
 use crate::drive::Drive;
 use crate::energy::Ledger;
 use crate::error::Error;
@@ -10,7 +11,7 @@ use crate::intonation::intonate;
 use crate::model::Model;
 use crate::pickup::{Listener, PickupMix};
 use crate::ramp::Ramp;
-use crate::scene::SolverSettings;
+use crate::settings::EngineSettings;
 use crate::setup::Setup;
 use crate::state::State;
 use crate::string::Scratch;
@@ -24,11 +25,12 @@ pub(crate) struct Voice {
     drive: Drive,
     hands: Hands,
     listener: Listener,
+    decimator: Decimator,
     pub geometry: StringGeometry,
     gain: f64,
     pub pan: [f64; 2],
     asleep: bool,
-    /// The last samples stepped through, up to [`RUN`].
+    /// The last samples heard, up to [`RUN`].
     pub run: [f64; RUN],
     /// Whether `run` holds nothing but zeros, throughout, because nothing is left to be heard.
     pub silent: bool,
@@ -46,7 +48,7 @@ struct Settling {
     part: Ramp,
 }
 
-/// Samples a string is stepped through at a time, at most.
+/// Samples of the host's that a string is stepped through at a time, at most.
 pub(crate) const RUN: usize = 64;
 
 /// A string nobody touches sleeps once its energy is below this, J: a soft pluck holds 1e-6 J, so this
@@ -59,9 +61,12 @@ const SETTLING: f64 = 0.04;
 
 impl Voice {
     /// Tunes the string, places its frets, compiles its model; allocates.
-    pub fn new(setup: &Setup, index: usize, solver: SolverSettings, rate: f64) -> Result<Voice, Error> {
+    pub fn new(setup: &Setup, index: usize, settings: &EngineSettings) -> Result<Voice, Error> {
         let spec = &setup.string[index];
         let name = format!("string[{}]", index + 1);
+        let solver = settings.solver();
+        let ratio = settings.ratio(setup, spec);
+        let rate = ratio as f64 * settings.sample_rate;
         let placed = intonate(setup, spec, solver.stencil, rate).map_err(|error| error.under(&name))?;
         let barrier = setup.barrier(&placed.frets)?;
         let model = Model::new(placed.string, Some(&barrier), FINGERS_PER_STRING, solver, rate)
@@ -86,6 +91,7 @@ impl Voice {
             drive: Drive::new(&model),
             hands: Hands::new(&model, rate),
             listener: Listener::new(&PickupMix::of(setup, &placed.string), &model, rate),
+            decimator: Decimator::new(ratio, RUN),
             gain: setup.gain * spec.level,
             pan: [libm::cos(angle), libm::sin(angle)],
             asleep: true,
@@ -103,9 +109,14 @@ impl Voice {
         self.hands.begin(gesture, &self.model, &mut self.state);
     }
 
-    /// Steps the string through so many samples into `run`.
+    /// How many steps of the string a sample of the host's has.
+    pub fn ratio(&self) -> usize {
+        self.decimator.ratio()
+    }
+
+    /// Steps the string through so many samples of the host's into `run`.
     pub fn run(&mut self, samples: usize) {
-        if self.asleep && self.listener.is_still() {
+        if self.asleep && self.decimator.is_empty() && self.listener.is_still() {
             if !self.silent {
                 self.run.fill(0.0);
                 self.silent = true;
@@ -113,9 +124,11 @@ impl Voice {
             return;
         }
         self.silent = false;
-        for i in 0..samples {
-            self.run[i] = self.gain * self.next();
+        for index in 0..self.decimator.ratio() * samples {
+            let value = self.gain * self.next();
+            self.decimator.take(index, value);
         }
+        self.decimator.give(&mut self.run[..samples]);
     }
 
     #[inline]
@@ -178,13 +191,14 @@ impl Voice {
         self.ledger = Some(Ledger::new(&self.model, &self.state, self.hands.tension()));
     }
 
-    /// Takes over from another string, built for the same sample rate: its motion, the fingers on it, the
+    /// Takes over from another string of the same host's rate: its motion, the fingers on it, the
     /// plucks under way, and its ledger. Nothing is allocated.
     pub fn take_over(&mut self, old: &mut Voice) {
         self.ledger = old.ledger.take();
         self.asleep = old.asleep;
         self.hands.take_over(&old.hands, &self.model, &old.model);
         self.listener.take_over(&old.listener);
+        self.decimator.take_over(&old.decimator);
         if self.asleep {
             return self.rebook();
         }
@@ -203,6 +217,7 @@ impl Voice {
         self.scratch.reset();
         self.hands.reset(&self.model);
         self.listener.reset();
+        self.decimator.reset();
         self.settling.part = Ramp::at(1.0);
         self.drive.heights.clear();
         self.asleep = true;

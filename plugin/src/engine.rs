@@ -7,10 +7,9 @@
 mod handover;
 
 use std::collections::VecDeque;
-use std::fmt;
-use std::str::FromStr;
 
-use low_action_dsp::{EngineSettings, Instrument, Setup, Stencil, TimedGesture};
+pub use low_action_dsp::Quality;
+use low_action_dsp::{EngineSettings, Instrument, Setup, TimedGesture};
 
 use crate::controls::Touching;
 use crate::performance::{
@@ -25,72 +24,6 @@ const STEP: usize = 64;
 const WAITING_EVENTS: usize = 16_384;
 /// Most stems written at once; set-ups have at most 32 strings.
 const MOST_STEMS: usize = 32;
-
-/// How much computing a sound may take.
-///
-/// Every quality runs at the sample rate asked for; they differ in the string's stencil and in how
-/// exactly contacts are solved.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Quality {
-    /// Least work: the corrected stencil costs no more than the plain one (partial near 4 kHz of a
-    /// low E at 48 kHz 12 cents flat); contacts to 1e-9 m, at most 8 iterations.
-    Draft,
-    /// For playing: the wide stencil (1 cent flat there); contacts to 1e-12 m, at most 20
-    /// iterations.
-    #[default]
-    Live,
-    /// For a finished recording: contacts to 1e-14 m, at most 50 iterations.
-    Studio,
-    /// For comparison: contacts to 1e-16 m, at most 200 iterations.
-    Reference,
-}
-
-impl Quality {
-    /// All of them, from least to most work.
-    pub const ALL: [Self; 4] = [Self::Draft, Self::Live, Self::Studio, Self::Reference];
-
-    /// Iterations at most and tolerance, m, of contacts where there is not time enough: sound that does not
-    /// break matters more than a buzz that is right in every sample.
-    pub const RELAXED: (usize, f64) = (4, 1e-8);
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Draft => "draft",
-            Self::Live => "live",
-            Self::Studio => "studio",
-            Self::Reference => "reference",
-        }
-    }
-
-    /// What it means for the instrument at a sample rate in Hz.
-    pub fn settings(self, sample_rate: f64) -> EngineSettings {
-        let (stencil, max_iterations, tolerance) = match self {
-            Self::Draft => (Stencil::Corrected, 8, 1e-9),
-            Self::Live => (Stencil::Wide, 20, 1e-12),
-            Self::Studio => (Stencil::Wide, 50, 1e-14),
-            Self::Reference => (Stencil::Wide, 200, 1e-16),
-        };
-        EngineSettings { sample_rate, stencil, max_iterations, tolerance }
-    }
-}
-
-impl fmt::Display for Quality {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(self.name())
-    }
-}
-
-impl FromStr for Quality {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<Self, String> {
-        Self::ALL
-            .into_iter()
-            .find(|quality| quality.name() == name)
-            .ok_or_else(|| format!("unknown quality {name:?}: must be draft, live, studio or reference"))
-    }
-}
 
 /// Everything an engine is built from.
 #[derive(Debug, Clone)]
@@ -171,6 +104,9 @@ pub struct Engine {
 }
 
 impl Engine {
+    /// How much later than it happens everything is heard, samples at any rate.
+    pub const LATENCY: u32 = Instrument::LATENCY;
+
     /// Builds everything; nothing is allocated afterwards.
     ///
     /// # Errors

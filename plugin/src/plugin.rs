@@ -19,6 +19,7 @@ use std::sync::Arc;
 
 use nice_plug::prelude::*;
 
+use crate::engine::Engine;
 use crate::params::LowActionParams;
 use level::Output;
 use meters::Meters;
@@ -126,6 +127,7 @@ impl Plugin for LowAction {
                 }
             },
         }
+        context.set_latency_samples(Engine::LATENCY);
         if let Some(playing) = &self.playing {
             context.set_current_voice_capacity(playing.string_count());
         }

@@ -4,14 +4,14 @@
 
 // The allocator that keeps watch comes with the plugin.
 use low_action as _;
-use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture};
+use low_action_dsp::{EngineSettings, Gesture, Instrument, Quality, Setup, TimedGesture};
 use nice_assert_no_alloc::assert_no_alloc;
 use proptest::prelude::*;
 
 const RATE: f64 = 48_000.0;
 
 fn settings() -> EngineSettings {
-    EngineSettings { sample_rate: RATE, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 }
+    Quality::Live.settings(RATE)
 }
 
 fn build(setup: &Setup) -> Instrument {

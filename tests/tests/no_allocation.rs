@@ -4,8 +4,7 @@
 // The allocator that keeps watch comes with the plugin.
 use low_action as _;
 use low_action_dsp::{
-    Drive, EngineSettings, Gesture, Instrument, Model, Scene, Scratch, Setup, State, Stencil,
-    StringParameters, TimedGesture,
+    Drive, Gesture, Instrument, Model, Quality, Scene, Scratch, Setup, State, StringParameters, TimedGesture,
 };
 use nice_assert_no_alloc::assert_no_alloc;
 
@@ -13,12 +12,7 @@ use nice_assert_no_alloc::assert_no_alloc;
 fn playing_an_instrument() {
     for name in Setup::BUILTIN {
         let setup = Setup::builtin(name).expect("it is built in");
-        let settings = EngineSettings {
-            sample_rate: 48e3,
-            stencil: Stencil::Wide,
-            max_iterations: 20,
-            tolerance: 1e-12,
-        };
+        let settings = Quality::Live.settings(48e3);
         let mut instrument = Instrument::new(&setup, &settings).expect("it can be built");
         let geometry: Vec<_> =
             (0..instrument.string_count()).map(|string| instrument.geometry(string).clone()).collect();

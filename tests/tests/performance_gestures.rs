@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 
 use low_action::performance::{Performance, PlayedString, PlayerEvent, Style};
-use low_action_dsp::{EngineSettings, FINGERS_PER_STRING, Gesture, Instrument, Setup, Stencil, TimedGesture};
+use low_action_dsp::{FINGERS_PER_STRING, Gesture, Instrument, Quality, Setup, TimedGesture};
 use proptest::prelude::*;
 
 const RATE: f64 = 48_000.0;
@@ -16,9 +16,7 @@ const WHILE: u64 = 12_000;
 /// The electric guitar and its strings, 0 (E4) to 5 (E2); tuning it takes a moment.
 static GUITAR: LazyLock<(Setup, Vec<PlayedString>)> = LazyLock::new(|| {
     let setup = Setup::builtin("electric").expect("built in");
-    let settings =
-        EngineSettings { sample_rate: RATE, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 };
-    let instrument = Instrument::new(&setup, &settings).expect("builds");
+    let instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).expect("builds");
     let strings = (0..instrument.string_count()).map(|index| PlayedString::new(&setup, &instrument, index));
     let strings = strings.collect();
     (setup, strings)

@@ -5,6 +5,7 @@ use clack_extensions::audio_ports::{AudioPortInfoBuffer, PluginAudioPorts};
 use clack_extensions::latency::PluginLatency;
 use clack_extensions::remote_controls::{PluginRemoteControls, RemoteControlsPageBuffer};
 use clack_extensions::voice_info::PluginVoiceInfo;
+use low_action::engine::Engine;
 use low_action_tests::host::{Action, Host, Score, parameter};
 use serde_json::{Value, json};
 
@@ -224,7 +225,7 @@ fn hosts_are_told_the_truth() {
     host.play(RATE, &score(), 1024, &[256]);
     let handle = host.handle();
     let latency = handle.get_extension::<PluginLatency>().expect("it tells its latency");
-    assert_eq!(latency.get(&handle), 0);
+    assert_eq!(latency.get(&handle), Engine::LATENCY);
     let voices = handle.get_extension::<PluginVoiceInfo>().expect("it tells its voices");
     let voices = voices.get(&handle).expect("it does");
     assert_eq!(voices.voice_count, 6);

@@ -1,16 +1,14 @@
 //! Promise: the same gestures give the same bits, in blocks of any size, on every run, and whether or not
 //! anything is measured.
 
-use low_action_dsp::{EngineSettings, Gesture, Instrument, Scene, Setup, Simulation, Stencil, TimedGesture};
+use low_action_dsp::{Gesture, Instrument, Quality, Scene, Setup, Simulation, TimedGesture};
 
 const RATE: f64 = 48_000.0;
 const SAMPLES: usize = 48_000;
 
 fn instrument() -> Instrument {
     let setup = Setup::builtin("electric").expect("it is built in");
-    let settings =
-        EngineSettings { sample_rate: RATE, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 };
-    let mut instrument = Instrument::new(&setup, &settings).expect("it can be built");
+    let mut instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).expect("it can be built");
     play(&mut instrument, &setup);
     instrument
 }

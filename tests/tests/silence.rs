@@ -5,8 +5,13 @@ use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedG
 const RATE: f64 = 48_000.0;
 /// Energy at which a string falls asleep, J, as the documentation states it.
 const SILENCE: f64 = 1e-20;
-const LIVE: EngineSettings =
-    EngineSettings { sample_rate: RATE, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 };
+const LIVE: EngineSettings = EngineSettings {
+    sample_rate: RATE,
+    widest_spacing: f64::INFINITY,
+    stencil: Stencil::Wide,
+    max_iterations: 20,
+    tolerance: 1e-12,
+};
 /// A finger so far above the string that it never touches it, but whose string has no time to sleep.
 const HOVERING: Touch = Touch { mass: 5e-3, stiffness: 1e7, exponent: 2.0, damping: 0.0, hand_damping: 0.0 };
 /// The second pluck, by when a damped string has long been silent.

@@ -2,12 +2,12 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture};
+use low_action_dsp::{EngineSettings, Gesture, Instrument, Quality, Setup, TimedGesture};
 
 /// The default instrument with so many of its strings from the lowest on, `live`.
 fn instrument(strings: usize, rate: f64) -> (Setup, Instrument) {
-    let live =
-        EngineSettings { sample_rate: rate, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 };
+    // A sample is a step, for all strings alike.
+    let live = EngineSettings { widest_spacing: f64::INFINITY, ..Quality::Live.settings(rate) };
     let mut setup = Setup::builtin("electric").expect("it is built in");
     setup.string.reverse();
     setup.string.truncate(strings);
@@ -53,8 +53,7 @@ pub fn chord(rate: f64) -> (Instrument, u64) {
 pub fn strings_of(count: usize) -> Instrument {
     let (mut setup, _) = instrument(1, 48e3);
     setup.string = vec![setup.string[0].clone(); count];
-    let live =
-        EngineSettings { sample_rate: 48e3, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 };
+    let live = EngineSettings { widest_spacing: f64::INFINITY, ..Quality::Live.settings(48e3) };
     let mut instrument = Instrument::new(&setup, &live).expect("it can be built");
     begin(&setup, &mut instrument, 48e3, |_| 0);
     instrument

@@ -43,7 +43,7 @@ impl Playing<'_> {
     pub(super) fn play(mut self) -> Result<Rendered> {
         let rate = self.arguments.sample_rate;
         let bar = progress::bar(self.song.duration());
-        let mut buffers = Buffers::new(self.files.stems.len());
+        let mut buffers = Buffers::new(self.files.stems.len(), Engine::LATENCY as usize);
         let mut peak = 0.0_f64;
         let mut events =
             self.song.events.iter().map(|event| (event.time.sample(rate), event.event)).peekable();
@@ -70,13 +70,15 @@ impl Playing<'_> {
             }
             self.block(&mut buffers, (last - now).min(BLOCK as u64) as usize)?;
         }
+        // What happened last is still to be heard.
+        self.block(&mut buffers, Engine::LATENCY as usize)?;
         bar.finish_and_clear();
         self.finish()
     }
 
-    /// Computes and writes so many samples.
+    /// Computes so many samples and writes them, but for the first, which hold what was before the song.
     fn block(&mut self, buffers: &mut Buffers, frames: usize) -> Result<()> {
-        let Buffers { left, right, stems } = buffers;
+        let Buffers { left, right, stems, early } = buffers;
         let (left, right) = (&mut left[..frames], &mut right[..frames]);
         if stems.is_empty() {
             self.engine.process(left, right);
@@ -84,9 +86,12 @@ impl Playing<'_> {
             let mut parts: Vec<&mut [f32]> = stems.iter_mut().map(|stem| &mut stem[..frames]).collect();
             self.engine.process_stems(&mut parts, left, right);
         }
-        self.files.mix.write(left.iter().zip(right.iter()).flat_map(|(&left, &right)| [left, right]))?;
+        let skipped = frames.min(*early);
+        *early -= skipped;
+        let pairs = left[skipped..].iter().zip(&right[skipped..]);
+        self.files.mix.write(pairs.flat_map(|(&left, &right)| [left, right]))?;
         for (file, stem) in self.files.stems.iter_mut().zip(stems) {
-            file.write(stem[..frames].iter().copied())?;
+            file.write(stem[skipped..frames].iter().copied())?;
         }
         Ok(())
     }
@@ -98,7 +103,8 @@ impl Playing<'_> {
             stems,
             compromises: self.engine.compromises(),
             lost_events: self.engine.lost_events(),
-            seconds: self.engine.now() as f64 / f64::from(self.arguments.sample_rate),
+            seconds: (self.engine.now() - u64::from(Engine::LATENCY)) as f64
+                / f64::from(self.arguments.sample_rate),
         })
     }
 }
@@ -108,10 +114,13 @@ struct Buffers {
     left: Vec<f32>,
     right: Vec<f32>,
     stems: Vec<Vec<f32>>,
+    /// Samples still to come before the song's first.
+    early: usize,
 }
 
 impl Buffers {
-    fn new(stems: usize) -> Self {
-        Self { left: vec![0.0; BLOCK], right: vec![0.0; BLOCK], stems: vec![vec![0.0; BLOCK]; stems] }
+    fn new(stems: usize, early: usize) -> Self {
+        let stems = vec![vec![0.0; BLOCK]; stems];
+        Self { left: vec![0.0; BLOCK], right: vec![0.0; BLOCK], stems, early }
     }
 }

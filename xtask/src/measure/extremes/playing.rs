@@ -26,6 +26,7 @@ pub fn play(name: &str, seed: u64, seconds: f64) -> Result<f64> {
         change(&mut setup, &mut draw);
         let settings = EngineSettings {
             sample_rate: RATE,
+            widest_spacing: f64::INFINITY,
             stencil: draw.one_of(&[Stencil::Paper, Stencil::Corrected, Stencil::Wide]),
             max_iterations: draw.one_of(&[0, 1, 3, 8, 20, 50]),
             tolerance: draw.over(1e-15, 1e-6),

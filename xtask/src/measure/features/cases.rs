@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use low_action_dsp::curve::Curve;
 use low_action_dsp::setup::Fretting;
 use low_action_dsp::{
-    Drive, EngineSettings, Gesture, Instrument, Model, Scene, Scratch, Setup, Simulation, State, Stencil,
+    Drive, EngineSettings, Gesture, Instrument, Model, Quality, Scene, Scratch, Setup, Simulation, State,
     StringParameters, TimedGesture,
 };
 
@@ -173,8 +173,8 @@ fn prepare_instrument(strings: usize, ringing: usize, fretted: bool) -> Result<B
     let mut setup = Setup::builtin("electric").context("the default instrument is built in")?;
     setup.string.reverse();
     setup.string.truncate(strings);
-    let settings =
-        EngineSettings { sample_rate: 48e3, stencil: Stencil::Wide, max_iterations: 20, tolerance: 1e-12 };
+    // A sample is a step, for all strings alike.
+    let settings = EngineSettings { widest_spacing: f64::INFINITY, ..Quality::Live.settings(48e3) };
     let mut instrument = Instrument::new(&setup, &settings)?;
     for string in 0..ringing {
         if fretted {

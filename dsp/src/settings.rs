@@ -1,0 +1,66 @@
+//! How an instrument is computed: speed against accuracy.
+//!
+//! The lighter and tauter a string, the faster its waves and the wider the spacing of its grid: at 48 kHz
+//! that of a guitar's high E is 11 mm, as wide as its highest frets are apart, and that of a bass string 2 mm.
+//! What a string does at a fret is known no better than its grid tells places apart. So each string is
+//! computed at the smallest whole multiple of the host's rate at which its grid is fine enough; a light one
+//! needs more of them, and each costs it less.
+
+use crate::error::{Error, within};
+use crate::intonation::flexible;
+use crate::model::Model;
+use crate::scene::{SolverSettings, Stencil};
+use crate::setup::{Setup, SetupString};
+
+/// How an instrument is computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EngineSettings {
+    /// Sample rate at which it is heard, Hz, 8e3 to 1e6.
+    pub sample_rate: f64,
+    /// The widest grid a string may have, m: one whose grid is wider at `sample_rate` is computed at a
+    /// multiple of it. Infinite: every string is computed at `sample_rate` itself.
+    pub widest_spacing: f64,
+    /// Difference operator of the strings.
+    pub stencil: Stencil,
+    /// Newton iterations at most in a sample.
+    pub max_iterations: usize,
+    /// Largest change of penetration at which the iteration may stop, m.
+    pub tolerance: f64,
+}
+
+/// No string is computed at more than this rate, Hz, unless the host's is higher: the price of strings that
+/// nobody would string up stays within bounds.
+const HIGHEST_RATE: f64 = 400e3;
+
+impl EngineSettings {
+    /// What they mean for the solver.
+    pub fn solver(&self) -> SolverSettings {
+        SolverSettings {
+            max_iterations: self.max_iterations,
+            tolerance: self.tolerance,
+            stencil: self.stencil,
+        }
+    }
+
+    /// How many steps a string of a set-up takes in a sample: as few as its grid's spacing allows.
+    pub fn ratio(&self, setup: &Setup, string: &SetupString) -> usize {
+        let parameters = flexible(setup, string);
+        let most = ((HIGHEST_RATE / self.sample_rate) as usize).max(1);
+        let fine = |ratio: &usize| {
+            let time_step = 1.0 / (*ratio as f64 * self.sample_rate);
+            // A string too short for its grid is one whose grid is too wide.
+            Model::grid(&parameters, self.stencil, time_step)
+                .is_ok_and(|grid| grid.spacing <= self.widest_spacing)
+        };
+        (1..most).find(fine).unwrap_or(most)
+    }
+
+    /// Refuses values outside their range.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        within("sample_rate", self.sample_rate, 8e3, 1e6, "Hz")?;
+        if self.widest_spacing.is_nan() || self.widest_spacing < 1e-4 {
+            return Err(Error::range("widest_spacing", self.widest_spacing, "it must be 1e-4 m or more"));
+        }
+        self.solver().check()
+    }
+}

@@ -1,0 +1,140 @@
+//! Promise: light strings are computed at a multiple of the host's rate, and nobody hears more of that than
+//! a better sound. All strings come equally late at every multiple, by what hosts are told; gestures act at
+//! their exact sample; one multiple takes over from another without a click, and the ledger closes.
+
+use low_action_dsp::{EngineSettings, Gesture, Instrument, Quality, Setup, TimedGesture};
+
+const RATE: f64 = 48_000.0;
+
+/// A guitar, its strings plucked softly one after another, and what each sounds like.
+fn stems(settings: &EngineSettings, first: u64) -> Vec<Vec<f32>> {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let mut instrument = Instrument::new(&setup, settings).expect("it can be built");
+    for string in 0..instrument.string_count() {
+        let position = instrument.geometry(string).length - setup.player.pluck_position;
+        let gesture = Gesture::Pluck { position, force: 0.1, duration: setup.player.pluck_duration };
+        let time = first + 100 * string as u64;
+        instrument.schedule(TimedGesture { time, string, gesture }).expect("there is room");
+    }
+    let [mut left, mut right] = [(); 2].map(|()| vec![0.0; 4800]);
+    let mut stems = vec![vec![0.0; 4800]; instrument.string_count()];
+    let mut parts: Vec<&mut [f32]> = stems.iter_mut().map(Vec::as_mut_slice).collect();
+    instrument.process_stems(&mut parts, &mut left, &mut right);
+    stems
+}
+
+fn rms(sound: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = sound.clone().count() as f64;
+    (sound.map(|value| value * value).sum::<f64>() / count).sqrt()
+}
+
+#[test]
+fn light_strings_get_more_and_higher_host_rates_need_less() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let ratios = |quality: Quality, rate: f64| -> Vec<usize> {
+        let settings = quality.settings(rate);
+        setup.string.iter().map(|string| settings.ratio(&setup, string)).collect()
+    };
+    let live = ratios(Quality::Live, RATE);
+    assert!(live[0] > 1 && live[5] == 1 && live.is_sorted_by(|a, b| a >= b), "{live:?}");
+    for quality in Quality::ALL {
+        assert!(
+            ratios(quality, 4.0 * RATE).iter().zip(ratios(quality, RATE)).all(|(high, low)| *high <= low)
+        );
+        // The rate of a string is about the same whatever the host's.
+        for (high, low) in ratios(quality, 2.0 * RATE).into_iter().zip(ratios(quality, RATE)) {
+            assert!((2 * high).abs_diff(low) <= 1 || high == 1, "{high} at 96 kHz, {low} at 48 kHz");
+        }
+    }
+    assert!(ratios(Quality::Draft, RATE).iter().all(|ratio| *ratio == 1));
+}
+
+#[test]
+fn every_string_is_as_late_as_hosts_are_told() {
+    const FIRST: u64 = 300;
+    let alone = EngineSettings { widest_spacing: f64::INFINITY, ..Quality::Live.settings(RATE) };
+    let (once, often) = (stems(&alone, FIRST), stems(&Quality::Studio.settings(RATE), FIRST));
+    for (string, (once, often)) in once.iter().zip(&often).enumerate() {
+        let start = (FIRST + 100 * string as u64) as usize + Instrument::LATENCY as usize;
+        // Nothing sounds before: a low-pass rings 100 dB below what comes, and a pluck comes slowly.
+        let before = often[..start].iter().fold(0.0_f32, |most, value| most.max(value.abs()));
+        let peak = often.iter().fold(0.0_f32, |most, value| most.max(value.abs()));
+        assert!(before < 1e-4 * peak, "string {string}: {before:e} of {peak:e} too early");
+        // The first 10 ms are the same at both multiples, nearest at no shift.
+        let off = |shift: isize| {
+            let pairs = (start..start + 480)
+                .map(|n| f64::from(often[(n as isize + shift) as usize]) - f64::from(once[n]));
+            rms(pairs) / rms(once[start..start + 480].iter().map(|value| f64::from(*value)))
+        };
+        let errors = [-1, 0, 1].map(off);
+        println!("string {string}: {errors:.3?}");
+        assert!(errors[1] < errors[0] && errors[1] < errors[2], "string {string}: {errors:?}");
+    }
+}
+
+#[test]
+fn a_gesture_acts_at_its_sample_at_every_multiple() {
+    for quality in [Quality::Live, Quality::Studio] {
+        let settings = quality.settings(RATE);
+        let (early, late) = (stems(&settings, 300), stems(&settings, 337));
+        for (early, late) in early.iter().zip(&late) {
+            assert!(early[..4700].iter().zip(&late[37..]).all(|(a, b)| a.to_bits() == b.to_bits()));
+        }
+    }
+}
+
+#[test]
+fn one_multiple_takes_over_from_another() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let build = |quality: Quality| Instrument::new(&setup, &quality.settings(RATE)).expect("it can be built");
+    for (from, to) in [
+        (Quality::Draft, Quality::Live),
+        (Quality::Live, Quality::Studio),
+        (Quality::Studio, Quality::Draft),
+        (Quality::Live, Quality::Draft),
+    ] {
+        let mut instrument = build(from);
+        instrument.open_ledgers();
+        let fretting = setup.player.fretting;
+        for string in 0..instrument.string_count() {
+            let geometry = instrument.geometry(string).clone();
+            let place = geometry.finger_position(5 + string);
+            let position = geometry.length - setup.player.pluck_position;
+            for (time, gesture) in [
+                (0, Gesture::Place { finger: 0, touch: fretting.touch, position: place, clearance: 1e-4 }),
+                (0, Gesture::Press { finger: 0, force: fretting.force, duration: fretting.landing }),
+                (960, Gesture::Pluck { position, force: 0.4, duration: 0.003 }),
+                // A slide and a bend are under way when the change comes.
+                (9000, Gesture::Slide { finger: 0, position: place + 0.03, duration: 0.1 }),
+                (9000, Gesture::Bend { tension_ratio: 1.1, duration: 0.1 }),
+            ] {
+                instrument.schedule(TimedGesture { time, string, gesture }).expect("there is room");
+            }
+        }
+        let mut expected = instrument.clone();
+        let play = |instrument: &mut Instrument, samples: usize| {
+            let [mut left, mut right] = [(); 2].map(|()| vec![0.0; samples]);
+            instrument.process(&mut left, &mut right);
+            left
+        };
+        play(&mut instrument, 9600);
+        play(&mut expected, 9600);
+        assert!(instrument.hand_over(Box::new(build(to))).is_ok());
+        let (found, expected) = (play(&mut instrument, 19_200), play(&mut expected, 19_200));
+        // The sound of the other grid: the same for a while, then with its own errors, as loud.
+        let difference = found.iter().zip(&expected).map(|(a, b)| f64::from(a - b));
+        let size = |sound: &[f32]| rms(sound.iter().map(|value| f64::from(*value)));
+        let off = rms(difference.take(960)) / size(&expected[..960]);
+        let level = 20.0 * (size(&found[9600..]) / size(&expected[9600..])).log10();
+        println!("{from} to {to}: {off:.3} off at first, {level:+.2} dB later");
+        assert!(off < 0.25, "{from} to {to}: {off}");
+        assert!(level.abs() < 3.0, "{from} to {to}: {level} dB");
+        for string in 0..instrument.string_count() {
+            let ledger = instrument.ledger(string).expect("it is open");
+            let worst = ledger.worst_residual;
+            assert!(worst <= 1e-13, "{from} to {to}, string {string}: {worst:e}");
+            let (energy, put_in) = (ledger.energies().total(), ledger.put_in);
+            assert!(energy <= put_in * (1.0 + 1e-9), "{from} to {to}, string {string}: {energy} of {put_in}");
+        }
+    }
+}
