@@ -192,6 +192,11 @@ impl Instrument {
         self.level.value()
     }
 
+    /// Whether nothing sounds and nothing is waiting: until the next gesture all samples are 0.
+    pub fn is_silent(&self) -> bool {
+        self.queue.next_time().is_none() && !self.is_fading() && self.voices.iter().all(Voice::is_silent)
+    }
+
     /// Silence, all hands away, the queue emptied, time 0.
     pub fn reset(&mut self) {
         self.voices.iter_mut().for_each(Voice::reset);

@@ -131,6 +131,11 @@ impl Voice {
         self.decimator.give(&mut self.run[..samples]);
     }
 
+    /// Whether it rests, and nothing of it is left to be heard.
+    pub fn is_silent(&self) -> bool {
+        self.asleep && self.silent
+    }
+
     #[inline]
     fn next(&mut self) -> f64 {
         if self.asleep {

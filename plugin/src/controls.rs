@@ -95,6 +95,8 @@ pub struct Touching {
     pub pluck_position: f64,
     /// Factor of the hardest pluck's force.
     pub pluck_force: f64,
+    /// The softest pluck's force, as a part of the hardest one's.
+    pub pluck_softest: f64,
     /// Factor of how long a pluck pushes.
     pub pluck_duration: f64,
     /// Power of the velocity with which the force goes.
@@ -126,6 +128,7 @@ impl Touching {
         Self {
             pluck_position: 0.0,
             pluck_force: 1.0,
+            pluck_softest: 0.0,
             pluck_duration: 1.0,
             velocity_curve: crate::performance::VELOCITY_CURVE,
             variation,
@@ -138,6 +141,11 @@ impl Touching {
             ignore_rpn: false,
             tremolo_arm: 0.0,
         }
+    }
+
+    /// The force of a pluck as a part of the hardest one's, for a velocity of 0 to 1.
+    pub fn strength(&self, velocity: f64) -> f64 {
+        self.pluck_softest + (1.0 - self.pluck_softest) * libm::pow(velocity, self.velocity_curve)
     }
 
     /// The hands of a set-up, acting so; what would lead past a limit of the set-up file goes as far as it

@@ -9,6 +9,7 @@ mod handover;
 use std::collections::VecDeque;
 
 pub use low_action_dsp::Quality;
+use low_action_dsp::setup::SetupString;
 use low_action_dsp::{EngineSettings, Instrument, Setup, TimedGesture};
 
 use crate::controls::Touching;
@@ -24,6 +25,12 @@ const STEP: usize = 64;
 const WAITING_EVENTS: usize = 16_384;
 /// Most stems written at once; set-ups have at most 32 strings.
 const MOST_STEMS: usize = 32;
+
+/// A sound is over when it has stayed below this part of its peak: −72 dB.
+pub const QUIET: f64 = 2.5e-4;
+
+/// A sound below this is over in any case: −120 dBFS, under the last bit of 16.
+pub const INAUDIBLE: f64 = 1e-6;
 
 /// Everything an engine is built from.
 #[derive(Debug, Clone)]
@@ -73,6 +80,17 @@ impl EngineOptions {
         EngineSettings { max_iterations: self.iterations.unwrap_or(settings.max_iterations), ..settings }
     }
 
+    /// How long the open string that rings longest takes to be [`QUIET`] after its pluck, s; endless without losses.
+    pub fn tail(&self) -> f64 {
+        let length = self.setup.neck.scale_length;
+        let decay = |string: &SetupString| {
+            // The slowest partial is the lowest.
+            let wavenumber = std::f64::consts::PI / length;
+            libm::log(1.0 / QUIET) / (string.loss_0 + string.loss_1 * wavenumber * wavenumber)
+        };
+        self.setup.string.iter().map(decay).fold(0.0, f64::max)
+    }
+
     /// Builds the two halves of an engine; allocates.
     fn build(&self) -> Result<(Performance, Instrument), low_action_dsp::Error> {
         let instrument = Instrument::new(&self.setup, &self.settings())?;
@@ -99,6 +117,8 @@ pub struct Engine {
     instrument: Instrument,
     waiting: VecDeque<Waiting>,
     lost: u64,
+    /// How long it rings at most, s.
+    tail: f64,
     /// What this engine was before its last change, on its way out.
     outgoing: Option<Box<Replacement>>,
 }
@@ -114,7 +134,7 @@ impl Engine {
     pub fn new(options: &EngineOptions) -> Result<Self, low_action_dsp::Error> {
         let (performance, instrument) = options.build()?;
         let waiting = VecDeque::with_capacity(WAITING_EVENTS);
-        Ok(Self { performance, instrument, waiting, lost: 0, outgoing: None })
+        Ok(Self { performance, instrument, waiting, lost: 0, tail: options.tail(), outgoing: None })
     }
 
     /// Has the hands act differently from the next sample on.
@@ -191,6 +211,16 @@ impl Engine {
     /// Largest size of the sound over the last 50 ms, 1 is full scale; for the end of tails.
     pub fn level(&self) -> f64 {
         self.instrument.level()
+    }
+
+    /// How long the string that rings longest takes to be [`QUIET`] when nobody damps it, s; endless without losses.
+    pub fn tail(&self) -> f64 {
+        self.tail
+    }
+
+    /// Whether nothing sounds, moves or is waiting: until the next event all samples are 0.
+    pub fn is_silent(&self) -> bool {
+        self.waiting.is_empty() && self.instrument.is_silent()
     }
 
     /// Index of the next sample since construction or reset.

@@ -8,5 +8,6 @@ pub mod midi_file;
 pub mod params;
 pub mod performance;
 pub mod plugin;
+pub mod setups;
 #[cfg(feature = "standalone")]
 pub mod standalone;

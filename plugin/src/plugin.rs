@@ -7,11 +7,13 @@
 //! soon as it is ready in real time, at the very sample of the change when the host renders offline.
 
 mod budget;
+mod clap;
 mod events;
 mod level;
 pub mod meters;
 mod order;
 mod playing;
+pub mod shelf;
 pub mod state;
 mod workshop;
 
@@ -21,6 +23,7 @@ use nice_plug::prelude::*;
 
 use crate::engine::Engine;
 use crate::params::LowActionParams;
+pub use clap::clap_entry;
 use level::Output;
 use meters::Meters;
 use order::Order;
@@ -28,6 +31,10 @@ use playing::Playing;
 
 /// Strings that have an output of their own, where a host asks for them.
 const STRING_OUTPUTS: usize = crate::params::TUNED_STRINGS;
+
+/// Sample rates at which there is sound, Hz. At others the plugin is silent: a host that asks for one is better
+/// off with a silent instrument, which says so in the log, than with one that cannot be activated.
+const RATES: std::ops::RangeInclusive<f32> = 8_000.0..=384_000.0;
 
 /// Notes that can sound at once at most: one a string, and set-ups have at most so many.
 const MOST_VOICES: u32 = 32;
@@ -115,11 +122,21 @@ impl Plugin for LowAction {
         let order = Order::of(&self.params, buffers.sample_rate, offline);
         self.output.activate(buffers.sample_rate, self.params.output.bypass.value());
         self.transport_ran = false;
+        if !RATES.contains(&buffers.sample_rate) {
+            nice_error!(
+                "nothing sounds at {} Hz: the sample rate must be {} to {} Hz",
+                buffers.sample_rate,
+                RATES.start(),
+                RATES.end()
+            );
+            self.playing = None;
+            return true;
+        }
         match &mut self.playing {
             // Hosts activate often, and building takes a tenth of a second: the same order is the same
             // engine, silent and at its first sample again.
             Some(playing) if playing.is(&order) => playing.reset(offline),
-            playing => match Playing::new(order, offline, self.meters.clone()) {
+            playing => match Playing::new(order, offline, self.params.shelf.clone(), self.meters.clone()) {
                 Ok(new) => *playing = Some(new),
                 Err(error) => {
                     nice_error!("{error}");
@@ -146,8 +163,13 @@ impl Plugin for LowAction {
         aux: &mut AuxiliaryBuffers,
         context: &mut impl ProcessContext<Self>,
     ) -> ProcessStatus {
-        let (Some(playing), [left, right]) = (&mut self.playing, buffer.as_slice()) else {
-            return ProcessStatus::Error("processing without a stereo output or before activation");
+        let [left, right] = buffer.as_slice() else {
+            return ProcessStatus::Error("processing without a stereo output");
+        };
+        let Some(playing) = &mut self.playing else {
+            left.fill(0.0);
+            right.fill(0.0);
+            return ProcessStatus::Normal;
         };
         let started = playing.start_clock();
         let running = context.transport().playing;
@@ -201,5 +223,4 @@ impl Vst3Plugin for LowAction {
         &[Vst3SubCategory::Instrument, Vst3SubCategory::Synth, Vst3SubCategory::Stereo];
 }
 
-nice_export_clap!(LowAction);
 nice_export_vst3!(LowAction);

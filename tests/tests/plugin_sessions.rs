@@ -123,6 +123,24 @@ fn the_first_form_is_brought_up_to_date() {
 }
 
 #[test]
+fn the_second_form_says_the_same_in_other_words() {
+    let mut state = unpacked(&Host::new().save());
+    state["fields"]["state"] = json!(r#"{"owner":"low-action","version":1}"#);
+    let params = state["params"].as_object_mut().expect("there are parameters");
+    params.insert("input_mode".into(), json!({ "string": "strings_11" }));
+    params.remove("first_channel");
+    params.remove("pluck_force");
+    // What was set before the state came has no place in it.
+    let mut host = Host::new();
+    host.play(RATE, &set(&[("first_channel", 4.0), ("pluck_force", 0.9)]), 64, &[64]);
+    assert!(host.load(&packed(&state)));
+    let now = unpacked(&host.save());
+    assert_eq!(now["params"]["input_mode"]["string"], "strings");
+    assert_eq!(now["params"]["first_channel"]["i32"], 11);
+    assert_eq!(now["params"]["pluck_force"]["f32"], 1.0);
+}
+
+#[test]
 fn numbers_out_of_range_are_brought_back() {
     let mut state = unpacked(&Host::new().save());
     state["params"]["action"]["f32"] = json!(1e30);
@@ -147,6 +165,14 @@ fn every_rate_and_block_size_plays() {
             assert!(left.iter().all(|sample| sample.is_finite()));
             assert!(left.iter().any(|&sample| sample != 0.0), "silent at {rate} Hz, blocks of {block}");
         }
+    }
+}
+
+#[test]
+fn other_rates_are_silent() {
+    for rate in [1000.0, 7999.0, 768_000.0] {
+        let [left, right] = Host::new().play(rate, &score(), 12_000, &[512]);
+        assert!(left.iter().chain(&right).all(|&sample| sample == 0.0));
     }
 }
 
@@ -234,7 +260,7 @@ fn hosts_are_told_the_truth() {
     let mut buffer = AudioPortInfoBuffer::new();
     assert_eq!(ports.get(&handle, 0, false, &mut buffer).expect("there is one").channel_count, 2);
     let pages = handle.get_extension::<PluginRemoteControls>().expect("it has pages");
-    assert_eq!(pages.count(&handle), 5);
+    assert_eq!(pages.count(&handle), 6);
     let mut buffer = RemoteControlsPageBuffer::new();
     let first = pages.get(&handle, 0, &mut buffer).expect("there is one");
     assert_eq!(first.param_ids[3].map(|id| id.get()), Some(parameter("action")));

@@ -21,7 +21,7 @@ fn note(setup: &Setup, string: u8, key: u8) -> Vec<f32> {
 fn play(setup: &Setup, notes: &[(u8, u8)], seconds: f64) -> Vec<f32> {
     let options = EngineOptions { variation: 0.0, ..EngineOptions::new(setup.clone(), RATE) };
     let mut engine = Engine::new(&options).expect("the set-up can be built");
-    engine.set_input(InputMode::Strings { first: 0 });
+    engine.set_input(InputMode::Strings { first: 0, from_last: false });
     for &(channel, key) in notes {
         engine.event(0, PlayerEvent::NoteOn { channel, key, velocity: 100.0 / 127.0 });
     }

@@ -1,10 +1,12 @@
-//! The command line: `low-action render`, `low-action scene`, or the stand-alone instrument.
+//! The command line: `low-action render`, `low-action scene`, `low-action instruments`, or the stand-alone
+//! instrument.
 //!
 //! Exit codes: 0 done; 1 it could not be done (a file, its format, the disk, a limit); 2 wrong
 //! usage; 3 the result failed its own check, and is kept. Every error is one line on standard
 //! error; standard output carries a result asked for with `-`, or else the summary of a scene.
 
 mod instrument;
+mod instruments;
 mod npz;
 pub mod output;
 mod progress;
@@ -36,7 +38,8 @@ Without a command, low-action opens the stand-alone instrument, if it was built 
 Examples:
   low-action render                          the built-in demo, to demo.wav
   low-action render song.mid --instrument classical
-  low-action scene scene.toml --wav out.wav --trace out.npz"
+  low-action scene scene.toml --wav out.wav --trace out.npz
+  low-action instruments                     which there are"
 )]
 struct CommandLine {
     #[command(subcommand)]
@@ -52,6 +55,8 @@ enum Command {
     Render(RenderArgs),
     /// Computes a scene file in SI units.
     Scene(SceneArgs),
+    /// Lists the instruments there are, or installs more.
+    Instruments(InstrumentsArgs),
 }
 
 /// Arguments of `low-action render`.
@@ -78,7 +83,8 @@ pub struct RenderArgs {
     /// WAV file to write, - for standard output [default: SONG.wav in the current folder].
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Set-up that comes with the program (electric, classical, steel, bass, tanpura, ...) or a set-up file.
+    /// Set-up that comes with the program (electric, classical, steel, bass, tanpura, ...) or was installed, or
+    /// a set-up file; `low-action instruments` lists them.
     #[arg(short, long, value_name = "NAME|FILE", default_value = "electric")]
     pub instrument: String,
     /// How much computing: draft, live, studio or reference.
@@ -160,6 +166,24 @@ pub struct SceneArgs {
     pub figure: Option<PathBuf>,
 }
 
+/// Arguments of `low-action instruments`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Installed set-ups can be named like those that come with the program (render --instrument NAME), and the plugin
+lists them by number under `Instrument file` when it is loaded. They are kept in a folder of yours, which the
+variable LOW_ACTION_INSTRUMENTS may name.
+
+Examples:
+  low-action instruments                             what there is
+  low-action instruments --install my-guitar.toml    checks the file and copies it to the folder
+
+Exit codes: 0 done, 1 could not be done, 2 wrong usage.")]
+pub struct InstrumentsArgs {
+    /// Set-up files to check and copy to the folder, in place of those of the same name.
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub install: Vec<PathBuf>,
+}
+
 /// Why a command did not end well.
 #[derive(Debug)]
 pub enum Failure {
@@ -209,6 +233,9 @@ where
     let outcome = match CommandLine::try_parse_from(arguments) {
         Ok(CommandLine { command: Some(Command::Render(arguments)), .. }) => render::run(&arguments),
         Ok(CommandLine { command: Some(Command::Scene(arguments)), .. }) => scene::run(&arguments),
+        Ok(CommandLine { command: Some(Command::Instruments(arguments)), .. }) => {
+            instruments::run(&arguments)
+        }
         Ok(CommandLine { command: None, options }) => stand_alone(options),
         Err(error) => explain(&error),
     };

@@ -11,6 +11,8 @@ use crate::performance::Performance;
 pub struct Replacement {
     performance: Performance,
     instrument: Option<Box<Instrument>>,
+    /// How long it rings at most, s.
+    tail: f64,
 }
 
 impl Replacement {
@@ -20,7 +22,7 @@ impl Replacement {
     /// When the set-up cannot be built at this rate; the message names the value and its range.
     pub fn new(options: &EngineOptions) -> Result<Self, Error> {
         let (performance, instrument) = options.build()?;
-        Ok(Self { performance, instrument: Some(Box::new(instrument)) })
+        Ok(Self { performance, instrument: Some(Box::new(instrument)), tail: options.tail() })
     }
 }
 
@@ -44,6 +46,7 @@ impl Engine {
         }
         replacement.performance.take_over(&self.performance, goes_on);
         std::mem::swap(&mut self.performance, &mut replacement.performance);
+        std::mem::swap(&mut self.tail, &mut replacement.tail);
         self.outgoing = Some(replacement);
         Ok(())
     }

@@ -1,152 +1,102 @@
-//! Parameters that are one of a few things. Saved by identifier, so that they can be reordered.
+//! Parameters that are one of a few things. Saved by identifier, so that they can be reordered; what the program has
+//! a list of elsewhere is taken from that list.
+
+use std::sync::OnceLock;
 
 use nice_plug::prelude::Enum;
 
 use crate::engine::Quality;
+use crate::setups::SHIPPED;
 
-/// The set-ups that come with the program, as the host sees them.
-#[derive(Enum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstrumentChoice {
-    /// A six-string electric guitar, .010 to .046, 22 frets.
-    #[id = "electric"]
-    #[name = "Electric guitar"]
-    Electric,
-    /// A six-string classical guitar with nylon strings.
-    #[id = "classical"]
-    #[name = "Classical guitar"]
-    Classical,
-    /// A six-string steel-strung acoustic guitar.
-    #[id = "steel"]
-    #[name = "Steel-string guitar"]
-    Steel,
-    /// A four-string electric bass.
-    #[id = "bass"]
-    #[name = "Electric bass"]
-    Bass,
-    /// A bass whose strings rattle along the frets.
-    #[id = "buzzing-bass"]
-    #[name = "Buzzing bass"]
-    BuzzingBass,
-    /// A bass whose strings are thrown against the frets.
-    #[id = "slap-bass"]
-    #[name = "Slap bass"]
-    SlapBass,
-    /// A bass without frets.
-    #[id = "fretless-bass"]
-    #[name = "Fretless bass"]
-    FretlessBass,
-    /// A very low electric guitar, heard at the bridge.
-    #[id = "low-action-funk"]
-    #[name = "Low-action funk"]
-    LowActionFunk,
-    /// An electric guitar with one fret worn down.
-    #[id = "worn-fret"]
-    #[name = "Worn fret"]
-    WornFret,
-    /// An electric guitar under fingers that hardly press.
-    #[id = "light-fingers"]
-    #[name = "Light fingers"]
-    LightFingers,
-    /// A steel-string guitar nobody has set up.
-    #[id = "school-guitar"]
-    #[name = "School guitar"]
-    SchoolGuitar,
-    /// An electric guitar with old flat-wound strings.
-    #[id = "flatwound-jazz"]
-    #[name = "Flat-wound jazz"]
-    FlatwoundJazz,
-    /// Four open strings over a curved bridge.
-    #[id = "tanpura"]
-    #[name = "Tanpura"]
-    Tanpura,
-    /// An electric guitar with a curved bridge.
-    #[id = "sitar"]
-    #[name = "Electric sitar"]
-    Sitar,
+/// Words that live as long as the program.
+type Words = OnceLock<Vec<&'static str>>;
+
+/// Identifiers as hosts show them: `buzzing-bass` is "Buzzing bass".
+fn titles(words: &'static Words, ids: impl Iterator<Item = &'static str>) -> &'static [&'static str] {
+    let title = |id: &str| -> &'static str {
+        let mut letters = id.chars();
+        let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+        let title: String = first.into_iter().chain(letters).collect();
+        title.replace('-', " ").leak()
+    };
+    words.get_or_init(|| ids.map(title).collect())
 }
+
+/// A set-up that comes with the program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct InstrumentChoice(usize);
 
 impl InstrumentChoice {
     /// The name of the set-up, as the command line knows it.
-    pub fn set_up(self) -> &'static str {
-        match self {
-            Self::Electric => "electric",
-            Self::Classical => "classical",
-            Self::Steel => "steel",
-            Self::Bass => "bass",
-            Self::BuzzingBass => "buzzing-bass",
-            Self::SlapBass => "slap-bass",
-            Self::FretlessBass => "fretless-bass",
-            Self::LowActionFunk => "low-action-funk",
-            Self::WornFret => "worn-fret",
-            Self::LightFingers => "light-fingers",
-            Self::SchoolGuitar => "school-guitar",
-            Self::FlatwoundJazz => "flatwound-jazz",
-            Self::Tanpura => "tanpura",
-            Self::Sitar => "sitar",
-        }
+    pub fn id(self) -> &'static str {
+        SHIPPED.get(self.0).unwrap_or(&SHIPPED[0])
+    }
+}
+
+impl Enum for InstrumentChoice {
+    fn variants() -> &'static [&'static str] {
+        static TITLES: Words = Words::new();
+        titles(&TITLES, SHIPPED.into_iter())
+    }
+
+    fn ids() -> Option<&'static [&'static str]> {
+        Some(&SHIPPED)
+    }
+
+    fn to_index(self) -> usize {
+        self.0
+    }
+
+    fn from_index(index: usize) -> Self {
+        Self(if index < SHIPPED.len() { index } else { 0 })
     }
 }
 
 /// How much computing.
-#[derive(Enum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum QualityChoice {
-    /// Least.
-    #[id = "draft"]
-    Draft,
-    /// For playing.
-    #[id = "live"]
-    Live,
-    /// For a finished recording.
-    #[id = "studio"]
-    Studio,
-    /// For comparison.
-    #[id = "reference"]
-    Reference,
-}
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct QualityChoice(pub Quality);
 
-impl QualityChoice {
-    /// The engine's quality.
-    pub fn quality(self) -> Quality {
-        match self {
-            Self::Draft => Quality::Draft,
-            Self::Live => Quality::Live,
-            Self::Studio => Quality::Studio,
-            Self::Reference => Quality::Reference,
-        }
+impl Enum for QualityChoice {
+    fn variants() -> &'static [&'static str] {
+        static TITLES: Words = Words::new();
+        titles(&TITLES, Quality::ALL.into_iter().map(Quality::name))
+    }
+
+    fn ids() -> Option<&'static [&'static str]> {
+        static IDS: Words = Words::new();
+        Some(IDS.get_or_init(|| Quality::ALL.into_iter().map(Quality::name).collect()))
+    }
+
+    fn to_index(self) -> usize {
+        Quality::ALL.into_iter().position(|quality| quality == self.0).unwrap_or(0)
+    }
+
+    fn from_index(index: usize) -> Self {
+        Self(*Quality::ALL.get(index).unwrap_or(&Quality::ALL[0]))
     }
 }
 
-/// How much computing when the host renders offline.
-#[derive(Enum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RenderChoice {
-    /// As in real time.
-    #[id = "same"]
-    #[name = "As live"]
-    Same,
-    /// Least.
-    #[id = "draft"]
-    Draft,
-    /// For playing.
-    #[id = "live"]
-    Live,
-    /// For a finished recording.
-    #[id = "studio"]
-    Studio,
-    /// For comparison.
-    #[id = "reference"]
-    Reference,
-}
+/// How much computing when the host renders offline; nothing is as much as in real time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RenderChoice(pub Option<Quality>);
 
-impl RenderChoice {
-    /// The engine's quality, given the one chosen for playing.
-    pub fn quality(self, live: Quality) -> Quality {
-        match self {
-            Self::Same => live,
-            Self::Draft => Quality::Draft,
-            Self::Live => Quality::Live,
-            Self::Studio => Quality::Studio,
-            Self::Reference => Quality::Reference,
-        }
+impl Enum for RenderChoice {
+    fn variants() -> &'static [&'static str] {
+        static TITLES: Words = Words::new();
+        TITLES.get_or_init(|| [&["As live"], QualityChoice::variants()].concat())
+    }
+
+    fn ids() -> Option<&'static [&'static str]> {
+        static IDS: Words = Words::new();
+        Some(IDS.get_or_init(|| [&["same"], QualityChoice::ids().unwrap_or_default()].concat()))
+    }
+
+    fn to_index(self) -> usize {
+        self.0.map_or(0, |quality| 1 + QualityChoice(quality).to_index())
+    }
+
+    fn from_index(index: usize) -> Self {
+        Self(index.checked_sub(1).map(|index| QualityChoice::from_index(index).0))
     }
 }
 
@@ -161,16 +111,48 @@ pub enum InputChoice {
     #[id = "keyboard"]
     #[name = "Keyboard"]
     Keyboard,
-    /// Channel 1 is the first string, and so on: a guitar controller.
+    /// Each channel is a string, from the first channel on: a guitar controller.
     #[id = "strings"]
     #[name = "Channel per string"]
     Strings,
-    /// The same from channel 11.
-    #[id = "strings_11"]
-    #[name = "Channel per string, from 11"]
-    StringsFrom11,
     /// Each note has a channel; channel 1 bends all.
     #[id = "mpe"]
     #[name = "MPE"]
     Mpe,
+}
+
+/// Which string has the first channel, where each channel is a string.
+#[derive(Enum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StringOrder {
+    /// The first of the set-up, the highest on guitars.
+    #[id = "first_first"]
+    #[name = "First string first"]
+    FirstFirst,
+    /// The last of the set-up, the lowest on guitars.
+    #[id = "last_first"]
+    #[name = "Last string first"]
+    LastFirst,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assert_consistent<T: Enum + Copy + PartialEq + std::fmt::Debug>() {
+        let ids = T::ids().expect("there are identifiers");
+        assert_eq!(ids.len(), T::variants().len());
+        assert!((0..ids.len()).all(|index| T::from_index(index).to_index() == index));
+        assert!(T::from_index(ids.len() + 7).to_index() < ids.len());
+    }
+
+    #[test]
+    fn places_identifiers_and_names_agree() {
+        assert_consistent::<InstrumentChoice>();
+        assert_consistent::<QualityChoice>();
+        assert_consistent::<RenderChoice>();
+        assert_eq!(InstrumentChoice::variants()[4], "Buzzing bass");
+        assert_eq!(InstrumentChoice::from_index(3).id(), "bass");
+        assert_eq!(RenderChoice::from_index(0).0, None);
+        assert_eq!(RenderChoice::from_index(1).0, Some(Quality::Draft));
+    }
 }

@@ -12,10 +12,12 @@ pub enum InputMode {
     Auto,
     /// The player picks string and fret for every note.
     Keyboard,
-    /// Each string has a channel, the first string this one (0 to 15), the next one the next.
+    /// Each string has a channel, and each channel one string; others are silent.
     Strings {
-        /// Channel of the first string.
+        /// The lowest of these channels, 0 to 15; the next string has the next one.
         first: u8,
+        /// Whether it is the last string's, the lowest on guitars, instead of the first one's.
+        from_last: bool,
     },
     /// Each note has a channel of its own; channel 0 acts on all.
     Mpe,

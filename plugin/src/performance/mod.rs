@@ -313,7 +313,11 @@ impl Performance {
             return;
         }
         let only = match self.input {
-            InputMode::Strings { first } => Some(usize::from(channel).wrapping_sub(usize::from(first))),
+            InputMode::Strings { first, from_last } => {
+                let place = usize::from(channel).wrapping_sub(usize::from(first));
+                let last = self.strings.len().wrapping_sub(1);
+                Some(if from_last { last.wrapping_sub(place) } else { place })
+            }
             _ => None,
         };
         match self.hand.playable_pitch(key, only) {
@@ -347,8 +351,8 @@ impl Performance {
             };
             let Wanted { channel, key, .. } = struck.wanted;
             let deviation = self.variation.next();
-            let (velocity, manner, curve) = (struck.velocity, struck.manner, self.touching.velocity_curve);
-            let start = Start { channel, key, fret, velocity, deviation, curve, manner };
+            let (strength, manner) = (self.touching.strength(struck.velocity), struck.manner);
+            let start = Start { channel, key, fret, strength, deviation, manner };
             let bend = self.bend(channel);
             self.strings[string].start(time, start, out);
             self.strings[string].bend(time, channel, bend);

@@ -24,12 +24,10 @@ pub(crate) struct Start {
     pub key: u8,
     /// Fret, 0 for the open string.
     pub fret: usize,
-    /// How hard, above 0 to 1.
-    pub velocity: f64,
+    /// Part of the hardest pluck's force.
+    pub strength: f64,
     /// How this pluck differs from the usual.
     pub deviation: Deviation,
-    /// Power of the velocity with which the force goes.
-    pub curve: f64,
     /// What the note has for itself.
     pub manner: Manner,
 }
@@ -145,7 +143,7 @@ impl StringPlayer {
         self.ending = None;
         let mut at = self.moment(time, out);
         let Manner { place, force, pressure, tuning, vibrato } = start.manner;
-        let strength = libm::pow(start.velocity, start.curve) * start.deviation.force * force;
+        let strength = start.strength * start.deviation.force * force;
         self.fingers.press(pressure, &mut at);
         self.fingers.stop(start.fret, strength, &mut at);
         let pluck = self.fingers.pluck(strength, start.deviation.place + place);

@@ -43,7 +43,7 @@ impl Output {
             let gain = decibels_to_gain(level.next()) * goal;
             if gain != 1.0 {
                 for channel in [left, right].into_iter().chain(stems.iter_mut().map(|stem| &mut **stem)) {
-                    channel.iter_mut().for_each(|sample| *sample *= gain);
+                    channel.iter_mut().for_each(|sample| *sample = scaled(*sample, gain));
                 }
             }
             return;
@@ -51,11 +51,18 @@ impl Output {
         for i in 0..left.len() {
             self.heard += (goal - self.heard).clamp(-self.step, self.step);
             let gain = decibels_to_gain(level.next()) * self.heard;
-            left[i] *= gain;
-            right[i] *= gain;
-            stems.iter_mut().for_each(|stem| stem[i] *= gain);
+            left[i] = scaled(left[i], gain);
+            right[i] = scaled(right[i], gain);
+            stems.iter_mut().for_each(|stem| stem[i] = scaled(stem[i], gain));
         }
     }
+}
+
+/// A sample at another level. One that is too small for a whole mantissa becomes 0: such numbers cost hosts time,
+/// and nobody hears −750 dB.
+fn scaled(sample: f32, gain: f32) -> f32 {
+    let scaled = sample * gain;
+    if scaled.is_subnormal() { 0.0 } else { scaled }
 }
 
 /// A factor of the amplitude out of decibels; exactly 1 at 0 dB.
@@ -65,7 +72,13 @@ fn decibels_to_gain(decibels: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::decibels_to_gain;
+    use super::{decibels_to_gain, scaled};
+
+    #[test]
+    fn nothing_subnormal_comes_out() {
+        assert_eq!(scaled(1e-37, 1e-3), 0.0);
+        assert_eq!(scaled(-0.5, 0.5), -0.25);
+    }
 
     #[test]
     fn no_decibels_are_a_factor_of_one() {

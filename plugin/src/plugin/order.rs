@@ -1,17 +1,20 @@
 //! What the parameters ask for, as the numbers of [`crate::controls`].
 
-use low_action_dsp::Setup;
+use low_action_dsp::{Error, Setup};
 use nice_plug::prelude::*;
 
+use super::shelf::{self, Shelf};
 use crate::controls::{Luthier, Touching};
 use crate::engine::EngineOptions;
-use crate::params::{InputChoice, InstrumentChoice, LowActionParams, exact};
+use crate::params::{ControlParams, InputChoice, InstrumentChoice, LowActionParams, StringOrder, exact};
 use crate::performance::InputMode;
 
 /// What an engine is built from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Order {
     pub instrument: InstrumentChoice,
+    /// A file of the user's that takes its place, and which edition of it.
+    file: (u32, u32),
     pub luthier: Luthier,
     /// Hz.
     pub sample_rate: f32,
@@ -21,8 +24,8 @@ impl Order {
     /// What the parameters ask for, in real time or offline.
     pub fn of(params: &LowActionParams, sample_rate: f32, offline: bool) -> Self {
         let LowActionParams { instrument, setup, strings, .. } = params;
-        let live = instrument.quality.value().quality();
-        let quality = if offline { instrument.render_quality.value().quality(live) } else { live };
+        let live = instrument.quality.value().0;
+        let quality = if offline { instrument.render_quality.value().0.unwrap_or(live) } else { live };
         let luthier = Luthier {
             quality,
             iterations: usize::try_from(instrument.iterations.value()).unwrap_or(0),
@@ -37,14 +40,42 @@ impl Order {
             tuning: 0.01 * exact(&setup.tuning),
             strings: std::array::from_fn(|index| exact(&strings[index].tuning)),
         };
-        Self { instrument: instrument.instrument.value(), luthier, sample_rate }
+        let file = match instrument.file.value().unsigned_abs() {
+            shelf::NONE => (shelf::NONE, 0),
+            number => (number, params.shelf.edition()),
+        };
+        Self { instrument: instrument.instrument.value(), file, luthier, sample_rate }
     }
 
-    /// The set-up and everything else an engine is built from.
-    pub fn options(&self) -> Result<EngineOptions, String> {
-        let name = self.instrument.set_up();
-        let setup = Setup::shipped(name).ok_or_else(|| format!("there is no set-up {name}"))?;
-        Ok(self.luthier.options(setup, f64::from(self.sample_rate)))
+    /// Builds what is asked for. Where the file that was chosen cannot be played, the instrument that comes with the
+    /// program is, and the shelf tells why.
+    pub fn build<T>(
+        &self,
+        shelf: &Shelf,
+        make: impl Fn(&EngineOptions) -> Result<T, Error>,
+    ) -> Result<T, String> {
+        let name = self.instrument.id();
+        let make = |setup| {
+            make(&self.luthier.options(setup, f64::from(self.sample_rate))).map_err(|error| error.to_string())
+        };
+        let problem = match self.file {
+            (shelf::NONE, _) => None,
+            (number, _) => match shelf.setup(number).and_then(make) {
+                Ok(made) => {
+                    shelf.tell(None);
+                    return Ok(made);
+                }
+                Err(problem) => Some(format!("{problem}; {name} is played instead")),
+            },
+        };
+        shelf.tell(problem);
+        make(Setup::shipped(name).ok_or_else(|| format!("there is no set-up {name}"))?)
+    }
+
+    /// The same, but as the set-up comes.
+    pub fn untouched(&self) -> Self {
+        let luthier = Luthier { quality: self.luthier.quality, ..Luthier::default() };
+        Self { luthier, ..*self }
     }
 }
 
@@ -54,6 +85,7 @@ pub(super) fn touching(params: &LowActionParams) -> Touching {
     Touching {
         pluck_position: 1e-3 * exact(&player.pluck_position),
         pluck_force: exact(&player.pluck_force),
+        pluck_softest: exact(&player.pluck_softest),
         pluck_duration: exact(&player.pluck_duration),
         velocity_curve: exact(&player.velocity_curve),
         variation: exact(&player.variation),
@@ -70,11 +102,14 @@ pub(super) fn touching(params: &LowActionParams) -> Touching {
 
 /// What the parameters have channels mean.
 pub(super) fn input(params: &LowActionParams) -> InputMode {
-    match params.control.input_mode.value() {
+    let ControlParams { input_mode, first_channel, string_order, .. } = &params.control;
+    match input_mode.value() {
         InputChoice::Auto => InputMode::Auto,
         InputChoice::Keyboard => InputMode::Keyboard,
-        InputChoice::Strings => InputMode::Strings { first: 0 },
-        InputChoice::StringsFrom11 => InputMode::Strings { first: 10 },
+        InputChoice::Strings => InputMode::Strings {
+            first: u8::try_from(first_channel.value() - 1).unwrap_or(0),
+            from_last: string_order.value() == StringOrder::LastFirst,
+        },
         InputChoice::Mpe => InputMode::Mpe,
     }
 }
@@ -95,11 +130,11 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
         });
         section.add_page("Set-up", |page| {
             page.add_param(&instrument.instrument);
+            page.add_param(&instrument.file);
             page.add_param(&setup.action);
             page.add_param(&setup.relief);
             page.add_param(&setup.fret_height);
             page.add_param(&setup.loss_0);
-            page.add_param(&setup.tension_modulation);
             page.add_param(&setup.pickup_blend);
             page.add_param(&setup.tuning);
         });
@@ -111,7 +146,7 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
             page.add_param(&player.finger_mass);
             page.add_param(&player.finger_hover);
             page.add_param(&player.hand_damping);
-            page.add_spacer();
+            page.add_param(&player.pluck_softest);
         });
         section.add_page("Strings", |page| {
             strings.iter().for_each(|string| page.add_param(&string.tuning));
@@ -121,10 +156,20 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
             page.add_param(&instrument.render_quality);
             page.add_param(&instrument.iterations);
             page.add_param(&instrument.relax);
+            page.add_param(&setup.tension_modulation);
+            page.add_param(&output.bypass);
+            page.add_spacer();
+            page.add_spacer();
+        });
+        section.add_page("Control", |page| {
             page.add_param(&control.input_mode);
+            page.add_param(&control.first_channel);
+            page.add_param(&control.string_order);
             page.add_param(&control.bend_range);
             page.add_param(&control.ignore_rpn);
-            page.add_param(&output.bypass);
+            page.add_spacer();
+            page.add_spacer();
+            page.add_spacer();
         });
     });
 }

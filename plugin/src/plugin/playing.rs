@@ -9,15 +9,11 @@ use super::budget::Budget;
 use super::events::{self, Voices};
 use super::meters::Meters;
 use super::order::{self, Order};
+use super::shelf::Shelf;
 use super::workshop::{Finished, Workshop};
-use crate::engine::{Engine, Quality, Replacement};
+use crate::engine::{Engine, INAUDIBLE, Quality, Replacement};
 use crate::params::LowActionParams;
 use crate::performance::PlayerEvent;
-
-/// How long a host should keep the plugin running after the last event, s: the longest reverberation
-/// time of the built-in strings (the open low strings of a classical or steel-string guitar, measured
-/// at about 25 to 29 s for a decay of 60 dB), rounded up.
-const TAIL: f32 = 30.0;
 
 /// An engine, what it was built from, and the workshop that builds others.
 pub(super) struct Playing {
@@ -40,9 +36,15 @@ pub(super) struct Playing {
 
 impl Playing {
     /// Builds the engine and opens the workshop; allocates.
-    pub fn new(order: Order, offline: bool, meters: Arc<Meters>) -> Result<Self, String> {
-        let engine = Engine::new(&order.options()?).map_err(|error| error.to_string())?;
-        let workshop = Workshop::open().map_err(|error| format!("cannot start a thread: {error}"))?;
+    ///
+    /// Where the set-up cannot be built with all that was done to it, it is taken as it comes.
+    pub fn new(order: Order, offline: bool, shelf: Shelf, meters: Arc<Meters>) -> Result<Self, String> {
+        let engine = order.build(&shelf, Engine::new).or_else(|problem| {
+            nice_error!("{problem}: the set-up is played as it comes");
+            meters.refuse();
+            order.untouched().build(&shelf, Engine::new)
+        })?;
+        let workshop = Workshop::open(shelf).map_err(|error| format!("cannot start a thread: {error}"))?;
         Ok(Self {
             engine,
             order,
@@ -218,9 +220,17 @@ impl Playing {
         }
     }
 
-    /// What to tell the host: the strings ring on, or nothing sounds and nothing is touched.
+    /// What to tell the host: for how long the strings can ring on, or that nothing sounds and nothing will.
     pub fn status(&self) -> ProcessStatus {
-        ProcessStatus::Tail((TAIL * self.order.sample_rate) as u32)
+        if self.engine.is_silent() {
+            ProcessStatus::Normal
+        } else if self.engine.level() < INAUDIBLE {
+            // Nobody hears the strings, but they move: the host is to go on, and has nothing to wait for.
+            ProcessStatus::Tail(0)
+        } else {
+            // An endless tail becomes the largest number, by which hosts mean just that.
+            ProcessStatus::Tail((self.engine.tail() * f64::from(self.order.sample_rate)) as u32)
+        }
     }
 }
 

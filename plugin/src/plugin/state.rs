@@ -12,10 +12,13 @@ use nice_plug::plugin::ParamValue;
 use nice_plug::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::shelf::{KEPT, Saved, Shelf};
 use crate::params::LowActionParams;
+use crate::setups::SHIPPED;
 
-/// The form in which states are saved now. It grows when an older program could not read them rightly.
-const VERSION: u32 = 1;
+/// The form in which states are saved now. It grows when an older program could not read them rightly, or has to be
+/// told what its own mean by now.
+const VERSION: u32 = 2;
 /// Whose state it is.
 const OWNER: &str = "low-action";
 /// Under which name the mark is saved.
@@ -54,7 +57,13 @@ impl<'a> PersistentField<'a, Mark> for Marked {
 /// Makes of a saved state what can be loaded: all of it, brought up to date, or nothing.
 pub(super) fn admit(state: &mut PluginState) {
     match judge(&state.fields, &state.params) {
-        Ok(()) => bring_into_range(&mut state.params),
+        Ok(()) => {
+            bring_up_to_date(&mut state.params);
+            complete(&mut state.params);
+            // A state without a file keeps none.
+            state.fields.entry(KEPT.into()).or_insert_with(|| "null".into());
+            bring_into_range(&mut state.params);
+        }
         Err(reason) => {
             nice_error!("the saved state is refused, and everything stays as it is: {reason}");
             state.params.clear();
@@ -77,13 +86,46 @@ fn judge(fields: &BTreeMap<String, String>, params: &BTreeMap<String, ParamValue
     if mark.version > VERSION {
         return Err(format!("its form {} is newer than this program's {VERSION}", mark.version));
     }
+    if fields.get(KEPT).is_some_and(|kept| serde_json::from_str::<Saved>(kept).is_err()) {
+        return Err("its set-up file cannot be read".into());
+    }
     Ok(())
+}
+
+/// Says in today's words what older forms said in theirs.
+fn bring_up_to_date(values: &mut BTreeMap<String, ParamValue>) {
+    // Before form 2 there was one input mode for channels from 1 and one for channels from 11.
+    if let Some(ParamValue::String(mode)) = values.get_mut("input_mode")
+        && mode == "strings_11"
+    {
+        "strings".clone_into(mode);
+        values.insert("first_channel".into(), ParamValue::I32(11));
+    }
+}
+
+/// Gives parameters that did not exist when the state was saved their usual values: what was set before has no
+/// place in it.
+fn complete(values: &mut BTreeMap<String, ParamValue>) {
+    let params = LowActionParams::new(Shelf::new(Vec::new()));
+    for (id, param, _) in params.param_map() {
+        values.entry(id).or_insert_with(|| {
+            // SAFETY: the pointers lead into `params`, which lives on.
+            unsafe {
+                match param {
+                    ParamPtr::FloatParam(param) => ParamValue::F32((*param).default_plain_value()),
+                    ParamPtr::IntParam(param) => ParamValue::I32((*param).default_plain_value()),
+                    ParamPtr::BoolParam(param) => ParamValue::Bool((*param).default_plain_value()),
+                    ParamPtr::EnumParam(param) => ParamValue::I32((*param).default_plain_value()),
+                }
+            }
+        });
+    }
 }
 
 /// Brings every number into the range of its parameter, and replaces a set-up that is not there any more by
 /// the usual one.
 fn bring_into_range(values: &mut BTreeMap<String, ParamValue>) {
-    let params = LowActionParams::default();
+    let params = LowActionParams::new(Shelf::new(Vec::new()));
     for (id, param, _) in params.param_map() {
         let Some(value) = values.get_mut(&id) else { continue };
         match (param, value) {
@@ -102,9 +144,9 @@ fn bring_into_range(values: &mut BTreeMap<String, ParamValue>) {
         }
     }
     if let Some(ParamValue::String(name)) = values.get_mut("instrument")
-        && !crate::params::InstrumentChoice::ids().is_some_and(|ids| ids.contains(&name.as_str()))
+        && !SHIPPED.contains(&name.as_str())
     {
         nice_error!("the set-up {name:?} is not there: the usual one is played instead");
-        "electric".clone_into(name);
+        SHIPPED[0].clone_into(name);
     }
 }

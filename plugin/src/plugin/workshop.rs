@@ -12,6 +12,7 @@ use std::time::Duration;
 use crossbeam::queue::ArrayQueue;
 
 use super::order::Order;
+use super::shelf::Shelf;
 use crate::engine::Replacement;
 
 /// What came of an order.
@@ -43,7 +44,7 @@ const SHORT_NAP: Duration = Duration::from_micros(200);
 
 impl Workshop {
     /// Opens it; starts the thread.
-    pub fn open() -> std::io::Result<Self> {
+    pub fn open(shelf: Shelf) -> std::io::Result<Self> {
         let counter = Arc::new(Counter {
             orders: ArrayQueue::new(1),
             finished: ArrayQueue::new(2),
@@ -52,7 +53,7 @@ impl Workshop {
         });
         let inside = counter.clone();
         let thread =
-            thread::Builder::new().name("low-action workshop".into()).spawn(move || work(&inside))?;
+            thread::Builder::new().name("low-action workshop".into()).spawn(move || work(&inside, &shelf))?;
         Ok(Self { counter, thread: Some(thread) })
     }
 
@@ -107,13 +108,12 @@ impl Drop for Workshop {
 }
 
 /// The life of the thread.
-fn work(counter: &Counter) {
+fn work(counter: &Counter, shelf: &Shelf) {
     while !counter.closing.load(Ordering::Relaxed) {
         while counter.used.pop().is_some() {}
         match counter.orders.pop() {
             Some(order) => {
-                let build = |options| Replacement::new(&options).map_err(|error| error.to_string());
-                let result = order.options().and_then(build).map(Box::new);
+                let result = order.build(shelf, Replacement::new).map(Box::new);
                 // What nobody has collected is outdated by now.
                 counter.finished.force_push(Finished { order, result });
             }

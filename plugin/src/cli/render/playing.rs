@@ -6,7 +6,7 @@ use super::files::Files;
 use super::options::Tail;
 use crate::cli::wav::Findings;
 use crate::cli::{RenderArgs, progress};
-use crate::engine::Engine;
+use crate::engine::{Engine, INAUDIBLE, QUIET};
 use crate::midi_file::Song;
 use crate::performance::Compromises;
 
@@ -14,10 +14,6 @@ use crate::performance::Compromises;
 const BLOCK: usize = 512;
 /// Shortest tail of `auto`, s: as far back as the engine's level looks, and once more.
 const SHORTEST_TAIL: f64 = 0.1;
-/// `auto` ends when the sound has stayed below this part of the song's peak: −72 dB.
-const QUIET: f64 = 2.5e-4;
-/// `auto` ends in any case below this level: −120 dBFS, under the last bit of 16.
-const INAUDIBLE: f64 = 1e-6;
 
 /// What came of it.
 pub(super) struct Rendered {

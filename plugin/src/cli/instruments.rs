@@ -1,0 +1,49 @@
+//! The `instruments` command: which set-ups there are, and more of them.
+
+use std::io::Write;
+
+use anyhow::Context;
+use low_action_dsp::Setup;
+
+use super::{InstrumentsArgs, Outcome, say};
+use crate::plugin::shelf::MOST_FILES;
+use crate::setups::{self, FOLDER_VARIABLE, SHIPPED};
+
+/// Installs what is asked for, or lists what there is.
+pub(super) fn run(arguments: &InstrumentsArgs) -> Outcome {
+    let folder = setups::folder().with_context(|| {
+        format!("this system has no folder for a user's data: name one in {FOLDER_VARIABLE}")
+    })?;
+    if !arguments.install.is_empty() {
+        for path in &arguments.install {
+            let file = setups::install(path, &folder)?;
+            say(&file.name, &format!("installed as {}", file.path.display()));
+        }
+        return Ok(());
+    }
+    let mut text = String::from("With the program:\n");
+    for name in SHIPPED {
+        let description = Setup::shipped(name).map(|setup| setup.description).unwrap_or_default();
+        text += &format!("  {name:<18}{description}\n");
+    }
+    text += &format!("Yours, in {}:\n", folder.display());
+    let files = setups::files_in(&folder);
+    if files.is_empty() {
+        text += "  none; `low-action instruments --install FILE` puts set-up files there\n";
+    }
+    for (index, file) in files.iter().enumerate() {
+        let number = if index < MOST_FILES { format!("{}", index + 1) } else { "-".into() };
+        let what = setups::read(&file.path).and_then(|text| Ok(Setup::from_toml(&text)?));
+        let what = what.map_or_else(|problem| format!("not usable: {problem:#}"), |setup| setup.description);
+        text += &format!("  {number:>2} {:<15}{}\n", file.name, super::one_line(&what));
+    }
+    if files.len() > MOST_FILES {
+        text += &format!("  (the plugin has numbers for the first {MOST_FILES})\n");
+    }
+    // A reader who has seen enough is no failure.
+    std::io::stdout().write_all(text.as_bytes()).or_else(|error| match error.kind() {
+        std::io::ErrorKind::BrokenPipe => Ok(()),
+        _ => Err(error),
+    })?;
+    Ok(())
+}

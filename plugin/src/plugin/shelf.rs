@@ -1,0 +1,208 @@
+//! The user's own set-ups as one plugin sees them, and the one its session keeps.
+//!
+//! The files of the user's folder are numbered, in the order of their names, as they are when the plugin is loaded.
+//! One that is chosen by its number is read and from then on kept, text and all: the session saves the text, and so
+//! the project sounds the same on another machine and after the file was changed. Choosing another number lets go of
+//! it. The audio thread sees nothing but numbers.
+
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use low_action_dsp::Setup;
+use nice_plug::params::persist::PersistentField;
+use nice_plug::prelude::nice_error;
+use serde::{Deserialize, Serialize};
+
+use crate::setups::{self, SetupFile};
+
+/// Files that can be chosen; those beyond are passed over.
+pub const MOST_FILES: usize = 64;
+
+/// Under which name the kept file is saved.
+pub(crate) const KEPT: &str = "instrument_file";
+
+/// The number that chooses no file.
+pub(super) const NONE: u32 = 0;
+
+/// The name of a number without a file.
+const NO_FILE: &str = "no such file";
+
+/// A set-up file that is kept with the session.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+struct Kept {
+    number: u32,
+    name: String,
+    text: String,
+}
+
+/// What a session saves of the shelf.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Saved(Option<Kept>);
+
+#[derive(Debug)]
+struct Inside {
+    files: Vec<SetupFile>,
+    kept: Mutex<Option<Kept>>,
+    /// The number for which the kept file stands, [`NONE`] if for none.
+    stands_for: AtomicU32,
+    chosen: AtomicU32,
+    /// Grows when the same number comes to mean something else.
+    edition: AtomicU32,
+    message: Mutex<Option<String>>,
+}
+
+/// A shelf; clones are the same one.
+#[derive(Debug, Clone)]
+pub struct Shelf(Arc<Inside>);
+
+impl Shelf {
+    /// With the files that are in the user's folder now.
+    pub(crate) fn of_user() -> Self {
+        let mut files = setups::installed();
+        if files.len() > MOST_FILES {
+            nice_error!("{} set-up files, of which the first {MOST_FILES} can be chosen", files.len());
+            files.truncate(MOST_FILES);
+        }
+        Self::new(files)
+    }
+
+    /// With these files.
+    pub(crate) fn new(files: Vec<SetupFile>) -> Self {
+        Self(Arc::new(Inside {
+            files,
+            kept: Mutex::new(None),
+            stands_for: AtomicU32::new(NONE),
+            chosen: AtomicU32::new(NONE),
+            edition: AtomicU32::new(0),
+            message: Mutex::new(None),
+        }))
+    }
+
+    /// Why the file that was chosen is not played, in one line, if it is not.
+    pub fn message(&self) -> Option<String> {
+        lock(&self.0.message).clone()
+    }
+
+    /// A file is chosen by its number. Called wherever parameters change: neither waits nor allocates.
+    pub(crate) fn choose(&self, number: u32) {
+        self.0.chosen.store(number, Ordering::Relaxed);
+        let stands_for = self.0.stands_for.load(Ordering::Relaxed);
+        if stands_for != NONE && stands_for != number {
+            self.0.stands_for.store(NONE, Ordering::Relaxed);
+            self.0.edition.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    /// A number that tells apart what one number of a file means at different times.
+    pub(super) fn edition(&self) -> u32 {
+        self.0.edition.load(Ordering::Relaxed)
+    }
+
+    /// The set-up of a number.
+    ///
+    /// # Errors
+    /// When there is no such file, or it is no set-up; in one line that names it.
+    pub(super) fn setup(&self, number: u32) -> Result<Setup, String> {
+        let Kept { name, text, .. } = self.take_up(number)?;
+        if text.is_empty() {
+            return Err(format!("{name}: the file could not be read when the session was saved"));
+        }
+        Setup::from_toml(&text).map_err(|error| one_line(&format!("{name}: {error}")))
+    }
+
+    /// The file of a number, which is kept from now on.
+    fn take_up(&self, number: u32) -> Result<Kept, String> {
+        let mut kept = lock(&self.0.kept);
+        if self.0.stands_for.load(Ordering::Relaxed) == number
+            && let Some(kept) = &*kept
+        {
+            return Ok(kept.clone());
+        }
+        let file = self.file(number).ok_or_else(|| format!("there is no set-up file {number}"))?;
+        let text = setups::read(&file.path).map_err(|error| one_line(&format!("{error:#}")))?;
+        let found = Kept { number, name: file.name.clone(), text };
+        if self.0.chosen.load(Ordering::Relaxed) == number {
+            *kept = Some(found.clone());
+            self.0.stands_for.store(number, Ordering::Relaxed);
+        }
+        Ok(found)
+    }
+
+    fn file(&self, number: u32) -> Option<&SetupFile> {
+        self.0.files.get((number as usize).checked_sub(1)?)
+    }
+
+    /// Remembers why the chosen file is not played, or that all is well.
+    pub(super) fn tell(&self, message: Option<String>) {
+        let mut present = lock(&self.0.message);
+        if *present != message {
+            if let Some(message) = &message {
+                nice_error!("{message}");
+            }
+            *present = message;
+        }
+    }
+
+    /// A number as hosts show it: with the name of its file, and what is wrong with the one that is chosen.
+    pub(crate) fn title(&self, number: u32) -> String {
+        if number == NONE {
+            return "none".into();
+        }
+        let kept = lock(&self.0.kept);
+        let kept = kept.as_ref().filter(|_| self.0.stands_for.load(Ordering::Relaxed) == number);
+        let name = kept.map(|kept| kept.name.as_str());
+        let name = name.or_else(|| self.file(number).map(|file| file.name.as_str())).unwrap_or(NO_FILE);
+        match self.message() {
+            Some(message) if self.0.chosen.load(Ordering::Relaxed) == number => {
+                format!("{number}: {name} ({message})")
+            }
+            _ => format!("{number}: {name}"),
+        }
+    }
+
+    /// The number of a title, of a file's name or of the number itself.
+    pub(crate) fn number(&self, title: &str) -> Option<i32> {
+        let title = title.trim();
+        if title == "none" {
+            return Some(NONE as i32);
+        }
+        let place = self.0.files.iter().position(|file| file.name == title).map(|place| place as i32 + 1);
+        place.or_else(|| title.split(':').next()?.trim().parse().ok())
+    }
+}
+
+impl<'a> PersistentField<'a, Saved> for Shelf {
+    fn set(&self, Saved(saved): Saved) {
+        let mut kept = lock(&self.0.kept);
+        let number = saved.as_ref().map_or(NONE, |saved| saved.number);
+        *kept = saved;
+        self.0.stands_for.store(number, Ordering::Relaxed);
+        self.0.edition.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn map<F, R>(&self, read: F) -> R
+    where
+        F: Fn(&Saved) -> R,
+    {
+        let number = self.0.chosen.load(Ordering::Relaxed);
+        if number == NONE {
+            return read(&Saved(None));
+        }
+        // What cannot be read is saved by its name, so that whoever opens the session learns what is missing.
+        let missing = |_| {
+            let name = self.file(number).map_or(NO_FILE, |file| &file.name).to_owned();
+            Kept { number, name, text: String::new() }
+        };
+        read(&Saved(Some(self.take_up(number).unwrap_or_else(missing))))
+    }
+}
+
+/// Nothing a panicking thread could have left half-done matters here.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

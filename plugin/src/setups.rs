@@ -1,0 +1,103 @@
+//! Set-ups by name: those that come with the program, and users' own in a folder of theirs.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, ensure};
+use etcetera::BaseStrategy;
+use low_action_dsp::Setup;
+
+/// Names of the set-ups that come with the program, the usual one first. Hosts number them in this order.
+pub const SHIPPED: [&str; Setup::BUILTIN.len() + Setup::PRESETS.len()] = {
+    let mut names = [""; Setup::BUILTIN.len() + Setup::PRESETS.len()];
+    let mut index = 0;
+    while index < names.len() {
+        let built_in = Setup::BUILTIN.len();
+        names[index] =
+            if index < built_in { Setup::BUILTIN[index] } else { Setup::PRESETS[index - built_in] };
+        index += 1;
+    }
+    names
+};
+
+/// Largest set-up file read, bytes; those that come with the program have a few thousand.
+pub const LARGEST_FILE: u64 = 1 << 20;
+
+/// Names the folder of users' own set-ups, in place of the usual one.
+pub const FOLDER_VARIABLE: &str = "LOW_ACTION_INSTRUMENTS";
+
+/// How set-up files end.
+const EXTENSION: &str = "toml";
+
+/// A user's own set-up file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SetupFile {
+    /// Its name: the file's without its ending.
+    pub name: String,
+    /// Where it is.
+    pub path: PathBuf,
+}
+
+/// Where a user's own set-ups are: the folder `instruments` of `low-action` among the user's data
+/// (`~/.local/share` on Linux, `~/Library/Application Support` on macOS, `%APPDATA%` on Windows), or what
+/// [`FOLDER_VARIABLE`] names. Nothing if the system knows no such place.
+pub fn folder() -> Option<PathBuf> {
+    if let Some(folder) = std::env::var_os(FOLDER_VARIABLE).filter(|folder| !folder.is_empty()) {
+        return Some(folder.into());
+    }
+    let strategy = etcetera::base_strategy::choose_native_strategy().ok()?;
+    Some(strategy.data_dir().join("low-action").join("instruments"))
+}
+
+/// The set-up files in a folder, in the order of their names; none if there is no folder.
+pub fn files_in(folder: &Path) -> Vec<SetupFile> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut files: Vec<SetupFile> = entries
+        .filter(|path| path.extension().is_some_and(|ending| ending == EXTENSION) && path.is_file())
+        .filter_map(|path| Some(SetupFile { name: path.file_stem()?.to_str()?.to_owned(), path }))
+        .collect();
+    files.sort_by(|one, other| one.name.cmp(&other.name));
+    files
+}
+
+/// A user's own set-ups, in the order of their names.
+pub fn installed() -> Vec<SetupFile> {
+    folder().map(|folder| files_in(&folder)).unwrap_or_default()
+}
+
+/// The text of a set-up file.
+///
+/// # Errors
+/// When it cannot be read, is no text or is longer than [`LARGEST_FILE`].
+pub fn read(path: &Path) -> Result<String> {
+    let describe = || format!("cannot read the instrument {}", path.display());
+    let mut text = String::new();
+    let read = File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_string(&mut text));
+    let size = read.with_context(describe)?;
+    ensure!(size as u64 <= LARGEST_FILE, "{}: a set-up file has at most {LARGEST_FILE} bytes", describe());
+    Ok(text)
+}
+
+/// Checks a set-up file and copies it into a folder, which is made if need be, in place of one of the same name.
+///
+/// # Errors
+/// When the file is no set-up, has the name of one that comes with the program, or cannot be copied.
+pub fn install(path: &Path, folder: &Path) -> Result<SetupFile> {
+    let text = read(path)?;
+    Setup::from_toml(&text).with_context(|| path.display().to_string())?;
+    let name = path.file_stem().and_then(|name| name.to_str());
+    let name = name.with_context(|| format!("{} has no name that could be shown", path.display()))?;
+    ensure!(!SHIPPED.contains(&name), "{name} comes with the program: give {} another name", path.display());
+    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let target = folder.join(name).with_extension(EXTENSION);
+    // Beside it and then renamed, so that nobody ever reads half of it.
+    let write = || -> std::io::Result<()> {
+        let mut draft = tempfile::NamedTempFile::new_in(folder)?;
+        std::io::Write::write_all(&mut draft, text.as_bytes())?;
+        draft.persist(&target)?;
+        Ok(())
+    };
+    write().with_context(|| format!("cannot write {}", target.display()))?;
+    Ok(SetupFile { name: name.to_owned(), path: target })
+}

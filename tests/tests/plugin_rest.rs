@@ -1,0 +1,81 @@
+//! Promise: silence is free, and no sound is cut short: a plugin at rest says so, a host that asks it for nothing
+//! until there are events again loses nothing, and the tail it states is what its strings need to decay.
+
+use low_action::engine::QUIET;
+use low_action_dsp::Setup;
+use low_action_tests::host::{Action, Host, Score, parameter};
+
+const RATE: f64 = 48_000.0;
+
+fn on(at: u64, key: u8) -> (u64, Action) {
+    (at, Action::NoteOn { channel: 0, key, velocity: 100 })
+}
+
+fn off(at: u64, key: u8) -> (u64, Action) {
+    (at, Action::NoteOff { channel: 0, key })
+}
+
+#[test]
+fn a_host_that_lets_it_sleep_loses_nothing() {
+    let score: Score = vec![
+        // Strings that are soon at rest.
+        (0, Action::Parameter(parameter("loss_0"), 1.0)),
+        on(1000, 45),
+        on(1200, 57),
+        off(9000, 45),
+        off(9600, 57),
+        // Long after everything has died away.
+        on(230_000, 52),
+        (231_000, Action::Midi([0xE0, 0, 96])),
+        off(236_000, 52),
+    ];
+    for block in [64, 512] {
+        let awake = Host::new().play(RATE, &score, 260_000, &[block]);
+        let mut host = Host::new();
+        host.sleepy = true;
+        assert!(host.play(RATE, &score, 260_000, &[block]) == awake, "blocks of {block}");
+    }
+    // That it may sleep at all: what the plugin says is checked on the way.
+    let [left, _] = Host::new().play(RATE, &score, 225_000, &[512]);
+    assert!(left[220_000..].iter().all(|&sample| sample == 0.0), "it never comes to rest");
+}
+
+#[test]
+fn the_tail_is_as_long_as_the_strings_ring() {
+    let expected = |name: &str, loss: f64| {
+        let setup = Setup::shipped(name).expect("it comes with the program");
+        let wavenumber = std::f64::consts::PI / setup.neck.scale_length;
+        let longest = setup
+            .string
+            .iter()
+            .map(|string| -QUIET.ln() / (loss * (string.loss_0 + string.loss_1 * wavenumber.powi(2))))
+            .fold(0.0, f64::max);
+        (longest * RATE) as u32
+    };
+    let ringing = |settings: &[(&str, f64)]| {
+        let mut host = Host::new();
+        let mut score: Score =
+            settings.iter().map(|&(id, value)| (0, Action::Parameter(parameter(id), value))).collect();
+        score.push(on(2000, 45));
+        host.perform(RATE, &score, 12_000, &[512], 0).tail
+    };
+    assert!(ringing(&[]).abs_diff(expected("electric", 1.0)) <= 1);
+    assert!(ringing(&[("instrument", 1.0)]).abs_diff(expected("classical", 1.0)) <= 1);
+    assert!(ringing(&[("loss_0", 1.0), ("loss_1", 1.0)]).abs_diff(expected("electric", 20.0)) <= 1);
+
+    // An open string really needs so long, as its decay in 9 s shows.
+    let open = Host::new().perform(RATE, &vec![on(0, 40)], 528_000, &[512], 0);
+    let [left, _] = &open.stereo;
+    let level = |from: usize| {
+        let span = &left[from..from + 48_000];
+        10.0 * (span.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / span.len() as f64).log10()
+    };
+    let (fallen, stated) = (level(48_000) - level(480_000), f64::from(open.tail) / RATE);
+    let needed = -20.0 * QUIET.log10() / fallen * 9.0;
+    assert!(needed < 1.05 * stated, "it rings for {needed} s and says {stated}");
+
+    // Damped or never plucked, there is none.
+    let ended = Host::new().perform(RATE, &vec![on(0, 45), off(2000, 45)], 120_000, &[512], 0);
+    assert_eq!(ended.tail, 0);
+    assert_eq!(Host::new().perform(RATE, &Score::new(), 512, &[512], 0).tail, 0);
+}
