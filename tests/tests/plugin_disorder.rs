@@ -79,7 +79,7 @@ fn ten_thousand_in_disorder_do_no_harm() {
         })
         .collect();
     let mut host = Host::new();
-    let far = |time: u32| if time % 3 == 0 { time + 1_000_000 } else { time };
+    let far = |time: u32| if time.is_multiple_of(3) { time + 1_000_000 } else { time };
     for mistake in [None, Some(far as fn(u32) -> u32)] {
         host.mistaken = mistake;
         let [left, right] = play(&mut host, &wild);
