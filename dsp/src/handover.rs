@@ -16,7 +16,7 @@ use crate::energy::Ledger;
 use crate::gesture::FINGERS_PER_STRING;
 use crate::grid::NUT;
 use crate::hands::Hands;
-use crate::instrument::Instrument;
+use crate::instrument::{Instrument, heard};
 use crate::model::{Contact, ContactKind, Model};
 use crate::ramp::Ramp;
 use crate::state::State;
@@ -120,7 +120,7 @@ impl Instrument {
         for (i, at) in span.enumerate() {
             let part = self.fade.value();
             self.fade.step();
-            let mix = |new: &mut f32, old: f64| *new = (old + (f64::from(*new) - old) * part) as f32;
+            let mix = |new: &mut f32, old: f64| *new = heard(old + (f64::from(*new) - old) * part);
             let [l, r] = before.stereo(i);
             mix(&mut left[at], l);
             mix(&mut right[at], r);

@@ -155,14 +155,14 @@ impl Instrument {
                 voice.run(run);
                 if let Some(stem) = stems.get_mut(index) {
                     for (out, sample) in stem[done..done + run].iter_mut().zip(&voice.run) {
-                        *out = *sample as f32;
+                        *out = heard(*sample);
                     }
                 }
             }
             for i in 0..run {
                 let [l, r] = self.stereo(i);
-                left[done + i] = l as f32;
-                right[done + i] = r as f32;
+                left[done + i] = heard(l);
+                right[done + i] = heard(r);
             }
             if !self.fade.rests() {
                 let end = done + run;
@@ -205,6 +205,13 @@ impl Instrument {
         self.fade = Ramp::at(1.0);
         self.now = 0;
     }
+}
+
+/// A sample as it leaves the instrument. One too small for a whole mantissa is 0: nobody hears −750 dB, and such
+/// numbers are slow on most machines.
+#[inline]
+pub(crate) fn heard(sample: f64) -> f32 {
+    if sample.abs() < f64::from(f32::MIN_POSITIVE) { 0.0 } else { sample as f32 }
 }
 
 /// The largest output of the last while.

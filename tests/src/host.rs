@@ -1,76 +1,18 @@
 //! A small CLAP host inside the test: it loads the plugin without a bundle and plays events through it.
 
+mod score;
+
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clack_extensions::audio_ports_config::PluginAudioPortsConfig;
 use clack_extensions::render::{PluginRender, RenderMode};
 use clack_extensions::state::PluginState;
 use clack_extensions::tail::{PluginTail, TailLength};
-use clack_host::events::event_types::{
-    MidiEvent, NoteChokeEvent, NoteEndEvent, NoteExpressionEvent, NoteExpressionType, NoteOffEvent,
-    NoteOnEvent, ParamModEvent, ParamValueEvent, TransportEvent, TransportFlags,
-};
-use clack_host::events::{EventFlags, EventHeader};
+use clack_host::events::event_types::NoteEndEvent;
 use clack_host::prelude::*;
 
-/// What a performer or a host does to the plugin.
-#[derive(Clone, Copy, Debug)]
-pub enum Action {
-    /// A key goes down.
-    NoteOn {
-        /// MIDI channel, 0 to 15.
-        channel: u8,
-        /// MIDI key, 0 to 127.
-        key: u8,
-        /// How hard, 0 to 127; 0 is the softest a host can ask for, not a release.
-        velocity: u8,
-    },
-    /// A key goes up.
-    NoteOff {
-        /// MIDI channel, 0 to 15.
-        channel: u8,
-        /// MIDI key, 0 to 127.
-        key: u8,
-    },
-    /// Every note is cut short.
-    ChokeAll,
-    /// Three bytes of MIDI.
-    Midi([u8; 3]),
-    /// A parameter is set, by its CLAP identifier, in the units CLAP shows to a host: 0 to 1, or 0 to the
-    /// number of steps.
-    Parameter(u32, f64),
-    /// The same for one note alone, which the host has numbered by its key: added to what holds for all.
-    Modulate {
-        /// The parameter.
-        parameter: u32,
-        /// Number of the note.
-        key: u8,
-        /// What is added, 0 to 1.
-        amount: f64,
-    },
-    /// A note expression.
-    Express {
-        /// What is expressed.
-        what: NoteExpressionType,
-        /// MIDI channel, 0 to 15.
-        channel: u8,
-        /// MIDI key, 0 to 127.
-        key: u8,
-        /// How much.
-        value: f64,
-    },
-    /// The transport starts or stops.
-    Transport(bool),
-}
-
-/// The number under which CLAP hosts know the parameter that is saved as `id`: the framework's hash.
-pub fn parameter(id: &str) -> u32 {
-    let hash = id.bytes().fold(0_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
-    hash & !(1 << 31)
-}
-
-/// An action and the sample at which it happens, counted from the start of the performance.
-pub type Score = Vec<(u64, Action)>;
+pub use score::{Action, Score, parameter};
+use score::{events_between, transport};
 
 /// The host's side of the conversation.
 pub struct Listener {
@@ -106,11 +48,16 @@ pub struct Performed {
     pub tail: u32,
 }
 
+/// Somebody who looks at both channels, up to where they have sounded.
+pub type Watch = Box<dyn FnMut([&[f32]; 2])>;
+
 /// The plugin, loaded and ready to be activated.
 pub struct Host {
     instance: PluginInstance<Handlers>,
     /// What the host makes of the times of events within a block, in place of the truth.
     pub mistaken: Option<fn(u32) -> u32>,
+    /// Looks at all that has sounded after every block; may take its time.
+    pub watch: Option<Watch>,
     /// Whether the host stops asking a plugin for sound that says it is at rest, until there are events.
     pub sleepy: bool,
 }
@@ -148,7 +95,7 @@ impl Host {
             &info,
         )
         .expect("the plugin can be created");
-        Self { instance, mistaken: None, sleepy: false }
+        Self { instance, mistaken: None, watch: None, sleepy: false }
     }
 
     /// Activates the plugin at a sample rate in Hz, plays the score for `length` samples in blocks of the
@@ -227,6 +174,9 @@ impl Host {
                     .filter_map(|event| event.as_event::<NoteEndEvent>())
                     .filter_map(|event| event.pckn().key.into_specific().map(|key| (end as u64, key as u8))),
             );
+            if let Some(watch) = &mut self.watch {
+                watch(stereo.each_ref().map(|channel| &channel[..end]));
+            }
             start = end;
         }
         let handle = processor.plugin_handle();
@@ -280,64 +230,4 @@ impl Host {
         self.instance
             .access_shared_handler(|listener| listener.restart_requested.swap(false, Ordering::Relaxed))
     }
-}
-
-/// The events of the samples from `start` up to `end`, in the order of the score, timed from `start` as `clock`
-/// says.
-fn events_between(score: &Score, start: u64, end: u64, clock: fn(u32) -> u32) -> EventBuffer {
-    let mut events = EventBuffer::new();
-    for &(at, action) in score.iter().filter(|(at, _)| (start..end).contains(at)) {
-        let time = clock((at - start) as u32);
-        match action {
-            Action::NoteOn { channel, key, velocity } => {
-                let velocity = f64::from(velocity) / 127.0;
-                events.push(&NoteOnEvent::new(time, note(channel, key), velocity));
-            }
-            Action::NoteOff { channel, key } => {
-                events.push(&NoteOffEvent::new(time, note(channel, key), 0.0));
-            }
-            Action::ChokeAll => events.push(&NoteChokeEvent::new(time, Pckn::match_all())),
-            Action::Midi(bytes) => events.push(&MidiEvent::new(time, 0, bytes)),
-            Action::Parameter(id, value) => {
-                events.push(&ParamValueEvent::new(time, ClapId::new(id), Pckn::match_all(), value));
-            }
-            Action::Modulate { parameter, key, amount } => {
-                use clack_host::events::Match::All;
-                let address = Pckn::new(All, All, All, u32::from(key));
-                events.push(&ParamModEvent::new(time, ClapId::new(parameter), address, amount));
-            }
-            Action::Express { what, channel, key, value } => {
-                events.push(&NoteExpressionEvent::new(time, note(channel, key), what, value));
-            }
-            Action::Transport(playing) => {
-                events.push(&transport(time, playing));
-            }
-        }
-    }
-    events
-}
-
-/// A transport that tells nothing but whether it runs.
-fn transport(time: u32, playing: bool) -> TransportEvent {
-    TransportEvent {
-        header: EventHeader::new_core(time, EventFlags::empty()),
-        flags: if playing { TransportFlags::IS_PLAYING } else { TransportFlags::empty() },
-        song_pos_beats: Default::default(),
-        song_pos_seconds: Default::default(),
-        tempo: 0.0,
-        tempo_inc: 0.0,
-        loop_start_beats: Default::default(),
-        loop_end_beats: Default::default(),
-        loop_start_seconds: Default::default(),
-        loop_end_seconds: Default::default(),
-        bar_start: Default::default(),
-        bar_number: 0,
-        time_signature_numerator: 0,
-        time_signature_denominator: 0,
-    }
-}
-
-/// CLAP's address of a key on a channel. This host numbers notes by their keys.
-fn note(channel: u8, key: u8) -> Pckn {
-    Pckn::new(0_u16, u16::from(channel), u16::from(key), u32::from(key))
 }

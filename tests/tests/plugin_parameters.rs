@@ -381,6 +381,48 @@ fn relaxing_is_for_real_time_alone() {
 }
 
 #[test]
+fn the_offline_quality_is_for_offline_alone() {
+    let mut host = Host::in_real_time();
+    let settings = [("render_quality", 4.0), ("relax", 0.0)];
+    let settings = settings.map(|(id, value)| (0, Action::Parameter(parameter(id), value))).to_vec();
+    host.play(RATE, &settings, 64, &[64]);
+    let [left, _] = host.play(RATE, &score(), LENGTH, &[512]);
+    assert!(left == with(&[], &score()));
+}
+
+#[test]
+fn everything_at_its_end_at_once_plays() {
+    let params = LowActionParams::default();
+    let params_of = params.param_map();
+    // What would leave nothing to be heard, or another instrument.
+    let kept = ["instrument", "instrument_file", "bypass", "level", "input_mode"];
+    for instrument in 0..4 {
+        for (end, rate) in [(0.0, 8000.0), (1.0, 8000.0), (0.0, 96_000.0), (1.0, 96_000.0)] {
+            let mut settings: Score = params_of
+                .iter()
+                .filter(|(id, ..)| !kept.contains(&id.as_str()))
+                .map(|(id, param, _)| {
+                    // SAFETY: it is one of `params`, which live on.
+                    let steps = unsafe { param.step_count() }.unwrap_or(1);
+                    (0, Action::Parameter(parameter(id), end * steps as f64))
+                })
+                .collect();
+            // The best quality takes minutes.
+            settings.push((0, Action::Parameter(parameter("quality"), 1.0)));
+            settings.push((0, Action::Parameter(parameter("render_quality"), 0.0)));
+            settings.push((0, Action::Parameter(parameter("instrument"), f64::from(instrument))));
+            let mut host = Host::new();
+            host.play(rate, &settings, 64, &[64]);
+            let length = (0.1 * rate) as usize;
+            let notes = vec![(0, Action::NoteOn { channel: 0, key: 45, velocity: 110 })];
+            let [left, _] = host.play(rate, &notes, length, &[512]);
+            assert!(left.iter().all(|sample| sample.is_finite()), "{instrument}, {end}, {rate} Hz");
+            assert!(left.iter().any(|&sample| sample != 0.0), "silent: {instrument}, {end}, {rate} Hz");
+        }
+    }
+}
+
+#[test]
 fn a_change_counts_from_its_sample() {
     for (id, value) in [("pluck_force", 0.1), ("action", 0.9), ("loss_1", 1.0), ("instrument", 6.0)] {
         let at = 12_345;

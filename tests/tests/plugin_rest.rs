@@ -41,6 +41,21 @@ fn a_host_that_lets_it_sleep_loses_nothing() {
 }
 
 #[test]
+fn nothing_subnormal_comes_out() {
+    // The farthest down a sound can be: before its first wave, at its last, through the lowest level, bypassed.
+    for settings in [&[][..], &[("level", 0.0)], &[("bypass", 1.0)], &[("quality", 2.0), ("loss_1", 1.0)]] {
+        let mut score: Score =
+            settings.iter().map(|&(id, value)| (1000, Action::Parameter(parameter(id), value))).collect();
+        score.extend([on(0, 45), on(500, 57), off(9000, 45), off(9600, 57)]);
+        let mut host = Host::new();
+        host.choose_ports(1);
+        let found = host.perform(RATE, &score, 96_000, &[512], 8);
+        let all = found.stereo.iter().chain(&found.stems).flatten();
+        assert!(all.into_iter().all(|sample| !sample.is_subnormal()), "{settings:?}");
+    }
+}
+
+#[test]
 fn the_tail_is_as_long_as_the_strings_ring() {
     let expected = |name: &str, loss: f64| {
         let setup = Setup::shipped(name).expect("it comes with the program");

@@ -1,12 +1,16 @@
 //! Promise: a session comes back as it was left, at any sample rate; a state that is damaged, newer than the
 //! program or somebody else's changes nothing; and no host breaks the plugin by what it asks for.
 
+use std::collections::BTreeSet;
+
 use clack_extensions::audio_ports::{AudioPortInfoBuffer, PluginAudioPorts};
 use clack_extensions::latency::PluginLatency;
 use clack_extensions::remote_controls::{PluginRemoteControls, RemoteControlsPageBuffer};
 use clack_extensions::voice_info::PluginVoiceInfo;
 use low_action::engine::Engine;
+use low_action::params::LowActionParams;
 use low_action_tests::host::{Action, Host, Score, parameter};
+use nice_plug::prelude::Params;
 use serde_json::{Value, json};
 
 const RATE: f64 = 48_000.0;
@@ -264,4 +268,20 @@ fn hosts_are_told_the_truth() {
     let mut buffer = RemoteControlsPageBuffer::new();
     let first = pages.get(&handle, 0, &mut buffer).expect("there is one");
     assert_eq!(first.param_ids[3].map(|id| id.get()), Some(parameter("action")));
+    // Between them they hold every parameter, no page twice the same.
+    let mut held = BTreeSet::new();
+    for index in 0..pages.count(&handle) {
+        let page = pages.get(&handle, index, &mut buffer).expect("there is one");
+        let ids: Vec<u32> = page.param_ids.iter().flatten().map(|id| id.get()).collect();
+        assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len(), "page {index}");
+        held.extend(ids);
+    }
+    let all = LowActionParams::default().param_map().into_iter().map(|(id, ..)| parameter(&id));
+    assert_eq!(held, all.collect());
+    // As many voices as there are strings.
+    host.play(RATE, &set(&[("instrument", 3.0)]), 64, &[64]);
+    host.play(RATE, &score(), 64, &[64]);
+    let handle = host.handle();
+    let voices = handle.get_extension::<PluginVoiceInfo>().expect("it tells its voices");
+    assert_eq!(voices.get(&handle).expect("it does").voice_count, 4);
 }

@@ -1,0 +1,127 @@
+//! What a host hands to the plugin: actions at samples, and the events they are to CLAP.
+
+use clack_host::events::event_types::{
+    MidiEvent, NoteChokeEvent, NoteExpressionEvent, NoteExpressionType, NoteOffEvent, NoteOnEvent,
+    ParamModEvent, ParamValueEvent, TransportEvent, TransportFlags,
+};
+use clack_host::events::{EventFlags, EventHeader};
+use clack_host::prelude::*;
+
+/// What a performer or a host does to the plugin.
+#[derive(Clone, Copy, Debug)]
+pub enum Action {
+    /// A key goes down.
+    NoteOn {
+        /// MIDI channel, 0 to 15.
+        channel: u8,
+        /// MIDI key, 0 to 127.
+        key: u8,
+        /// How hard, 0 to 127; 0 is the softest a host can ask for, not a release.
+        velocity: u8,
+    },
+    /// A key goes up.
+    NoteOff {
+        /// MIDI channel, 0 to 15.
+        channel: u8,
+        /// MIDI key, 0 to 127.
+        key: u8,
+    },
+    /// Every note is cut short.
+    ChokeAll,
+    /// Three bytes of MIDI.
+    Midi([u8; 3]),
+    /// A parameter is set, by its CLAP identifier, in the units CLAP shows to a host: 0 to 1, or 0 to the
+    /// number of steps.
+    Parameter(u32, f64),
+    /// The same for one note alone, which the host has numbered by its key: added to what holds for all.
+    Modulate {
+        /// The parameter.
+        parameter: u32,
+        /// Number of the note.
+        key: u8,
+        /// What is added, 0 to 1.
+        amount: f64,
+    },
+    /// A note expression.
+    Express {
+        /// What is expressed.
+        what: NoteExpressionType,
+        /// MIDI channel, 0 to 15.
+        channel: u8,
+        /// MIDI key, 0 to 127.
+        key: u8,
+        /// How much.
+        value: f64,
+    },
+    /// The transport starts or stops.
+    Transport(bool),
+}
+
+/// The number under which CLAP hosts know the parameter that is saved as `id`: the framework's hash.
+pub fn parameter(id: &str) -> u32 {
+    let hash = id.bytes().fold(0_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
+    hash & !(1 << 31)
+}
+
+/// An action and the sample at which it happens, counted from the start of the performance.
+pub type Score = Vec<(u64, Action)>;
+
+/// The events of the samples from `start` up to `end`, in the order of the score, timed from `start` as `clock`
+/// says.
+pub(super) fn events_between(score: &Score, start: u64, end: u64, clock: fn(u32) -> u32) -> EventBuffer {
+    let mut events = EventBuffer::new();
+    for &(at, action) in score.iter().filter(|(at, _)| (start..end).contains(at)) {
+        let time = clock((at - start) as u32);
+        match action {
+            Action::NoteOn { channel, key, velocity } => {
+                let velocity = f64::from(velocity) / 127.0;
+                events.push(&NoteOnEvent::new(time, note(channel, key), velocity));
+            }
+            Action::NoteOff { channel, key } => {
+                events.push(&NoteOffEvent::new(time, note(channel, key), 0.0));
+            }
+            Action::ChokeAll => events.push(&NoteChokeEvent::new(time, Pckn::match_all())),
+            Action::Midi(bytes) => events.push(&MidiEvent::new(time, 0, bytes)),
+            Action::Parameter(id, value) => {
+                events.push(&ParamValueEvent::new(time, ClapId::new(id), Pckn::match_all(), value));
+            }
+            Action::Modulate { parameter, key, amount } => {
+                use clack_host::events::Match::All;
+                let address = Pckn::new(All, All, All, u32::from(key));
+                events.push(&ParamModEvent::new(time, ClapId::new(parameter), address, amount));
+            }
+            Action::Express { what, channel, key, value } => {
+                events.push(&NoteExpressionEvent::new(time, note(channel, key), what, value));
+            }
+            Action::Transport(playing) => {
+                events.push(&transport(time, playing));
+            }
+        }
+    }
+    events
+}
+
+/// A transport that tells nothing but whether it runs.
+pub(super) fn transport(time: u32, playing: bool) -> TransportEvent {
+    TransportEvent {
+        header: EventHeader::new_core(time, EventFlags::empty()),
+        flags: if playing { TransportFlags::IS_PLAYING } else { TransportFlags::empty() },
+        song_pos_beats: Default::default(),
+        song_pos_seconds: Default::default(),
+        tempo: 0.0,
+        tempo_inc: 0.0,
+        loop_start_beats: Default::default(),
+        loop_end_beats: Default::default(),
+        loop_start_seconds: Default::default(),
+        loop_end_seconds: Default::default(),
+        bar_start: Default::default(),
+        bar_number: 0,
+        time_signature_numerator: 0,
+        time_signature_denominator: 0,
+    }
+}
+
+/// CLAP's address of a key on a channel. This host numbers notes by their keys.
+fn note(channel: u8, key: u8) -> Pckn {
+    Pckn::new(0_u16, u16::from(channel), u16::from(key), u32::from(key))
+}
