@@ -25,6 +25,8 @@ pub struct ContactLaw {
     stiffness: f64,
     exponent: f64,
     power: Power,
+    /// 1/(α + 1).
+    share: f64,
     knee: f64,
 }
 
@@ -52,7 +54,7 @@ impl ContactLaw {
             3.0 => Power::Three,
             alpha => Power::General(alpha),
         };
-        ContactLaw { stiffness, exponent, power, knee: f64::INFINITY }
+        ContactLaw { stiffness, exponent, power, share: 1.0 / (exponent + 1.0), knee: f64::INFINITY }
     }
 
     /// The same law, growing no steeper than `slope`, N/m: beyond the penetration where φ′ reaches it the
@@ -120,7 +122,7 @@ impl ContactLaw {
     fn straight(&self, penetration: f64) -> (f64, f64) {
         let (at_knee, beyond) = (self.power(self.knee), penetration - self.knee);
         let force = at_knee + self.steepest() * beyond;
-        (force, at_knee * self.knee / (self.exponent + 1.0) + 0.5 * (at_knee + force) * beyond)
+        (force, at_knee * self.knee * self.share + 0.5 * (at_knee + force) * beyond)
     }
 
     /// φ′(η), the static stiffness, N/m.
@@ -139,7 +141,7 @@ impl ContactLaw {
         if penetration > self.knee {
             return self.straight(penetration).1;
         }
-        self.power(penetration) * penetration.max(0.0) / (self.exponent + 1.0)
+        self.power(penetration) * penetration.max(0.0) * self.share
     }
 
     /// The penetration at which the static force is `force`, m.
@@ -184,7 +186,7 @@ impl ContactLaw {
             return (lambda, slope);
         }
         let force = self.power(after);
-        let energy = force * after.max(0.0) / (alpha + 1.0);
+        let energy = force * after.max(0.0) * self.share;
         let lambda = (energy - before.energy) / r;
         (lambda, ((force - lambda) / r).max(0.0))
     }

@@ -143,8 +143,20 @@ impl Reading {
     /// The value hgᵀv of an array over the grid.
     #[inline(always)]
     pub fn of(&self, v: &[f64]) -> f64 {
-        let w = &self.weights;
+        self.of_window(&self.window(v))
+    }
+
+    /// The four values that are read of an array over the grid.
+    #[inline(always)]
+    pub(crate) fn window(&self, v: &[f64]) -> [f64; 4] {
         let v = &v[self.first..self.first + 4];
+        [v[0], v[1], v[2], v[3]]
+    }
+
+    /// The value read of them.
+    #[inline(always)]
+    pub(crate) fn of_window(&self, v: &[f64; 4]) -> f64 {
+        let w = &self.weights;
         (w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3])
     }
 
@@ -161,11 +173,13 @@ impl Reading {
     #[inline]
     pub fn overlap(&self, other: &Reading) -> f64 {
         let (near, far) = if self.first <= other.first { (self, other) } else { (other, self) };
-        let shift = far.first - near.first;
-        let mut sum = 0.0;
-        for i in shift..4 {
-            sum += near.weights[i] * far.weights[i - shift];
+        let (a, b) = (&near.weights, &far.weights);
+        match far.first - near.first {
+            0 => (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]),
+            1 => (a[1] * b[0] + a[2] * b[1]) + a[3] * b[2],
+            2 => a[2] * b[0] + a[3] * b[1],
+            3 => a[3] * b[0],
+            _ => 0.0,
         }
-        sum
     }
 }

@@ -178,9 +178,7 @@ impl State {
         self.heights_next.copy_from_slice(&self.heights);
         self.settling = 2;
         self.forces.fill(Default::default());
-        self.watch.near.clear();
-        self.watch.near.extend(0..model.contacts.len() as u32);
-        self.watch.budget = -1.0;
+        self.watch.forget();
     }
 
     /// Puts every contact that was in touch where it is just as deep in touch, and every other one under

@@ -16,10 +16,8 @@ const FIRST: usize = NUT + 1;
 pub(crate) struct Products {
     /// |δu|², the sum of squared differences between neighbours, = −vᵀu.
     pub steepness: f64,
-    /// vᵀw, v the undivided second difference of u.
-    pub curvature_prediction: f64,
-    /// vᵀd.
-    pub curvature_motion: f64,
+    /// vᵀ(w − d), v the undivided second difference of u.
+    pub curvature_change: f64,
     /// vᵀv.
     pub curvature: f64,
     /// dᵀd.
@@ -29,9 +27,12 @@ pub(crate) struct Products {
 /// Coefficients of one prediction in undivided differences, all times 1/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Weights {
-    decay: f64,
+    /// Of the motion at a point itself.
+    motion: f64,
+    /// Of v, by distance.
     near: [f64; 3],
-    loss_1: f64,
+    /// Of the motion on either side.
+    beside: f64,
 }
 
 impl Weights {
@@ -42,11 +43,15 @@ impl Weights {
         let second = k2 * stiffness.tension / (model.string.linear_density * h2);
         let fourth = k2 * stiffness.kappa_2 / (h2 * h2);
         let sixth = k2 * stiffness.kappa_6 / (h2 * h2 * h2);
-        // second·v − fourth·δ²v + sixth·δ⁴v, gathered by neighbour.
+        let loss = 2.0 * model.string.loss_1 * k * model.inverse_s / h2;
+        // A multiple of 2⁻⁵² as `decay` is, so that their difference is exact: a string that moves as a whole
+        // decays by `decay` and no rounding.
+        let beside = (1.0 + loss) - 1.0;
+        // second·v − fourth·δ²v + sixth·δ⁴v, gathered by neighbour; decay·d + loss·δ²d likewise.
         Weights {
-            decay: model.decay,
+            motion: model.decay - 2.0 * beside,
             near: [second + 2.0 * fourth + 6.0 * sixth, -fourth - 4.0 * sixth, sixth],
-            loss_1: 2.0 * model.string.loss_1 * k * model.inverse_s / h2,
+            beside,
         }
     }
 }
@@ -116,11 +121,20 @@ impl<S: Simd> Sum<S> {
     }
 }
 
-/// 1 for the unknowns of the last group of lanes and 0 beyond.
-#[inline(always)]
-fn mask(count: usize) -> [f64; LANES] {
-    std::array::from_fn(|lane| if lane < count { 1.0 } else { 0.0 })
-}
+/// 1 for so many unknowns in the last group of lanes and 0 beyond.
+const MASKS: [Group; LANES] = {
+    let mut masks = [[0.0; LANES]; LANES];
+    let mut count = 0;
+    while count < LANES {
+        let mut lane = 0;
+        while lane < count {
+            masks[count][lane] = 1.0;
+            lane += 1;
+        }
+        count += 1;
+    }
+    masks
+};
 
 /// v = δ²u (undivided) on the unknowns, with odd ghosts beyond the ends, and |δu|².
 ///
@@ -139,7 +153,7 @@ fn curve<S: Simd>(simd: S, unknowns: usize, u: &[f64], v: &mut [f64]) -> f64 {
     if rest > 0 {
         let points = [0, 1, 2].map(|offset| &groups(u, FIRST - 1 + offset, whole + 1)[whole]);
         let out = &mut groups_mut(v, FIRST, whole + 1)[whole];
-        curve_group::<S, true>(simd, &mask(rest), points, out, &mut steepness);
+        curve_group::<S, true>(simd, &MASKS[rest], points, out, &mut steepness);
     }
     let last = FIRST + unknowns - 1;
     v[FIRST - 2] = -v[FIRST];
@@ -191,15 +205,14 @@ impl<'a> Around<'a, [Group]> {
 
 /// Weights in every lane.
 struct Splat<S: Simd> {
-    decay: S::f64s,
+    motion: S::f64s,
     near: [S::f64s; 3],
-    loss_1: S::f64s,
+    beside: S::f64s,
 }
 
-/// Sums of a prediction: vᵀw, vᵀd, vᵀv, dᵀd.
+/// Sums of a prediction: vᵀ(w − d), vᵀv, dᵀd.
 struct Sums<S: Simd> {
-    prediction: Sum<S>,
-    motion: Sum<S>,
+    change: Sum<S>,
     curvature: Sum<S>,
     square: Sum<S>,
 }
@@ -214,12 +227,12 @@ fn predict<S: Simd, const REACH: usize, const STRETCH: bool, const LOSS: bool>(
     w: &mut [f64],
 ) -> Products {
     let splat = Splat::<S> {
-        decay: simd.splat_f64s(weights.decay),
+        motion: simd.splat_f64s(weights.motion),
         near: weights.near.map(|weight| simd.splat_f64s(weight)),
-        loss_1: simd.splat_f64s(weights.loss_1),
+        beside: simd.splat_f64s(weights.beside),
     };
     let zero = Sum::new(simd);
-    let mut sums = Sums { prediction: zero, motion: zero, curvature: zero, square: zero };
+    let mut sums = Sums { change: zero, curvature: zero, square: zero };
     let (whole, rest) = (unknowns / LANES, unknowns % LANES);
     let around = Around::new(v, d, whole);
     let out = groups_mut(w, FIRST, whole);
@@ -229,13 +242,12 @@ fn predict<S: Simd, const REACH: usize, const STRETCH: bool, const LOSS: bool>(
     }
     if rest > 0 {
         let around = Around::new(v, d, whole + 1).at(whole);
-        let (keep, out) = (&mask(rest), &mut groups_mut(w, FIRST, whole + 1)[whole]);
+        let (keep, out) = (&MASKS[rest], &mut groups_mut(w, FIRST, whole + 1)[whole]);
         predict_group::<S, REACH, STRETCH, LOSS, true>(simd, keep, &splat, around, out, &mut sums);
     }
     Products {
         steepness: 0.0,
-        curvature_prediction: sums.prediction.total(),
-        curvature_motion: sums.motion.total(),
+        curvature_change: sums.change.total(),
         curvature: sums.curvature.total(),
         motion: sums.square.total(),
     }
@@ -264,11 +276,10 @@ fn predict_group<S: Simd, const REACH: usize, const STRETCH: bool, const LOSS: b
             value = simd.add_f64s(value, simd.mul_f64s(weights.near[2], far));
         }
         if LOSS {
-            let after = simd.sub_f64s(d[2][part], d0);
-            let before = simd.sub_f64s(d0, d[0][part]);
-            value = simd.add_f64s(value, simd.mul_f64s(weights.loss_1, simd.sub_f64s(after, before)));
+            let beside = simd.add_f64s(d[0][part], d[2][part]);
+            value = simd.add_f64s(value, simd.mul_f64s(weights.beside, beside));
         }
-        value = simd.add_f64s(value, simd.mul_f64s(weights.decay, d0));
+        value = simd.add_f64s(value, simd.mul_f64s(weights.motion, d0));
         if TAIL {
             value = simd.mul_f64s(keep[part], value);
         }
@@ -277,8 +288,7 @@ fn predict_group<S: Simd, const REACH: usize, const STRETCH: bool, const LOSS: b
         if STRETCH {
             // In the last group one ghost of v may stand beyond the bridge.
             let v0 = if TAIL { simd.mul_f64s(keep[part], v0) } else { v0 };
-            sums.prediction.add_product(simd, part, v0, value);
-            sums.motion.add_product(simd, part, v0, d0);
+            sums.change.add_product(simd, part, v0, simd.sub_f64s(value, d0));
             sums.curvature.add_product(simd, part, v0, v0);
         }
     }
@@ -476,7 +486,7 @@ mod tests {
                 values
             };
             let (u, d) = (array(), array());
-            let weights = Weights { decay: 0.99, near: [0.7, -0.03, 0.001], loss_1: 0.01 };
+            let weights = Weights { motion: 0.97, near: [0.7, -0.03, 0.001], beside: 0.01 };
             let run = |arch: Arch| {
                 let kernel = Kernel { arch, reach: 2, stretch: true, loss: true };
                 let empty = || vec![0.0; grid.padded_len()];

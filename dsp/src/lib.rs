@@ -63,7 +63,9 @@
 //! | f_e | `force` of [`drive::Push`] | N | a pluck |
 //! | 𝔥, 𝔮, 𝔭 | [`Energies`], `power_loss` and `power_solver`, `power_in` | J, W, W | stored, lost, put in |
 
+mod active;
 pub mod contact;
+mod contact_step;
 pub mod curve;
 mod decimate;
 pub mod drive;
@@ -92,7 +94,9 @@ pub mod simulation;
 mod solver;
 pub mod state;
 pub mod string;
+mod touching;
 mod voice;
+mod watch;
 
 pub use drive::Drive;
 pub use energy::{Energies, Entry, Ledger};

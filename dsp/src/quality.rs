@@ -11,7 +11,7 @@ use crate::settings::EngineSettings;
 pub enum Quality {
     /// Least work: every string at the host's rate, the corrected stencil, contacts to 1e-9 m.
     Draft,
-    /// For playing: the wide stencil, light strings at a multiple of the host's rate, contacts to 1e-12 m.
+    /// For playing: the wide stencil, light strings at a multiple of the host's rate, contacts to 1e-10 m.
     #[default]
     Live,
     /// For a finished recording: finer grids for all but the heaviest strings.
@@ -42,7 +42,7 @@ impl Quality {
     pub fn settings(self, sample_rate: f64) -> EngineSettings {
         let (widest_spacing, stencil, max_iterations, tolerance) = match self {
             Self::Draft => (f64::INFINITY, Stencil::Corrected, 8, 1e-9),
-            Self::Live => (6.3e-3, Stencil::Wide, 20, 1e-12),
+            Self::Live => (6.3e-3, Stencil::Wide, 20, 1e-10),
             Self::Studio => (3e-3, Stencil::Wide, 50, 1e-14),
             Self::Reference => (1.5e-3, Stencil::Wide, 200, 1e-16),
         };

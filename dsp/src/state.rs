@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::gesture::Touch;
 use crate::grid::{NUT, Reading};
 use crate::model::Model;
+use crate::watch::Watch;
 
 /// A finger near the string.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,18 +34,10 @@ pub(crate) struct ForceHistory {
     pub last: f64,
     /// Force in the step before, N.
     pub before: f64,
+    /// Force in the step before that, N.
+    pub earlier: f64,
     /// One more than the index of the last step in which the contact was active; 0 for never.
     pub step: u64,
-}
-
-/// Which fixed contacts are near enough to be looked at in each sample, and how much the string may
-/// move before all must be looked at again.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Watch {
-    /// Indices into the model's contacts, in order.
-    pub near: Vec<u32>,
-    /// Motion that cannot yet close any gap of the contacts not in `near`, m.
-    pub budget: f64,
 }
 
 /// The state of one string, its fingers and its contacts.
@@ -82,8 +75,6 @@ impl State {
     pub fn new(model: &Model) -> State {
         let heights: Vec<f64> = model.contacts.iter().map(|contact| contact.height).collect();
         let contacts = heights.len();
-        let mut near = Vec::with_capacity(contacts);
-        near.extend(0..contacts as u32);
         State {
             displacement: vec![0.0; model.grid.padded_len()],
             motion: vec![0.0; model.grid.padded_len()],
@@ -94,7 +85,7 @@ impl State {
             settling: 0,
             finger_changes: 0,
             forces: vec![ForceHistory::default(); contacts + model.finger_slots],
-            watch: Watch { near, budget: -1.0 },
+            watch: Watch::new(contacts),
             steps: 0,
             solver_balance: 0.0,
             energy_scale: 0.0,
@@ -115,9 +106,7 @@ impl State {
         self.settling = 0;
         self.finger_changes = 0;
         self.forces.fill(ForceHistory::default());
-        self.watch.near.clear();
-        self.watch.near.extend(0..model.contacts.len() as u32);
-        self.watch.budget = -1.0;
+        self.watch.forget();
         self.steps = 0;
         self.solver_balance = 0.0;
         self.energy_scale = 0.0;
@@ -129,9 +118,7 @@ impl State {
             self.displacement[NUT + node] = shape.at(model.grid.place(node));
         }
         self.motion.fill(0.0);
-        self.watch.near.clear();
-        self.watch.near.extend(0..model.contacts.len() as u32);
-        self.watch.budget = -1.0;
+        self.watch.forget();
     }
 
     /// Displacement of the interior points u₁ … u_{N−1}, m.
@@ -152,11 +139,6 @@ impl State {
     /// Present heights of the fixed contacts, m, in the model's order.
     pub fn heights(&self) -> &[f64] {
         &self.heights
-    }
-
-    /// Number of fixed contacts near enough to be looked at in each sample.
-    pub fn watched(&self) -> usize {
-        self.watch.near.len()
     }
 
     /// The string's displacement at a reading, m.

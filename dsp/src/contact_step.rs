@@ -1,0 +1,183 @@
+//! One step of a string that may touch something: find the contacts, solve for their forces, advance, and look
+//! whether the string was driven into others.
+
+use crate::active::Active;
+use crate::drive::Drive;
+use crate::kernel::Products;
+use crate::model::Model;
+use crate::response::ONE_BLOCK;
+use crate::solver::{Convergence, EnergyScale};
+use crate::state::{ForceHistory, State};
+use crate::string::{Scratch, pull};
+
+/// Where rounding of the forces moves the string so much that the energy is off by more than this part of the
+/// largest, the string as it came out is solved for again.
+const ROUNDING: f64 = 1e-15;
+
+/// How often that is repeated at most.
+const REFINEMENTS: usize = 3;
+
+/// Inexact solutions may put in at most this part of the largest energy, all together.
+const CREATED_AT_MOST: f64 = 1e-12;
+
+impl State {
+    /// The part of a step that follows the prediction.
+    pub(crate) fn contact_step(
+        &mut self,
+        model: &Model,
+        drive: &Drive,
+        products: &Products,
+        resting: bool,
+        scratch: &mut Scratch,
+        convergence: &mut Convergence,
+    ) {
+        if !drive.heights.is_empty() && !resting {
+            self.heights_next.copy_from_slice(&drive.heights);
+            self.settling = 2;
+        }
+        let free_pull = pull(model, products, 0.0);
+        scratch.active.clear();
+        self.find_fixed(model, free_pull, scratch);
+        self.find_fingers(model, drive, free_pull, resting, scratch);
+        let mut created = 0.0;
+        let moved = loop {
+            let mut largest = 0.0;
+            if scratch.active.is_empty() {
+                largest = self.advance(model, free_pull, scratch);
+            } else {
+                in_order(&mut scratch.active);
+                // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
+                let factor = model.mobility * model.stretch / (1.0 + model.stretch * products.curvature);
+                let scale = self.energy_scale(model, scratch);
+                let mut along = 0.0;
+                for round in 0.. {
+                    created = scratch.solver.solve(
+                        &mut scratch.active,
+                        factor,
+                        &model.settings,
+                        scale,
+                        convergence,
+                    );
+                    let spread = spread(model, &mut scratch.active, &mut scratch.prediction);
+                    along += spread.along;
+                    largest = self.advance(model, pull(model, products, along), scratch);
+                    let rounding = f64::EPSILON * model.mobility * spread.sum * spread.sum;
+                    let exact = rounding <= ROUNDING * self.energy_scale && created <= scale.credit;
+                    if exact || round == REFINEMENTS {
+                        break;
+                    }
+                    self.recentre(scratch);
+                }
+            }
+            let before = scratch.active.len();
+            let moved = self.find_missed(model, drive, largest, free_pull, scratch);
+            if scratch.active.len() == before {
+                break moved;
+            }
+            // Something was driven into a contact that was not in the solution: take the forces back
+            // and solve again with it.
+            convergence.repeats += 1;
+            self.take_back(before, free_pull, scratch);
+        };
+        self.watch.go(moved);
+        convergence.active = scratch.active.len() as u32;
+        self.solver_balance = (self.solver_balance + created).max(0.0);
+        self.finish(model, scratch);
+    }
+
+    /// Takes the string as it has come out for the place from which forces are solved for.
+    #[cold]
+    fn recentre(&self, scratch: &mut Scratch) {
+        for active in &mut scratch.active {
+            active.base = active.force;
+            let moved = active.sign * active.reading.of(&scratch.motion);
+            active.centre = -(moved + active.rest + active.own_mobility * active.base);
+        }
+    }
+
+    /// Takes the forces of the first contacts off the prediction again.
+    #[cold]
+    fn take_back(&self, count: usize, free_pull: f64, scratch: &mut Scratch) {
+        for active in &mut scratch.active[..count] {
+            let at = active.reading.first;
+            scratch.prediction[at..at + 4].copy_from_slice(&active.saved);
+            active.base = 0.0;
+        }
+        for index in 0..count {
+            let free = scratch.free_motion(&scratch.active[index].reading, free_pull);
+            let active = &mut scratch.active[index];
+            active.centre = -(active.sign * free + active.rest);
+        }
+    }
+
+    /// The energy against which this sample's errors are judged: of the string as a linear one, of the
+    /// contacts, of the fingers.
+    fn energy_scale(&mut self, model: &Model, scratch: &Scratch) -> EnergyScale {
+        let k = model.grid.time_step;
+        let contacts: f64 = scratch.active.iter().map(|active| active.before.energy).sum();
+        let fingers: f64 = scratch
+            .fingers
+            .iter()
+            .flatten()
+            .map(|finger| 0.5 * finger.touch.mass * (finger.motion / k) * (finger.motion / k))
+            .sum();
+        let present = scratch.string_energy(model) + contacts + fingers;
+        self.energy_scale = self.energy_scale.max(present);
+        let credit = CREATED_AT_MOST * self.energy_scale - self.solver_balance;
+        EnergyScale { present, credit }
+    }
+
+    /// Moves fingers by their forces, and keeps forces and heights for the next step.
+    fn finish(&mut self, model: &Model, scratch: &mut Scratch) {
+        scratch.solver.aside.clear();
+        let contacts = model.contacts.len();
+        for active in &scratch.active {
+            let history = &mut self.forces[active.slot];
+            let known = history.step == self.steps;
+            let (before, earlier) = if known { (history.last, history.before) } else { (0.0, 0.0) };
+            *history = ForceHistory { last: active.force, before, earlier, step: self.steps + 1 };
+            if let Some(slot) = active.slot.checked_sub(contacts)
+                && let (Some(finger), Some(old)) = (&mut self.fingers[slot], &scratch.fingers[slot])
+            {
+                finger.motion += active.own_mobility * active.force;
+                finger.height = old.height + finger.motion;
+            }
+        }
+        if self.settling > 0 {
+            self.settling -= 1;
+            self.heights_before.copy_from_slice(&self.heights);
+            self.heights.copy_from_slice(&self.heights_next);
+        }
+    }
+}
+
+/// Puts contacts in order of place, where the response wants it: a few make one block in any order.
+#[inline]
+fn in_order(rows: &mut [Active]) {
+    if rows.len() > ONE_BLOCK {
+        rows.sort_unstable_by(|a, b| {
+            a.reading.centre().total_cmp(&b.reading.centre()).then(a.slot.cmp(&b.slot))
+        });
+    }
+}
+
+/// What forces beyond the base do to the string.
+struct Spread {
+    /// What they add to vᵀw, m².
+    along: f64,
+    /// Sum of their sizes, N.
+    sum: f64,
+}
+
+/// Adds the forces beyond the base to a prediction.
+#[inline(always)]
+fn spread(model: &Model, rows: &mut [Active], prediction: &mut [f64]) -> Spread {
+    let mut done = Spread { along: 0.0, sum: 0.0 };
+    for row in rows {
+        let force = row.force - row.base;
+        row.reading.spread(prediction, model.mobility * row.sign * force);
+        done.along += model.mobility * force * row.pull;
+        done.sum += force.abs();
+    }
+    done
+}

@@ -1,0 +1,175 @@
+//! What becomes of an iteration that was stopped before its end: forces that create no energy, as near to the
+//! solution as can be had for little.
+
+use super::{Answer, Convergence, EnergyScale, Room, WORK_TOLERANCE, created, largest, newton_direction};
+use crate::active::Active;
+
+/// Attempts of the fallback; its stiffnesses double after the first few, so that long before the last the
+/// contacts hardly move at all.
+const FALLBACKS: u32 = 60;
+
+/// Steps on the way to an answer that takes nothing, and the part of what was taken at which it is near enough.
+const APPROACHES: usize = 16;
+const NEUTRAL: f64 = 1e-3;
+
+/// Attempts in which a secant that pulls may be eased.
+const EASINGS: u32 = 6;
+
+/// Whether forces that should only push are bounded by what they do together. Between the same grid points
+/// barriers may push against each other by any amount that the string does not feel, but then some pull: where
+/// the pulls are less than half of the pushes no force is more than the net push and a half.
+#[inline(always)]
+pub(super) fn bounded(rows: &[Active], forces: &[f64], tolerance: f64) -> bool {
+    let (mut pushes, mut pulls, mut mobility) = (0.0, 0.0, 0.0);
+    for (row, force) in rows.iter().zip(forces) {
+        if row.own_mobility == 0.0 {
+            let force = row.base + force;
+            pushes += force.max(0.0);
+            pulls -= force.min(0.0);
+            mobility = row.mobility;
+        }
+    }
+    mobility * (pulls - 0.5 * pushes) <= tolerance
+}
+
+/// Makes the best of an iteration that did not come to its end, whose forces are `usable` or not. Returns the
+/// energy they give to the string, J.
+#[cold]
+#[inline(never)]
+pub(super) fn stop_early(
+    rows: &mut [Active],
+    answer: &mut impl Answer,
+    room: &mut Room,
+    usable: bool,
+    scale: EnergyScale,
+    convergence: &mut Convergence,
+) -> f64 {
+    let gain =
+        if usable { 0.5 * created(rows, room.forces) } else { fall_back(rows, answer, room, convergence) };
+    let taken = 0.5 * demanded(rows, room.forces);
+    if gain <= scale.credit && taken.abs() > WORK_TOLERANCE * scale.present {
+        return approach(rows, answer, room, taken, scale.credit);
+    }
+    gain
+}
+
+/// Forces that create no energy: f = λ(0) + S r with secants S steep enough. Returns the energy they give to
+/// the string, J: not above 0 unless rounding leaves no better.
+fn fall_back(
+    rows: &mut [Active],
+    answer: &mut impl Answer,
+    room: &mut Room,
+    convergence: &mut Convergence,
+) -> f64 {
+    // The secants take the place of the residual, the best forces so far that of the step.
+    for (i, row) in rows.iter_mut().enumerate() {
+        row.evaluate(0.0);
+        room.start[i] = row.lambda - row.base;
+        room.residual[i] = row.slope;
+    }
+    let mut least = f64::INFINITY;
+    for attempt in 0..FALLBACKS {
+        convergence.fallbacks += 1;
+        // y = (1 + √S M √S)⁻¹ √S(r₀ − Mλ(0)), f = λ(0) + √S y.
+        answer.product(room.start, room.motion);
+        for (i, row) in rows.iter().enumerate() {
+            room.roots[i] = room.residual[i].sqrt();
+            room.unknown[i] = room.roots[i] * (row.centre - room.motion[i]);
+        }
+        answer.solve(room.roots, room.unknown);
+        for i in 0..rows.len() {
+            room.forces[i] = room.start[i] + room.roots[i] * room.unknown[i];
+        }
+        let gain = settle(rows, answer, room.forces, room.motion);
+        if gain <= 0.0 && (attempt >= EASINGS || bounded(rows, room.forces, 0.0)) {
+            return gain;
+        }
+        if gain < least {
+            least = gain;
+            room.step.copy_from_slice(room.forces);
+        }
+        for (i, row) in rows.iter().enumerate() {
+            let secant = (row.lambda - (row.base + room.start[i])) / row.change;
+            let pulls = row.base + room.forces[i] < 0.0;
+            let present = room.residual[i];
+            room.residual[i] = if !secant.is_finite() {
+                present
+            } else if attempt < EASINGS {
+                if pulls { secant.max(0.0) } else { present.max(secant) }
+            } else {
+                2.0 * present.max(secant)
+            };
+        }
+    }
+    room.forces.copy_from_slice(room.step);
+    settle(rows, answer, room.forces, room.motion)
+}
+
+/// Goes on from forces that create nothing, by which the solver takes `taken`, in the direction of a Newton step
+/// as far as it takes nothing: an answer that is not exact, but neither takes energy nor gives any.
+fn approach(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room, taken: f64, credit: f64) -> f64 {
+    for (i, row) in rows.iter().enumerate() {
+        room.residual[i] = row.required - (row.base + room.forces[i]);
+    }
+    answer.product(room.residual, room.motion);
+    newton_direction(rows, answer, room);
+    let error = largest(room.motion);
+    room.start.copy_from_slice(room.forces);
+    let (mut best, mut least) = (0.0, taken.abs());
+    // Lengths of the step with what is given there (negative: taken), either side of nothing.
+    let mut low = (0.0, taken);
+    let mut high: Option<(f64, f64)> = None;
+    let mut t = 1.0;
+    for attempt in 0..APPROACHES {
+        let gain = stretch_to(t, rows, answer, room);
+        let given = 0.5 * demanded(rows, room.forces);
+        if gain <= credit && given.abs() < least && bounded(rows, room.forces, 0.0) {
+            for (i, row) in rows.iter().enumerate() {
+                room.residual[i] = row.required - (row.base + room.forces[i]);
+            }
+            answer.product(room.residual, room.motion);
+            if largest(room.motion) <= 0.5 * error {
+                (best, least) = (t, given.abs());
+            }
+        }
+        if least <= NEUTRAL * taken.abs() || low.1 > 0.0 {
+            break;
+        }
+        if given > 0.0 {
+            high = Some((t, given));
+        } else {
+            low = (t, given);
+        }
+        t = match high {
+            None => 4.0 * t,
+            Some(high) => {
+                // The chord, and every other time beyond it, or the far end would never move.
+                let chord = low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1)).clamp(0.0, 1.0);
+                if attempt % 2 == 0 { chord } else { 0.5 * (chord + high.0) }
+            }
+        };
+    }
+    stretch_to(best, rows, answer, room)
+}
+
+/// Takes the forces so many steps from the start; returns the energy given to the string, J.
+fn stretch_to(t: f64, rows: &mut [Active], answer: &impl Answer, room: &mut Room) -> f64 {
+    for i in 0..rows.len() {
+        room.forces[i] = room.start[i] + t * room.step[i];
+    }
+    settle(rows, answer, room.forces, room.motion)
+}
+
+/// Evaluates the laws under forces beyond the base; returns the energy given to the string, J.
+fn settle(rows: &mut [Active], answer: &impl Answer, forces: &[f64], motion: &mut [f64]) -> f64 {
+    answer.product(forces, motion);
+    for (row, answer) in rows.iter_mut().zip(&*motion) {
+        row.evaluate(row.centre - answer);
+    }
+    0.5 * created(rows, forces)
+}
+
+/// Σ(law − f)r, twice the energy given to the string beyond what the contacts' laws have it get.
+fn demanded(rows: &[Active], forces: &[f64]) -> f64 {
+    rows.iter().zip(forces).map(|(row, force)| (row.required - (row.base + force)) * row.change).sum()
+}
