@@ -257,6 +257,7 @@ fn scaled(entries: &[f64], roots: &[f64], i: usize, j: usize) -> f64 {
 /// Solves (1 + √D M √D) y = y₀ by L Λ Lᵀ without roots or pivots, which needs none where all eigenvalues are at
 /// least 1. (For so few unknowns a general factorisation takes three times as many instructions.)
 #[inline(always)]
+#[expect(clippy::needless_range_loop, reason = "indices are how the formulas are written")]
 fn solve_few<const N: usize>(entries: &[[f64; N]; N], roots: &[f64], y: &mut [f64]) {
     let mut matrix = [[0.0; N]; N];
     for i in 0..N {

@@ -101,8 +101,12 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     let tables = tally.tables();
     println!("{tables}");
     for name in Setup::BUILTIN {
-        let loudest = playing::play(name, seed, playing / Setup::BUILTIN.len() as f64)?;
-        println!("hard playing on {name}: finite, loudest sample {loudest:.3e}");
+        let seen = playing::play(name, seed, playing / Setup::BUILTIN.len() as f64)?;
+        println!(
+            "hard playing on {name}: finite, loudest sample {:.3e}; balance open by at most {:.0e} through {} exchanged \
+             set-ups",
+            seen.loudest, seen.open, seen.exchanges
+        );
     }
     let section = if arguments.quick { "quick" } else { "full" };
     let page = root.join("docs/stability.md");

@@ -1,66 +1,136 @@
 //! Hard playing without a pause: every string of every built-in instrument plucked, pressed, slid and bent at
-//! random many times a second, with other set-ups in between.
+//! random many times a second, while other set-ups take over the ringing strings and the solver's effort changes
+//! from block to block.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
 use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture};
 
 use super::draw::Draw;
+use super::trial::TOLERANCE;
 
 const RATE: f64 = 48e3;
 const BLOCK: usize = 480;
 
-/// How long one set-up is played before another takes its place, s.
-const EXCHANGE: f64 = 10.0;
-
-/// Plays one built-in instrument for so many seconds of audio; returns the loudest sample.
-///
-/// # Errors
-/// When a sample or a string is not finite.
-pub fn play(name: &str, seed: u64, seconds: f64) -> Result<f64> {
-    let mut draw = Draw::new(seed, name.len() as u64);
-    let (mut left, mut right) = (vec![0.0f32; BLOCK], vec![0.0f32; BLOCK]);
-    let mut loudest = 0.0f64;
-    let mut played = 0.0;
-    while played < seconds {
-        let Some(mut setup) = Setup::builtin(name) else { bail!("no instrument is called {name}") };
-        change(&mut setup, &mut draw);
-        let settings = EngineSettings {
-            sample_rate: RATE,
-            widest_spacing: f64::INFINITY,
-            stencil: draw.one_of(&[Stencil::Paper, Stencil::Corrected, Stencil::Wide]),
-            max_iterations: draw.one_of(&[0, 1, 3, 8, 20, 50]),
-            tolerance: draw.over(1e-15, 1e-6),
-        };
-        let mut instrument = Instrument::new(&setup, &settings)?;
-        let end = (played + EXCHANGE).min(seconds);
-        while played < end {
-            for string in 0..instrument.string_count() {
-                for _ in 0..draw.whole(0, 3) {
-                    let time = instrument.now() + draw.whole(0, BLOCK) as u64;
-                    let gesture = gesture(&mut draw, &setup, instrument.geometry(string).length);
-                    // A full queue leaves a gesture out.
-                    let _ = instrument.schedule(TimedGesture { time, string, gesture });
-                }
-            }
-            instrument.process(&mut left, &mut right);
-            played += BLOCK as f64 / RATE;
-            let most = left.iter().chain(&right).fold(0.0f64, |most, sample| {
-                if sample.is_finite() { most.max(f64::from(sample.abs())) } else { f64::INFINITY }
-            });
-            loudest = loudest.max(most);
-            let still = (0..instrument.string_count()).all(|string| {
-                instrument.state(string).displacement().iter().all(|u| u.is_finite() && u.abs() < 1e3)
-            });
-            if !most.is_finite() || !still {
-                bail!("{name} after {played:.2} s of hard playing from seed {seed}: not finite");
-            }
-        }
-    }
-    Ok(loudest)
+/// What was seen of one instrument.
+pub struct Seen {
+    /// The loudest sample.
+    pub loudest: f64,
+    /// Set-ups that took over.
+    pub exchanges: u32,
+    /// The most that the balance of a string was open, as a part of what was put in.
+    pub open: f64,
 }
 
-/// Another action, relief and touch, as far as set-ups allow.
-fn change(setup: &mut Setup, draw: &mut Draw) {
+/// Plays one built-in instrument for so many seconds of audio.
+///
+/// # Errors
+/// When a sample or a string is not finite, energy is above what was put in, or a balance is open.
+pub fn play(name: &str, seed: u64, seconds: f64) -> Result<Seen> {
+    let mut draw = Draw::new(seed, name.len() as u64);
+    let mut seen = Seen { loudest: 0.0, exchanges: 0, open: 0.0 };
+    let mut setup = other_setup(name, &mut draw)?;
+    let mut instrument = Instrument::new(&setup, &settings(&mut draw))?;
+    instrument.open_ledgers();
+    let mut put_in = vec![Flow::default(); instrument.string_count()];
+    let mut until_exchange = 0;
+    for block in 0..(seconds * RATE / BLOCK as f64).ceil() as u64 {
+        if until_exchange == 0 && !instrument.is_fading() {
+            drop(instrument.take_before());
+            setup = other_setup(name, &mut draw)?;
+            let successor = Instrument::new(&setup, &settings(&mut draw))?;
+            ensure!(instrument.hand_over(Box::new(successor)).is_ok(), "an instrument is still in the way");
+            seen.exchanges += 1;
+            if instrument.ledger(0).is_none() {
+                // The strings were too different to ring on.
+                instrument.open_ledgers();
+                put_in.fill(Flow::default());
+            }
+            until_exchange = draw.whole(3, 200);
+        }
+        until_exchange = until_exchange.saturating_sub(1);
+        instrument.set_effort(draw.one_of(&[0, 1, 3, 8, 20, 50]), draw.over(1e-15, 1e-6));
+        excite(&mut instrument, &setup, &mut draw);
+        let loudest = sound(&mut instrument);
+        seen.loudest = seen.loudest.max(loudest);
+        let time = block as f64 * BLOCK as f64 / RATE;
+        ensure!(loudest.is_finite(), "{name} after {time:.2} s of hard playing from seed {seed}: not finite");
+        for (string, flow) in put_in.iter_mut().enumerate() {
+            let open = flow.check(&instrument, string);
+            let open = open.map_err(|fault| {
+                fault.context(format!("{name}, string {string}, {time:.2} s into seed {seed}"))
+            })?;
+            seen.open = seen.open.max(open);
+        }
+    }
+    Ok(seen)
+}
+
+/// How an instrument is computed, anyhow.
+fn settings(draw: &mut Draw) -> EngineSettings {
+    EngineSettings {
+        sample_rate: RATE,
+        widest_spacing: draw.over(2e-3, 0.1),
+        stencil: draw.one_of(&[Stencil::Paper, Stencil::Corrected, Stencil::Wide]),
+        max_iterations: 20,
+        tolerance: 1e-10,
+    }
+}
+
+/// A block of sound; returns its loudest sample, infinity if one or a point of a string is not finite.
+fn sound(instrument: &mut Instrument) -> f64 {
+    let (mut left, mut right) = ([0.0f32; BLOCK], [0.0f32; BLOCK]);
+    instrument.process(&mut left, &mut right);
+    let near = |u: &f64| u.is_finite() && u.abs() < 1e3;
+    let still =
+        (0..instrument.string_count()).all(|string| instrument.state(string).displacement().iter().all(near));
+    if !still {
+        return f64::INFINITY;
+    }
+    left.iter().chain(&right).fold(0.0, |most, sample| {
+        if sample.is_finite() { most.max(f64::from(sample.abs())) } else { f64::INFINITY }
+    })
+}
+
+/// What has flown into a string, seen once a block.
+#[derive(Debug, Clone, Copy, Default)]
+struct Flow {
+    /// The ledger's sum at the last block, J.
+    last: f64,
+    /// All that was put in, what was taken out again not counted off, J.
+    all: f64,
+}
+
+impl Flow {
+    /// Checks a string's ledger; returns how far its balance is open.
+    fn check(&mut self, instrument: &Instrument, string: usize) -> Result<f64> {
+        let Some(ledger) = instrument.ledger(string) else { bail!("the ledger is not open") };
+        self.all += (ledger.put_in - self.last).max(0.0);
+        self.last = ledger.put_in;
+        let all = self.all.max(f64::MIN_POSITIVE);
+        let allowed = TOLERANCE + ledger.rounding / all;
+        let created = (ledger.energies().total() - ledger.put_in) / all;
+        let open = ledger.residual_sum.abs() / all;
+        ensure!(created <= allowed, "energy {created:.1e} above what was put in");
+        ensure!(open <= allowed, "the balance is open by {open:.1e} of what was put in");
+        Ok(open)
+    }
+}
+
+/// Gestures at random for every string.
+fn excite(instrument: &mut Instrument, setup: &Setup, draw: &mut Draw) {
+    for string in 0..instrument.string_count() {
+        for _ in 0..draw.whole(0, 3) {
+            let time = instrument.now() + draw.whole(0, BLOCK) as u64;
+            let gesture = gesture(draw, setup, instrument.geometry(string).length);
+            // A full queue leaves a gesture out.
+            let _ = instrument.schedule(TimedGesture { time, string, gesture });
+        }
+    }
+}
+
+/// Another action, relief, touch, tuning and set of strings, as far as set-ups allow.
+fn other_setup(name: &str, draw: &mut Draw) -> Result<Setup> {
+    let Some(mut setup) = Setup::builtin(name) else { bail!("no instrument is called {name}") };
     setup.intonation = low_action_dsp::setup::Intonation::Physical;
     let neck = &mut setup.neck;
     neck.nut_clearance = draw.over(1e-4, 1e-3);
@@ -69,6 +139,13 @@ fn change(setup: &mut Setup, draw: &mut Draw) {
     neck.fret_height = draw.over(1e-4, 2e-3);
     setup.player.fretting.touch.mass *= draw.over(0.1, 10.0);
     setup.player.fretting.touch.stiffness *= draw.over(0.1, 10.0);
+    setup.tuning = draw.between(-0.5, 0.5);
+    setup.tension_modulation = draw.chance(0.8);
+    for string in &mut setup.string {
+        string.linear_density *= draw.between(0.95, 1.05);
+        string.loss_0 *= draw.between(0.2, 3.0);
+    }
+    Ok(setup)
 }
 
 /// Something a player in a rage might do.
