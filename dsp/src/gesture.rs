@@ -22,8 +22,9 @@ pub struct Touch {
 /// One of the places for fingers on a string, from 0 to [`FINGERS_PER_STRING`] − 1.
 pub type FingerSlot = usize;
 
-/// How many fingers may be near one string of an instrument at the same time.
-pub const FINGERS_PER_STRING: usize = 4;
+/// How many fingers may be near one string of an instrument at the same time: two that stop it, two parts
+/// of the hand that silences it, one of the hand that plucks it, and a capo.
+pub const FINGERS_PER_STRING: usize = 6;
 
 /// Something a hand does to one string.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +49,19 @@ pub enum Gesture {
         position: f64,
         /// Height of the pad above the string's present displacement, m.
         clearance: f64,
+    },
+    /// Throws a finger at the string: over it as by `Place`, but already on its way to it.
+    Throw {
+        /// Which finger.
+        finger: FingerSlot,
+        /// What kind of finger.
+        touch: Touch,
+        /// Place, m from the nut.
+        position: f64,
+        /// Height of the pad above the string's present displacement, m.
+        clearance: f64,
+        /// Speed towards the board, m/s, 0 or more; limited to what a hand can do.
+        speed: f64,
     },
     /// Brings a finger's force to a new value along a smooth ramp.
     Press {

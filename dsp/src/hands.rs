@@ -1,7 +1,7 @@
 //! The hands on one string: gestures become the forces, places and tension of a [`Drive`].
 
 use crate::drive::{Drive, PUSHES, Push};
-use crate::gesture::{FINGERS_PER_STRING, Gesture, raised_cosine};
+use crate::gesture::{FINGERS_PER_STRING, Gesture, Touch, raised_cosine};
 use crate::grid::Reading;
 use crate::model::Model;
 use crate::ramp::Ramp;
@@ -13,6 +13,9 @@ const CLEAR: f64 = 1e-3;
 /// Fastest slide of a finger, m/s: a hand crosses a neck in a tenth of a second. Dragging a pressed
 /// string sideways puts in work without bound, so the gesture is limited and not the scheme.
 const FASTEST_SLIDE: f64 = 10.0;
+
+/// Fastest a finger is thrown, m/s: the thumb of a slapping bass player comes at some 5 m/s.
+const FASTEST_THROW: f64 = 10.0;
 
 /// Least tension a bend may leave, as a part of the string's own.
 const LEAST_TENSION: f64 = 0.05;
@@ -126,19 +129,12 @@ impl Hands {
                 }
             }
             Gesture::Place { finger, touch, position, clearance } => {
-                if finger < FINGERS_PER_STRING {
-                    let place = inside(position);
-                    let reading = model.grid.reading(place);
-                    let now = state.displacement_at(&reading);
-                    // Touching nothing a step ago either: a string that comes from above would be inside it.
-                    let before = now - state.velocity_at(model, &reading) * model.grid.time_step;
-                    let height = (now + clearance.max(0.0)).max(before);
-                    self.take_away(finger, state);
-                    if state.place_finger(model, finger, touch, place, height, 0.0).is_ok() {
-                        let held = Held { force: Ramp::at(0.0), position: Ramp::at(place), leaving: false };
-                        self.fingers[finger] = Some(held);
-                    }
-                }
+                self.put(finger, touch, inside(position), [clearance, 0.0], model, state);
+            }
+            Gesture::Throw { finger, touch, position, clearance, speed } => {
+                // Anything but a number counts as at rest.
+                let speed = if speed > 0.0 { speed.min(FASTEST_THROW) } else { 0.0 };
+                self.put(finger, touch, inside(position), [clearance, speed], model, state);
             }
             Gesture::Press { finger, force, duration } => {
                 let samples = self.samples(duration);
@@ -169,6 +165,32 @@ impl Hands {
                 let samples = self.samples(duration);
                 self.tension.go(model.string.tension * ratio.clamp(LEAST_TENSION, most), samples);
             }
+        }
+    }
+
+    /// Puts a finger over the string at a place, m from the nut: so high above it, m, and on its way to it
+    /// at a speed, m/s.
+    fn put(
+        &mut self,
+        slot: usize,
+        touch: Touch,
+        place: f64,
+        [clearance, speed]: [f64; 2],
+        model: &Model,
+        state: &mut State,
+    ) {
+        if slot >= FINGERS_PER_STRING {
+            return;
+        }
+        let reading = model.grid.reading(place);
+        let now = state.displacement_at(&reading);
+        // Touching nothing a step ago either: a string that comes from above would be inside it.
+        let before = now - state.velocity_at(model, &reading) * model.grid.time_step;
+        let height = (now + clearance.max(0.0)).max(before - speed * model.grid.time_step).max(now);
+        self.take_away(slot, state);
+        if state.place_finger(model, slot, touch, place, height, 0.0 - speed).is_ok() {
+            let held = Held { force: Ramp::at(0.0), position: Ramp::at(place), leaving: false };
+            self.fingers[slot] = Some(held);
         }
     }
 

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::setup::Setup;
 
 /// The set-ups that show what strings over frets can do: name and file.
-const FILES: [(&str, &str); 10] = [
+const FILES: [(&str, &str); 16] = [
     ("buzzing-bass", include_str!("../instruments/presets/buzzing-bass.toml")),
     ("slap-bass", include_str!("../instruments/presets/slap-bass.toml")),
     ("fretless-bass", include_str!("../instruments/presets/fretless-bass.toml")),
@@ -18,6 +18,12 @@ const FILES: [(&str, &str); 10] = [
     ("flatwound-jazz", include_str!("../instruments/presets/flatwound-jazz.toml")),
     ("tanpura", include_str!("../instruments/presets/tanpura.toml")),
     ("sitar", include_str!("../instruments/presets/sitar.toml")),
+    ("lap-steel", include_str!("../instruments/presets/lap-steel.toml")),
+    ("baritone", include_str!("../instruments/presets/baritone.toml")),
+    ("drop-d", include_str!("../instruments/presets/drop-d.toml")),
+    ("flamenco", include_str!("../instruments/presets/flamenco.toml")),
+    ("ukulele", include_str!("../instruments/presets/ukulele.toml")),
+    ("five-string-bass", include_str!("../instruments/presets/five-string-bass.toml")),
 ];
 
 /// The key by which a file names the set-up it changes.

@@ -119,6 +119,10 @@ pub struct Touching {
     pub ignore_rpn: bool,
     /// Bends all strings at once, semitones.
     pub tremolo_arm: f64,
+    /// Whether overlapping notes on one string are connected, controller 68 or not.
+    pub legato: bool,
+    /// The key at which keyswitches begin, if there are any.
+    pub keyswitches: Option<u8>,
 }
 
 impl Touching {
@@ -140,6 +144,8 @@ impl Touching {
             bend_range,
             ignore_rpn: false,
             tremolo_arm: 0.0,
+            legato: false,
+            keyswitches: None,
         }
     }
 

@@ -9,7 +9,7 @@ mod ranges;
 
 use nice_plug::prelude::*;
 
-pub use choices::{InputChoice, InstrumentChoice, QualityChoice, RenderChoice, StringOrder};
+pub use choices::{InputChoice, InstrumentChoice, LegatoChoice, QualityChoice, RenderChoice, StringOrder};
 pub use ranges::{exact, poly};
 
 use crate::plugin::shelf::Shelf;
@@ -170,6 +170,12 @@ pub struct ControlParams {
     /// Bends all strings at once, semitones.
     #[id = "tremolo_arm"]
     pub tremolo_arm: FloatParam,
+    /// When overlapping notes on one string are connected.
+    #[id = "legato"]
+    pub legato: EnumParam<LegatoChoice>,
+    /// The first of the keys that tell the hands how to play, −1 for none.
+    #[id = "keyswitches"]
+    pub keyswitches: IntParam,
 }
 
 /// What becomes of the sound.

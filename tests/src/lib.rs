@@ -6,3 +6,4 @@ pub mod host;
 pub mod midi;
 pub mod paper;
 pub mod pitch;
+pub mod stage;

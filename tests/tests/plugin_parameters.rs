@@ -80,9 +80,9 @@ fn pick(high: bool, low_value: f64, high_value: f64) -> f64 {
 const BUILT: &[Built] = &[
     Built {
         id: "instrument",
-        ends: [0.0, 13.0],
+        ends: [0.0, 19.0],
         means: |options, high| {
-            let name = if high { "sitar" } else { "electric" };
+            let name = if high { "five-string-bass" } else { "electric" };
             options.setup = Setup::shipped(name).expect("it comes with the program");
         },
     },
@@ -450,6 +450,8 @@ fn every_parameter_is_tested_here() {
         "bend_range",
         "ignore_rpn",
         "tremolo_arm",
+        "legato",
+        "keyswitches",
         "level",
         "bypass",
         "relax",

@@ -125,14 +125,15 @@ fn refuse_overwriting(song: Option<&Path>, output: &Path) -> Result<()> {
 /// Tells what came of it.
 fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f64) -> Outcome {
     let Rendered { mix, stems, compromises, lost_events, seconds } = rendered;
-    let Compromises { moved_by_octaves, left_out } = compromises;
+    let Compromises { moved_by_octaves, arpeggiated, left_out } = compromises;
     let warn_of = |count: u64, what: &str| {
         if count > 0 {
             say("warning", &format!("{count} {} {what}", if count == 1 { "note was" } else { "notes were" }));
         }
     };
     warn_of(*moved_by_octaves, "moved by octaves: no string gives them as written");
-    warn_of(*left_out, "left out: more began at once than there were strings for");
+    warn_of(*arpeggiated, "played a moment late: more began at once than there were strings for");
+    warn_of(*left_out, "left out: more began at once than anybody could play");
     if *lost_events > 0 {
         say("warning", &format!("{lost_events} events were lost: too many at once"));
     }

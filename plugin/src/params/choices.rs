@@ -134,6 +134,19 @@ pub enum StringOrder {
     LastFirst,
 }
 
+/// When overlapping notes on one string are connected by hammers, pulls and slides.
+#[derive(Enum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LegatoChoice {
+    /// While the legato pedal (controller 68) or a keyswitch says so.
+    #[id = "pedal"]
+    #[name = "By CC 68"]
+    Pedal,
+    /// Always.
+    #[id = "always"]
+    #[name = "Always"]
+    Always,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use nice_plug::prelude::*;
 
 use super::{
-    ControlParams, InputChoice, InstrumentChoice, InstrumentParams, LowActionParams, OutputParams,
-    PlayerParams, QualityChoice, RenderChoice, SetupParams, StringOrder, StringParams,
+    ControlParams, InputChoice, InstrumentChoice, InstrumentParams, LegatoChoice, LowActionParams,
+    OutputParams, PlayerParams, QualityChoice, RenderChoice, SetupParams, StringOrder, StringParams,
 };
 use crate::engine::EngineOptions;
 use crate::plugin::shelf::{MOST_FILES, Shelf};
@@ -125,6 +125,16 @@ impl Default for ControlParams {
                 .with_unit(" semitones"),
             ignore_rpn: BoolParam::new("Ignore announced bend range", false),
             tremolo_arm: shift("Tremolo arm", -12.0, 3.0, " semitones", PART_STEP),
+            legato: EnumParam::new("Legato", LegatoChoice::Pedal),
+            keyswitches: IntParam::new("Keyswitches from key", -1, IntRange::Linear { min: -1, max: 108 })
+                .with_value_to_string(Arc::new(|key| match key {
+                    ..0 => "off".into(),
+                    key => key.to_string(),
+                }))
+                .with_string_to_value(Arc::new(|text| match text.trim().parse() {
+                    Err(_) if text.contains("off") => Some(-1),
+                    number => number.ok(),
+                })),
         }
     }
 }

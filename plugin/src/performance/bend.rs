@@ -29,6 +29,8 @@ pub(crate) struct Bend {
     sent: f64,
     /// Frets the finger has been slid by.
     slid: i32,
+    /// Semitones the finger has glided.
+    glided: f64,
     /// Wheel and tuning as last followed, semitones.
     followed: f64,
     /// When the next goal is to be sent.
@@ -48,8 +50,9 @@ impl Bend {
         self.channel = Some(channel);
         self.tuning = 0.0;
         self.vibrato = 0.0;
-        if self.slid != 0 {
+        if self.slid != 0 || self.glided != 0.0 {
             self.slid = 0;
+            self.glided = 0.0;
             self.followed = f64::NAN;
         }
     }
@@ -96,24 +99,31 @@ impl Bend {
         self.ready = at.after(BEND_INTERVAL);
         let asked = self.wheel + self.tuning;
         let most = 6.0 * libm::log2(fingers.geometry().highest_ratio);
-        let wanted = if asked.abs() > most { asked.round() as i32 } else { 0 };
         let duration = |change: f64| (change.abs() / BEND_SPEED).max(BEND_RAMP);
-        if wanted != self.slid {
-            self.slid = fingers.slide(wanted, duration(f64::from(wanted - self.slid)), at);
-        }
-        self.followed = asked;
-        let mut pulled = (asked - f64::from(self.slid)).clamp(-most, most) + self.arm;
+        let mut swing = 0.0;
         if self.vibrato > 0.0 {
             let (rate, depth) = VIBRATO;
             let seconds = at.after(VIBRATO_STEP) as f64 / at.sample_rate;
-            pulled += self.vibrato * depth * libm::sin(TAU * rate * seconds);
+            swing = self.vibrato * depth * libm::sin(TAU * rate * seconds);
             self.due = Some(at.after(VIBRATO_STEP));
+        }
+        self.followed = asked;
+        let mut pulled = self.arm;
+        if fingers.glides() {
+            let goal = asked + swing;
+            fingers.glide(goal, duration(goal - self.glided), at);
+            self.glided = goal;
+        } else {
+            let wanted = if asked.abs() > most { asked.round() as i32 } else { 0 };
+            if wanted != self.slid {
+                self.slid = fingers.slide(wanted, duration(f64::from(wanted - self.slid)), at);
+            }
+            pulled = (asked - f64::from(self.slid)).clamp(-most, most) + self.arm + swing;
         }
         let change = pulled - self.sent;
         if change != 0.0 {
             self.sent = pulled;
-            let geometry = fingers.geometry();
-            let tension_ratio = geometry.tension_ratio(pulled).min(geometry.highest_ratio);
+            let tension_ratio = fingers.tension_ratio(pulled);
             at.does(Gesture::Bend { tension_ratio, duration: duration(change) });
         }
     }

@@ -1,6 +1,7 @@
 //! What one MIDI channel remembers: its pedals, its wheel and how far that reaches, and what its
 //! controllers say of notes to come.
 
+use super::articulation::Articulation;
 use super::string::Manner;
 use super::technique::{BRIGHTNESS_REACH, FIRMEST};
 
@@ -19,6 +20,8 @@ pub(crate) struct Channel {
     sostenuto: bool,
     /// How its notes are played.
     pub manner: Manner,
+    /// What the hands are told to do with them.
+    pub articulation: Articulation,
     /// Expression and breath, each a factor of the pluck's force.
     swell: [f64; 2],
     /// Whether an announced reach of the wheel is passed over.
@@ -52,6 +55,12 @@ pub(crate) enum Request {
     Swing,
     /// The wheel's pitch changed.
     Bend,
+    /// The palm presses more or less, or the tremolo is faster or slower.
+    Touch,
+    /// A capo goes to this fret of all strings, 0 for none.
+    Capo(u8),
+    /// Keyswitches begin at this key, 0 for none.
+    Switches(u8),
     /// Keys are to be let go of; the pedal goes on holding.
     ReleaseKeys,
     /// Silence at once, pedal or not.
@@ -67,6 +76,7 @@ impl Channel {
             pedal: false,
             sostenuto: false,
             manner: Manner::PLAIN,
+            articulation: Articulation::PLAIN,
             swell: [1.0; 2],
             ignores_range: false,
             members: None,
@@ -177,12 +187,19 @@ impl Channel {
                 self.parameter.0 = value;
                 Request::None
             }
+            20 | 25 => {
+                self.articulation.set_controller(number, value);
+                Request::Touch
+            }
+            26 => Request::Capo(value),
+            27 => Request::Switches(value),
             120 => Request::Silence,
             // Reset all controllers leaves the wheel's reach alone (MIDI recommended practice 15).
             121 => {
                 self.pedal = false;
                 self.sostenuto = false;
                 self.manner = Manner::PLAIN;
+                self.articulation = Articulation::PLAIN;
                 self.swell = [1.0; 2];
                 self.wheel = 0.0;
                 self.parameter = NO_PARAMETER;
@@ -190,7 +207,10 @@ impl Channel {
             }
             // All notes off, and the four mode messages that imply it.
             123..=127 => Request::ReleaseKeys,
-            _ => Request::None,
+            _ => {
+                self.articulation.set_controller(number, value);
+                Request::None
+            }
         }
     }
 }

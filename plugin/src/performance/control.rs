@@ -1,8 +1,9 @@
 //! What channels mean, and what controllers and note expressions do to the strings.
 
 use super::channel::{Channel, Request, pressure_factor};
+use super::chord::Struck;
 use super::technique::BRIGHTNESS_REACH;
-use super::{Expression, GestureSink, Performance, Struck};
+use super::{Expression, GestureSink, Performance};
 
 /// What the channels of notes mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -61,8 +62,19 @@ impl Performance {
     ) {
         let Some(channel) = self.channels.get_mut(usize::from(number)) else { return };
         let request = change(channel);
-        let manner = channel.manner;
+        let (manner, articulation) = (channel.manner, channel.articulation);
         let (time, acts_on_all) = (self.now, self.is_mpe() && number == MANAGER);
+        if acts_on_all {
+            self.channels.iter_mut().for_each(|channel| channel.articulation = articulation);
+        }
+        match request {
+            Request::Capo(fret) => return self.set_capo(usize::from(fret)),
+            Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),
+            Request::ReleaseKeys | Request::Silence => {
+                self.late.retain(|late| late.struck.wanted.channel != number && !acts_on_all);
+            }
+            _ => {}
+        }
         for index in 0..self.strings.len() {
             let Some(channel) = self.strings[index].channel().filter(|&own| own == number || acts_on_all)
             else {
@@ -71,7 +83,8 @@ impl Performance {
             let (pedal, bend) = (self.pedal(channel), self.bend(channel));
             let string = &mut self.strings[index];
             match request {
-                Request::None => {}
+                Request::None | Request::Capo(_) | Request::Switches(_) => {}
+                Request::Touch => string.set_touch(time, &articulation, out),
                 Request::PedalUp if pedal => {}
                 Request::PedalUp => string.pedal_up(time, channel),
                 Request::Catch => string.catch(channel),
@@ -87,9 +100,17 @@ impl Performance {
                     string.bend(time, channel, bend);
                     string.press(time, manner.pressure, out);
                     string.swing(time, manner.vibrato);
+                    string.set_touch(time, &articulation, out);
                 }
             }
         }
+    }
+
+    /// A capo goes to a fret of all strings, 0 for none, as soon as each is played.
+    fn set_capo(&mut self, fret: usize) {
+        self.hand.set_capo(fret);
+        let fret = self.hand.capo();
+        self.strings.iter_mut().for_each(|string| string.set_capo(fret));
     }
 
     /// Something changes about one note.

@@ -1,12 +1,20 @@
 //! The fingers of both hands on one string: which slot each takes, and how it comes and goes.
+//!
+//! Two slots belong to fingers that stop the string. The one that sounds is `fretting`; another may be
+//! held down behind it (`anchor`), so that a pull-off finds it there, or touch the string lightly.
+
+mod legato;
+mod touches;
 
 use low_action_dsp::setup::{Damper, Fretting, Player};
 use low_action_dsp::{FINGERS_PER_STRING, FingerSlot, Gesture, StringGeometry, Touch};
 
+use super::articulation::{Stop, Stroke};
+use super::right_hand::{Field, RightHand};
 use super::technique::*;
 use super::{GestureSink, Moment, PlayedString};
 
-/// A finger behind a fret.
+/// A finger behind a fret, or a bar over one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Finger {
     slot: FingerSlot,
@@ -14,6 +22,8 @@ struct Finger {
     touch: Touch,
     /// Whether its force has been eased off.
     eased: bool,
+    /// Whether it is a bar.
+    bar: bool,
 }
 
 /// The fingers near one string.
@@ -21,41 +31,68 @@ struct Finger {
 pub(crate) struct Fingers {
     geometry: StringGeometry,
     leaving_forces: Vec<f64>,
+    fretless: bool,
     hands: Player,
     fretting: Option<Finger>,
-    /// Slot of the next fretting finger.
+    /// A finger held down behind the one that sounds.
+    anchor: Option<Finger>,
+    /// Slot of the next fretting finger: the one that `fretting` has not.
     next_slot: FingerSlot,
+    /// Slot of a finger that touches the string lightly.
+    light: Option<FingerSlot>,
     /// Which slots hold a damper that rests on the string.
     resting: [bool; FINGERS_PER_STRING],
+    right: RightHand,
     /// Fret of the present note, from which slides are counted.
     home: usize,
+    /// Semitones by which the finger has glided away from there, where nothing keeps it on frets.
+    glided: f64,
     /// Factor of the fretting finger's force: what a key is pressed down with.
     pressure: f64,
+    /// Fret of the capo on notes to come, 0 for none, and of the one on the string.
+    capo: [usize; 2],
 }
 
 impl Fingers {
     /// No finger near the string.
     pub(crate) fn new(string: PlayedString, hands: Player) -> Self {
-        let PlayedString { geometry, leaving_forces } = string;
-        let resting = [false; FINGERS_PER_STRING];
-        let fretting = None;
-        Self { geometry, leaving_forces, hands, fretting, next_slot: 0, resting, home: 0, pressure: 1.0 }
+        let PlayedString { geometry, leaving_forces, fretless, .. } = string;
+        Self {
+            geometry,
+            leaving_forces,
+            fretless,
+            hands,
+            fretting: None,
+            anchor: None,
+            next_slot: 0,
+            light: None,
+            resting: [false; FINGERS_PER_STRING],
+            right: RightHand::default(),
+            home: 0,
+            glided: 0.0,
+            pressure: 1.0,
+            capo: [0, 0],
+        }
     }
 
     /// All away.
     pub(crate) fn reset(&mut self) {
-        self.fretting = None;
+        (self.fretting, self.anchor, self.light) = (None, None, None);
         self.next_slot = 0;
         self.resting = [false; FINGERS_PER_STRING];
-        self.home = 0;
+        self.right.reset();
+        (self.home, self.glided) = (0, 0.0);
         self.pressure = 1.0;
+        self.capo = [0, 0];
     }
 
     /// Takes over the fingers on this string, when it has been given another model.
     pub(crate) fn take_over(&mut self, old: &Self) {
-        let Self { fretting, next_slot, resting, home, pressure, .. } = *old;
-        (self.fretting, self.next_slot, self.resting) = (fretting, next_slot, resting);
-        (self.home, self.pressure) = (home, pressure);
+        (self.fretting, self.anchor, self.light) = (old.fretting, old.anchor, old.light);
+        (self.next_slot, self.resting) = (old.next_slot, old.resting);
+        self.right.take_over(&old.right);
+        (self.home, self.glided, self.pressure) = (old.home, old.glided, old.pressure);
+        self.capo = old.capo;
     }
 
     /// The hands of a string nobody has touched yet act so.
@@ -81,24 +118,57 @@ impl Fingers {
     }
 
     fn press_on(&mut self, at: &mut Moment<impl GestureSink>) {
-        if let Some(finger) = self.fretting.filter(|finger| !finger.eased) {
-            let force = self.hands.fretting.force * self.pressure;
+        if let Some(finger) = self.fretting.filter(|finger| !finger.eased && !finger.bar) {
+            let force = self.force();
             at.does(Gesture::Press { finger: finger.slot, force, duration: PRESSURE_RAMP });
         }
     }
 
-    /// Slides the fretting finger so many frets away from where the note began, as far as there are frets.
-    /// Gives back how many it is away then; an open string cannot be slid.
-    pub(crate) fn slide(&mut self, frets: i32, duration: f64, at: &mut Moment<impl GestureSink>) -> i32 {
-        let Some(finger) = self.fretting.as_mut().filter(|finger| !finger.eased) else { return 0 };
-        let last = self.geometry.frets.len() as i32;
-        let fret = (self.home as i32 + frets).clamp(1, last);
-        if fret as usize != finger.fret {
-            finger.fret = fret as usize;
-            let position = self.geometry.finger_position(finger.fret);
-            at.does(Gesture::Slide { finger: finger.slot, position, duration });
-        }
-        fret - self.home as i32
+    /// Force under which the string leaves a fret, N.
+    fn leaving_force(&self, fret: usize) -> f64 {
+        fret.checked_sub(1).and_then(|index| self.leaving_forces.get(index)).copied().unwrap_or(0.0)
+    }
+
+    /// The factor of tension that raises what sounds by so many semitones. Stopping the string has added to
+    /// its tension, which pulling has to outdo: as much as its fret stands nearer to the nut than equal
+    /// temperament has it. A tighter string gives way less, so the addition falls about with the root of the
+    /// tension (fitted to measured bends).
+    pub(crate) fn tension_ratio(&self, semitones: f64) -> f64 {
+        let Self { geometry, .. } = self;
+        let crown = self.fretting.filter(|finger| !finger.bar).and_then(|finger| {
+            let crown = geometry.frets.get(finger.fret.checked_sub(1)?)?;
+            Some((geometry.length - crown) / geometry.length * libm::exp2(finger.fret as f64 / 12.0))
+        });
+        let added = crown.map_or(0.0, |ratio| ratio * ratio - 1.0);
+        let ratio = geometry.tension_ratio(semitones);
+        (ratio + added * (ratio - 1.0 / ratio.sqrt())).min(geometry.highest_ratio)
+    }
+
+    /// What a finger stops the string with, N.
+    fn force(&self) -> f64 {
+        self.hands.fretting.force * self.pressure
+    }
+
+    /// A capo at this fret on notes to come, 0 for none.
+    pub(crate) fn set_capo(&mut self, fret: usize) {
+        self.capo[0] = fret.min(self.geometry.frets.len());
+    }
+
+    /// Fret of the capo on notes to come, 0 for none.
+    pub(crate) fn capo(&self) -> usize {
+        self.capo[0]
+    }
+
+    /// How long a pluck pushes, s.
+    pub(crate) fn pluck_duration(&self) -> f64 {
+        self.hands.pluck_duration
+    }
+
+    /// The palm is to rest so hard on notes to come, 0 to 1, and on one that sounds.
+    pub(crate) fn set_palm(&mut self, palm: f64, sounds: bool, at: &mut Moment<impl GestureSink>) {
+        let sounding = self.sounding_length();
+        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        self.right.set_palm(palm, sounds, &field, at);
     }
 
     /// The string under them.
@@ -114,44 +184,75 @@ impl Fingers {
     /// Makes way for a note of some strength (0 to 1): dampers off, a finger behind the fret (0: none).
     /// One that is there already stays; any other leaves for a new one, at once because the pluck covers
     /// its sound.
-    pub(crate) fn stop(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
-        for slot in self.resting_slots() {
-            at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
+    pub(crate) fn stop(&mut self, fret: usize, stop: Stop, strength: f64, at: &mut Moment<impl GestureSink>) {
+        self.make_way(at);
+        if let Some(anchor) = self.anchor.take() {
+            at.does(lifting(anchor.slot, anchor.touch, QUICK_LIFT));
         }
-        self.resting = [false; FINGERS_PER_STRING];
+        self.lay_capo(at);
         self.home = fret;
-        let Fretting { mut touch, hover, landing, .. } = self.hands.fretting;
-        let force = self.hands.fretting.force * self.pressure;
-        if let Some(finger) = self.fretting.as_mut().filter(|finger| finger.fret == fret) {
-            if std::mem::take(&mut finger.eased) {
-                at.does(Gesture::Press { finger: finger.slot, force, duration: landing });
-            }
-            return;
+        let bar = stop == Stop::Bar;
+        let stays = |finger: &Finger| finger.fret == fret && finger.bar == bar && stop != Stop::Mute;
+        if self.fretting.is_some_and(|finger| stays(&finger)) {
+            return self.press_again(at);
         }
         if let Some(old) = self.fretting.take() {
             at.does(lifting(old.slot, old.touch, QUICK_LIFT));
         }
-        if fret > 0 {
-            touch.hand_damping /= 1.0 + HASTE * strength;
-            let slot = self.next_slot;
-            self.next_slot = (slot + 1) % FRETTING_SLOTS;
-            self.fretting = Some(Finger { slot, fret, touch, eased: false });
-            let position = self.geometry.finger_position(fret);
-            at.does(Gesture::Place { finger: slot, touch, position, clearance: hover });
-            at.does(Gesture::Press { finger: slot, force, duration: landing });
+        self.glided = 0.0;
+        match stop {
+            Stop::Mute => self.mute(fret, at),
+            _ if fret <= self.capo[1] => {}
+            Stop::Bar => self.lay_bar(fret, at),
+            Stop::Press | Stop::Harmonic => {
+                let Fretting { mut touch, hover, landing, .. } = self.hands.fretting;
+                touch.hand_damping /= (1.0 + HASTE * strength) / softness(strength);
+                let slot = self.take_slot(fret, touch, false);
+                let position = self.geometry.finger_position(fret);
+                at.does(Gesture::Place { finger: slot, touch, position, clearance: hover });
+                at.does(Gesture::Press { finger: slot, force: self.force(), duration: landing });
+            }
         }
     }
 
-    /// The pluck of a note: so hard (0 to 1), and so far beside the usual place (m).
-    pub(crate) fn pluck(&self, strength: f64, beside: f64) -> Gesture {
-        let Player { pluck_position, pluck_duration, pluck_force, .. } = self.hands;
-        let farthest = FARTHEST_PLUCK * self.sounding_length();
-        let from_saddle = (pluck_position + beside).max(NEAREST_PLUCK).min(farthest);
-        Gesture::Pluck {
-            position: self.geometry.length - from_saddle,
-            force: pluck_force * strength,
-            duration: pluck_duration,
+    /// A finger that has eased off presses again.
+    fn press_again(&mut self, at: &mut Moment<impl GestureSink>) {
+        let (usual, landing) = (self.force(), self.hands.fretting.landing);
+        let bar = self.fretting.map_or(0.0, |finger| self.bar_force(finger.fret));
+        let Some(finger) = &mut self.fretting else { return };
+        if std::mem::take(&mut finger.eased) {
+            let force = if finger.bar { bar } else { usual };
+            at.does(Gesture::Press { finger: finger.slot, force, duration: landing });
         }
+    }
+
+    /// Gives the next slot to a finger that stops the string from now on.
+    fn take_slot(&mut self, fret: usize, touch: Touch, bar: bool) -> FingerSlot {
+        let slot = self.next_slot;
+        self.next_slot = (slot + 1) % FRETTING_SLOTS;
+        self.fretting = Some(Finger { slot, fret, touch, eased: false, bar });
+        slot
+    }
+
+    /// Whatever keeps the string from sounding leaves at once; the palm stays as it is told.
+    fn make_way(&mut self, at: &mut Moment<impl GestureSink>) {
+        for slot in self.resting_slots() {
+            at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
+        }
+        self.resting = [false; FINGERS_PER_STRING];
+        if let Some(slot) = self.light.take() {
+            at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
+        }
+        let sounding = self.sounding_length();
+        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        self.right.prepare(&field, at);
+    }
+
+    /// The pluck of a note: so hard (0 to 1), and so far beside the usual place (m); none for strokes that
+    /// strike.
+    pub(crate) fn pluck(&self, stroke: Stroke, strength: f64, beside: f64) -> Option<Gesture> {
+        let sounding = self.sounding_length();
+        Field { geometry: &self.geometry, hands: &self.hands, sounding }.pluck(stroke, strength, beside)
     }
 
     /// Lays the edge of the hand near the saddle, and a finger of the other hand behind a fretting one,
@@ -161,13 +262,17 @@ impl Fingers {
         for (slot, part) in DAMPERS {
             self.rest(slot, self.geometry.length - part * near_saddle, at);
         }
-        let behind = BEHIND_FINGER * (self.geometry.length - self.sounding_length());
-        if behind >= NEAREST_NUT {
-            self.rest(self.next_slot, behind, at);
+        if let Some(anchor) = self.anchor.take() {
+            // It keeps quiet what is behind; it leaves as softly as the other.
+            at.does(lifting(anchor.slot, anchor.touch, FINGER_EASING));
+        } else if self.light.is_none() {
+            let behind = BEHIND_FINGER * (self.geometry.length - self.sounding_length());
+            if behind >= NEAREST_NUT {
+                self.rest(self.next_slot, behind, at);
+            }
         }
-        let leaving = self.fretting.and_then(|finger| self.leaving_forces.get(finger.fret - 1));
-        let holding = HOLDING * leaving.copied().unwrap_or(0.0);
-        if holding < self.hands.fretting.force {
+        let holding = HOLDING * self.fretting.map_or(0.0, |finger| self.leaving_force(finger.fret));
+        if holding < self.hands.fretting.force && self.fretting.is_some_and(|finger| !finger.bar) {
             self.ease(holding, RELAXING, at);
         }
     }
@@ -188,11 +293,19 @@ impl Fingers {
         for slot in self.resting_slots() {
             at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));
         }
+        if let Some(slot) = self.light.take() {
+            at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));
+        }
+        let sounding = self.sounding_length();
+        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        self.right.leave(&field, at);
+        self.ease_capo(at);
     }
 
     /// The dampers have gone.
-    pub(crate) fn gone(&mut self) {
+    pub(crate) fn gone(&mut self, at: &mut Moment<impl GestureSink>) {
         self.resting = [false; FINGERS_PER_STRING];
+        self.lift_capo(at);
     }
 
     /// Brings the fretting finger's force to another value, N.
@@ -216,15 +329,32 @@ impl Fingers {
         (0..FINGERS_PER_STRING).filter(move |&slot| resting[slot])
     }
 
-    /// Length that sounds: from the fretting finger, or the nut, to the saddle, m.
+    /// Length that sounds: from the fretting finger, or the capo, or the nut, to the saddle, m.
     fn sounding_length(&self) -> f64 {
-        let stopped_at = self.fretting.map_or(0.0, |finger| self.geometry.finger_position(finger.fret));
-        self.geometry.length - stopped_at
+        let capo = self.geometry.finger_position(self.capo[1]);
+        self.geometry.length - self.fretting.map_or(capo, |finger| self.place(finger.fret, finger.bar))
+    }
+
+    /// Where a finger stops a fret, or a bar lies over it, m from the nut.
+    fn place(&self, fret: usize, bar: bool) -> f64 {
+        match bar {
+            true => self.geometry.length * (1.0 - libm::exp2(-(fret as f64) / 12.0)),
+            false => self.geometry.finger_position(fret),
+        }
     }
 }
 
+/// How much more the hand holds the finger of a very soft note back (strength 0 to 1), so that its landing is
+/// not louder than the pluck.
+fn softness(strength: f64) -> f64 {
+    1.0 + SOFTEST_LANDING * ((SOFT.1 - strength) / (SOFT.1 - SOFT.0)).clamp(0.0, 1.0)
+}
+
+/// How the right hand leaves a ringing string.
+pub(super) const QUIET_LIFT: Leaving = NODE_LIFT;
+
 /// Lifts a finger in a manner of leaving.
-fn lifting(finger: FingerSlot, touch: Touch, manner: Leaving) -> Gesture {
+pub(super) fn lifting(finger: FingerSlot, touch: Touch, manner: Leaving) -> Gesture {
     Gesture::Lift { finger, force: lift_force(touch, manner), duration: manner.turning }
 }
 

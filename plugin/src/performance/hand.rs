@@ -20,6 +20,10 @@ mod search;
 
 use search::Search;
 
+use std::f64::consts::TAU;
+
+use super::technique::{DEAF, HIGHEST_HARMONIC, NEAR_ENOUGH};
+
 /// Frets under the hand without reaching: one for each finger.
 const SPAN: usize = 4;
 /// Most notes considered at one instant; of more, the last to arrive are left out.
@@ -36,6 +40,8 @@ const HEIGHT: f64 = 0.02;
 const OPEN: (f64, f64) = (0.3, 2.0);
 /// Striking a sounding key again where it is.
 const AGAIN: f64 = -8.0;
+/// A harmonic that is hardly heard there; more than any movement.
+const UNHEARD: f64 = 80.0;
 /// Taking a string from a note kept by the pedal, and from one whose key is down; more than any
 /// movement.
 const STEAL_PEDAL: f64 = 100.0;
@@ -52,6 +58,8 @@ pub(crate) struct Range {
     pub open_pitch: f64,
     /// Number of frets.
     pub frets: usize,
+    /// Where a coil hears the string, as a part of its length from the saddle.
+    pub coil: Option<f64>,
 }
 
 impl Range {
@@ -59,6 +67,21 @@ impl Range {
     pub(crate) fn fret(&self, key: f64) -> Option<usize> {
         let fret = (key - self.open_pitch).round();
         (0.0..=self.frets as f64).contains(&fret).then_some(fret as usize)
+    }
+
+    /// The fret to stop, and the partial of what sounds then, that give a harmonic of a pitch: a natural one
+    /// of the open string (or over a capo) if there is one, or else the octave over a stopped note.
+    pub(crate) fn harmonic(&self, pitch: f64, capo: usize) -> Option<(usize, u32)> {
+        let over = pitch - self.open_pitch - capo as f64;
+        let natural = |order: &u32| (over - 12.0 * libm::log2(f64::from(*order))).abs() < NEAR_ENOUGH;
+        let natural = (2..=HIGHEST_HARMONIC).find(natural).map(|order| (capo, order));
+        natural.or_else(|| Some((self.fret(pitch - 12.0).filter(|&fret| fret >= capo)?, 2)))
+    }
+
+    /// Whether a partial of what sounds over a fret is hardly heard because the coil lies under its node.
+    fn is_deaf_to(&self, fret: usize, order: u32) -> bool {
+        let wavelengths = |coil: f64| 0.5 * f64::from(order) * coil * libm::exp2(fret as f64 / 12.0);
+        self.coil.is_some_and(|coil| libm::sin(TAU * wavelengths(coil)).abs() < DEAF)
     }
 }
 
@@ -93,6 +116,8 @@ pub(crate) struct Wanted {
     pub pitch: f64,
     /// The one string it may be played on, if the player has no choice.
     pub only: Option<usize>,
+    /// Whether it is to be a harmonic that sounds at this pitch.
+    pub harmonic: bool,
 }
 
 /// Where a note is to be played.
@@ -109,6 +134,8 @@ pub(crate) struct Placement {
 pub(crate) struct Hand {
     strings: Vec<Range>,
     highest_fret: usize,
+    /// Fret of a capo, 0 for none: open strings sound from there.
+    capo: usize,
     /// Fret under the first finger, 1 or more.
     position: usize,
     /// Which of the wanted notes are placed, highest pitch first.
@@ -132,6 +159,7 @@ impl Hand {
         Self {
             highest_fret: strings.iter().map(|range| range.frets).max().unwrap_or(0),
             strings,
+            capo: 0,
             position: 1,
             order: Vec::with_capacity(LARGEST_CHORD),
             costs: vec![0.0; count * count],
@@ -146,35 +174,79 @@ impl Hand {
 
     /// Back to the first fret.
     pub(crate) fn reset(&mut self) {
+        self.capo = 0;
         self.position = 1;
+    }
+
+    /// Puts a capo on a fret, 0 for none.
+    pub(crate) fn set_capo(&mut self, fret: usize) {
+        self.capo = fret.min(self.highest_fret);
+        self.position = self.position.max(self.capo + 1).min(self.highest_fret.max(1));
+    }
+
+    /// Fret of the capo, 0 for none.
+    pub(crate) fn capo(&self) -> usize {
+        self.capo
+    }
+
+    /// Follows a finger that went to a fret without being told where.
+    pub(crate) fn follow(&mut self, fret: usize) {
+        if fret > self.capo {
+            let nearest = self.position.min(fret).max((fret + 1).saturating_sub(SPAN));
+            self.position = nearest.max(1);
+        }
+    }
+
+    /// Frets between a fret and those under the hand.
+    pub(crate) fn distance(&self, fret: usize) -> usize {
+        if fret <= self.capo {
+            return 0;
+        }
+        self.position.saturating_sub(fret).max((fret + 1).saturating_sub(self.position + SPAN))
     }
 
     /// Stays where another hand is, on the neck of another model of the instrument.
     pub(crate) fn take_over(&mut self, old: &Self) {
+        self.capo = old.capo.min(self.highest_fret);
         self.position = old.position.min(self.highest_fret.max(1));
     }
 
     /// The fret that gives a note on a string, if it may be played there.
-    fn fret(&self, note: &Wanted, string: usize) -> Option<usize> {
+    pub(crate) fn fret(&self, note: &Wanted, string: usize) -> Option<usize> {
         if note.only.is_some_and(|only| only != string) {
             return None;
         }
-        self.strings[string].fret(note.pitch)
+        self.fret_at(string, note.pitch, note.harmonic)
+    }
+
+    fn fret_at(&self, string: usize, pitch: f64, harmonic: bool) -> Option<usize> {
+        let range = self.strings.get(string)?;
+        match harmonic {
+            true => range.harmonic(pitch, self.capo).map(|(fret, _)| fret),
+            false => range.fret(pitch).filter(|&fret| fret >= self.capo),
+        }
+    }
+
+    /// Whether a string gives a pitch.
+    pub(crate) fn reaches(&self, string: usize, pitch: f64, harmonic: bool) -> bool {
+        self.fret_at(string, pitch, harmonic).is_some()
+    }
+
+    /// The partial that a harmonic of a pitch is on a string.
+    pub(crate) fn order(&self, string: usize, pitch: f64) -> u32 {
+        self.strings.get(string).and_then(|range| range.harmonic(pitch, self.capo)).map_or(2, |found| found.1)
     }
 
     /// The pitch at which a key is played: its own, or the nearest octave that a string (or the only one
     /// allowed) can give.
-    pub(crate) fn playable_pitch(&self, key: u8, only: Option<usize>) -> Option<f64> {
+    pub(crate) fn playable_pitch(&self, key: u8, only: Option<usize>, harmonic: bool) -> Option<f64> {
         let strings = match only {
-            Some(string) => self.strings.get(string..string.checked_add(1)?)?,
-            None => &self.strings[..],
+            Some(string) => string..string.checked_add(1)?,
+            None => 0..self.strings.len(),
         };
-        let playable = |pitch: f64| strings.iter().any(|range| range.fret(pitch).is_some());
-        (0..=10)
-            .flat_map(|octave| {
-                [f64::from(key) + 12.0 * f64::from(octave), f64::from(key) - 12.0 * f64::from(octave)]
-            })
-            .find(|&pitch| playable(pitch))
+        let playable =
+            |pitch: f64| strings.clone().any(|string| self.fret_at(string, pitch, harmonic).is_some());
+        octaves(f64::from(key)).find(|&pitch| playable(pitch))
     }
 
     /// Finds strings for notes that begin together and moves the hand there. `placements` receives
@@ -290,8 +362,11 @@ impl Hand {
                 STEAL_YOUNGER * older as f64 + if key_down { STEAL_KEY } else { STEAL_PEDAL }
             }
         };
-        if fret == 0 {
-            return steal + (OPEN.0 * (position - 1) as f64).min(OPEN.1);
+        if note.harmonic && self.strings[string].is_deaf_to(fret, self.order(string, note.pitch)) {
+            return UNHEARD + steal;
+        }
+        if fret == self.capo {
+            return steal + (OPEN.0 * position.saturating_sub(self.capo + 1) as f64).min(OPEN.1);
         }
         let beyond = (position.saturating_sub(fret)).max((fret + 1).saturating_sub(position + SPAN));
         let reach = match beyond {
@@ -300,6 +375,11 @@ impl Hand {
         };
         steal + reach + HEIGHT * fret as f64
     }
+}
+
+/// A pitch and its octaves, nearest first.
+pub(crate) fn octaves(pitch: f64) -> impl Iterator<Item = f64> {
+    (0..=10).flat_map(move |octave| [pitch + 12.0 * f64::from(octave), pitch - 12.0 * f64::from(octave)])
 }
 
 #[cfg(test)]

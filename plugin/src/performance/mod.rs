@@ -1,32 +1,37 @@
 //! From notes to gestures: what a player makes of the music.
 //!
 //! [`Performance`] takes [`PlayerEvent`]s at sample times and hands out
-//! [`low_action_dsp::TimedGesture`]s: which string and fret (`hand`),
-//! what fingers and plucks a note takes from its start to its silence (`string`),
-//! what pedals and wheels say (`channel`) and do to it (`control`, `bend`), and how one pluck
+//! [`low_action_dsp::TimedGesture`]s: which string and fret (`hand`), notes that begin together or take over
+//! from one another (`chord`), what fingers and plucks a note takes from its start to its silence (`string`),
+//! how hands are told to play (`articulation`, `switches`), what pedals and wheels say (`channel`) and do to it (`control`, `bend`), and how one pluck
 //! differs from the next (`variation`). There are no host types here, nothing is allocated after
 //! construction, and the result depends only on the events and their times, not on how the time
 //! between them is cut into blocks.
 
+mod articulation;
 mod bend;
 mod channel;
+mod chord;
 mod control;
 mod event;
 mod fingers;
 mod hand;
+mod right_hand;
 mod string;
+mod switches;
 mod technique;
 mod variation;
 
-use low_action_dsp::setup::{Player, Setup};
+use low_action_dsp::setup::{Pickup, Player, Setup};
 use low_action_dsp::{Gesture, Instrument, StringGeometry, TimedGesture};
 
 use crate::controls::Touching;
 use channel::Channel;
+use chord::{Late, Struck};
 pub use control::InputMode;
 pub use event::{Expression, PlayerEvent};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
-use string::{Manner, Start, StringPlayer};
+use string::StringPlayer;
 pub use technique::VELOCITY_CURVE;
 use variation::Variation;
 
@@ -74,9 +79,11 @@ impl<S: GestureSink> Moment<'_, S> {
 /// What the player could not do as written.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Compromises {
-    /// Notes moved by octaves because no string gives them.
+    /// Notes moved by octaves because no string, or none that was left, gives them.
     pub moved_by_octaves: u64,
-    /// Notes left out because more began at one instant than there were strings for.
+    /// Notes that came a moment late because strings did not suffice for all of their instant.
+    pub arpeggiated: u64,
+    /// Notes left out because more began at one instant than anybody could play.
     pub left_out: u64,
 }
 
@@ -87,6 +94,10 @@ pub struct PlayedString {
     pub geometry: StringGeometry,
     /// Force of a fretting finger under which the string leaves the fret, N, fret 1 first.
     pub leaving_forces: Vec<f64>,
+    /// Whether fingers stop it on a bare board.
+    pub fretless: bool,
+    /// Where a coil hears it, m from the saddle, if that is what hears it.
+    pub coil: Option<f64>,
 }
 
 impl PlayedString {
@@ -104,7 +115,11 @@ impl PlayedString {
             tension * depth * (1.0 / finger + 1.0 / beyond)
         };
         let leaving_forces = geometry.frets.iter().enumerate().map(leaving_force).collect();
-        Self { geometry, leaving_forces }
+        let coil = match setup.pickup {
+            Pickup::Magnetic { position, .. } if setup.blend < 0.5 => Some(position),
+            _ => None,
+        };
+        Self { geometry, leaving_forces, fretless: setup.neck.fretless, coil }
     }
 }
 
@@ -120,19 +135,11 @@ pub struct Style {
     pub bend_range: f64,
 }
 
-/// A note-on waiting for the rest of its chord.
-#[derive(Debug, Clone, Copy)]
-struct Struck {
-    wanted: Wanted,
-    velocity: f64,
-    /// What the note has for itself, its channel's share included.
-    manner: Manner,
-}
-
 /// A player with an instrument in hand.
 #[derive(Debug, Clone)]
 pub struct Performance {
     strings: Vec<StringPlayer>,
+    sample_rate: f64,
     channels: [Channel; CHANNELS],
     hand: Hand,
     variation: Variation,
@@ -143,6 +150,14 @@ pub struct Performance {
     compromises: Compromises,
     /// Notes that began at `now` and are not placed yet.
     chord: Vec<Struck>,
+    /// Notes of a chord that wait until its strings are free.
+    late: Vec<Late>,
+    /// Whether the next stroke back and forth goes back.
+    upward: bool,
+    /// First of the keys that are keyswitches, if any are.
+    switches: Option<u8>,
+    /// The string that a keyswitch asks for.
+    forced: Option<usize>,
     now: u64,
     // Scratch of `begin_chord`.
     wanted: Vec<Wanted>,
@@ -154,9 +169,10 @@ impl Performance {
     /// A player who has touched nothing yet, with the hands the set-up describes. `strings` are in
     /// the instrument's order.
     pub fn new(strings: Vec<PlayedString>, hands: &Player, style: Style, sample_rate: f64) -> Self {
-        let ranges = strings.iter().map(|PlayedString { geometry, .. }| Range {
+        let ranges = strings.iter().map(|PlayedString { geometry, coil, .. }| Range {
             open_pitch: geometry.open_pitch,
             frets: geometry.frets.len(),
+            coil: coil.map(|from_saddle| from_saddle / geometry.length),
         });
         let count = strings.len();
         Self {
@@ -166,6 +182,7 @@ impl Performance {
                 .enumerate()
                 .map(|(index, string)| StringPlayer::new(index, string, hands.clone(), sample_rate))
                 .collect(),
+            sample_rate,
             channels: std::array::from_fn(|_| Channel::new(style.bend_range)),
             variation: Variation::new(style.variation, style.seed),
             input: InputMode::default(),
@@ -173,6 +190,10 @@ impl Performance {
             touching: Touching::new(style.variation, style.bend_range),
             compromises: Compromises::default(),
             chord: Vec::with_capacity(LARGEST_CHORD),
+            late: Vec::with_capacity(LARGEST_CHORD),
+            upward: false,
+            switches: None,
+            forced: None,
             now: 0,
             wanted: Vec::with_capacity(LARGEST_CHORD),
             uses: Vec::with_capacity(count),
@@ -190,7 +211,7 @@ impl Performance {
             }
             PlayerEvent::NoteOn { channel, key, .. } | PlayerEvent::NoteOff { channel, key } => {
                 self.begin_chord(out);
-                self.let_go(channel, key);
+                self.let_go(channel, key, out);
             }
             PlayerEvent::Controller { channel, number, value } => {
                 self.begin_chord(out);
@@ -207,6 +228,7 @@ impl Performance {
             PlayerEvent::Note { channel, key, expression } => self.express(channel, key, expression, out),
             PlayerEvent::AllNotesOff => {
                 self.begin_chord(out);
+                self.late.clear();
                 for string in &mut self.strings {
                     string.silence(time, None);
                 }
@@ -224,6 +246,9 @@ impl Performance {
         }
         let time = time.max(self.now);
         self.advance(time, out);
+        if touching.keyswitches != self.touching.keyswitches {
+            self.set_switches(touching.keyswitches);
+        }
         self.touching = *touching;
         self.variation.set_amount(touching.variation);
         for channel in &mut self.channels {
@@ -250,6 +275,9 @@ impl Performance {
         (self.compromises, self.now) = (old.compromises, old.now);
         self.chord.clear();
         self.chord.extend_from_slice(&old.chord);
+        self.late.clear();
+        self.late.extend_from_slice(&old.late);
+        (self.upward, self.switches, self.forced) = (old.upward, old.switches, old.forced);
         if strings_go_on {
             self.hand.take_over(&old.hand);
             for (string, old) in self.strings.iter_mut().zip(&old.strings) {
@@ -264,11 +292,16 @@ impl Performance {
     pub fn advance(&mut self, until: u64, out: &mut impl GestureSink) {
         if until > self.now {
             self.begin_chord(out);
-            for string in &mut self.strings {
-                string.advance(until, out);
-            }
-            self.now = until;
+            self.begin_late(until, out);
+            self.advance_strings(until, out);
         }
+    }
+
+    fn advance_strings(&mut self, until: u64, out: &mut impl GestureSink) {
+        for string in &mut self.strings {
+            string.advance(until, out);
+        }
+        self.now = until;
     }
 
     /// Whether a string sounds a key of a channel, held or kept by a pedal.
@@ -289,6 +322,10 @@ impl Performance {
         self.variation.reset();
         self.compromises = Compromises::default();
         self.chord.clear();
+        self.late.clear();
+        self.upward = false;
+        self.switches = self.touching.keyswitches;
+        self.forced = None;
         self.now = 0;
         self.pick_up_hands();
     }
@@ -301,75 +338,21 @@ impl Performance {
         }
     }
 
-    /// Notes a struck key; it is placed with all others of the same instant.
-    fn strike(&mut self, channel: u8, key: u8, velocity: f64) {
-        if usize::from(channel) >= CHANNELS {
-            return;
-        }
-        let twin =
-            self.chord.iter_mut().find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
-        if let Some(twin) = twin {
-            twin.velocity = twin.velocity.max(velocity);
-            return;
-        }
-        let only = match self.input {
-            InputMode::Strings { first, from_last } => {
-                let place = usize::from(channel).wrapping_sub(usize::from(first));
-                let last = self.strings.len().wrapping_sub(1);
-                Some(if from_last { last.wrapping_sub(place) } else { place })
-            }
-            _ => None,
-        };
-        match self.hand.playable_pitch(key, only) {
-            Some(pitch) if self.chord.len() < LARGEST_CHORD => {
-                self.compromises.moved_by_octaves += u64::from(pitch != f64::from(key));
-                let manner = self.channels[usize::from(channel)].manner;
-                self.chord.push(Struck { wanted: Wanted { channel, key, pitch, only }, velocity, manner });
-            }
-            _ => self.compromises.left_out += 1,
-        }
-    }
-
-    /// Places and plays the notes that began together at `now`.
-    fn begin_chord(&mut self, out: &mut impl GestureSink) {
-        if self.chord.is_empty() {
-            return;
-        }
-        let time = self.now;
-        self.uses.clear();
-        self.uses.extend(self.strings.iter().map(|string| string.usage(time)));
-        self.wanted.clear();
-        self.wanted.extend(self.chord.iter().map(|struck| struck.wanted));
-        self.placements.clear();
-        self.placements.resize(self.wanted.len(), None);
-        self.hand.place(&self.wanted, &self.uses, &mut self.placements);
-        for index in 0..self.chord.len() {
-            let struck = self.chord[index];
-            let Some(Placement { string, fret }) = self.placements[index] else {
-                self.compromises.left_out += 1;
-                continue;
-            };
-            let Wanted { channel, key, .. } = struck.wanted;
-            let deviation = self.variation.next();
-            let (strength, manner) = (self.touching.strength(struck.velocity), struck.manner);
-            let start = Start { channel, key, fret, strength, deviation, manner };
-            let bend = self.bend(channel);
-            self.strings[string].start(time, start, out);
-            self.strings[string].bend(time, channel, bend);
-        }
-        self.chord.clear();
-    }
-
     /// A key goes up.
-    fn let_go(&mut self, channel: u8, key: u8) {
-        if usize::from(channel) >= CHANNELS {
+    fn let_go(&mut self, channel: u8, key: u8, out: &mut impl GestureSink) {
+        if usize::from(channel) >= CHANNELS || self.release_switch(key) {
             return;
         }
         let pedal = self.pedal(channel);
         for string in &mut self.strings {
-            if string.release(self.now, channel, key, pedal) {
-                break;
+            if string.release(self.now, channel, key, pedal, out) {
+                return;
             }
+        }
+        // A note that has yet to come is heard nevertheless.
+        let waits = |late: &&mut Late| (late.struck.wanted.channel, late.struck.wanted.key) == (channel, key);
+        if let Some(late) = self.late.iter_mut().find(waits) {
+            late.released = true;
         }
     }
 }

@@ -1,19 +1,24 @@
 //! One string under two hands: a note's life as gestures at exact samples.
 //!
-//! A note begins with the finger landing behind its fret and the pluck, at once; a finger already
-//! there just stays. It ends under the edge of a hand that comes to rest on the string; only when the
-//! string is quiet do the fretting finger and then the hand ease off, so slowly that their going
-//! makes no sound. What is to happen later is kept here as deadlines, because the next note may come
-//! first and call it off.
+//! A note begins with the finger landing behind its fret and the stroke, at once; a finger already
+//! there just stays. Or it takes over from the one before by a hammer, a pull or a slide (`legato`). It
+//! ends under the edge of a hand that comes to rest on the string; only when the string is quiet do the
+//! fretting finger and then the hand ease off, so slowly that their going makes no sound. What is to
+//! happen later is kept here as deadlines, because the next note may come first and call it off.
+
+mod deeds;
+mod legato;
 
 use low_action_dsp::setup::Player;
 
+use super::articulation::{Articulation, Stop, Stroke};
 use super::bend::Bend;
 use super::fingers::Fingers;
 use super::hand::Use;
 use super::technique::*;
 use super::variation::Deviation;
 use super::{GestureSink, Moment, PlayedString};
+use deeds::{Deed, Deeds, Struck};
 
 /// A note to begin.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +35,21 @@ pub(crate) struct Start {
     pub deviation: Deviation,
     /// What the note has for itself.
     pub manner: Manner,
+    /// What the hands are told to do.
+    pub articulation: Articulation,
+    /// The partial that a harmonic is of what sounds.
+    pub order: u32,
+    /// How long the stroke has yet to go to this string, s.
+    pub wait: f64,
+    /// Factor of the force for this string of a strum.
+    pub accent: f64,
+}
+
+impl Start {
+    /// How hard the string is plucked, 1 for the hardest velocity, everything counted.
+    fn force(&self) -> f64 {
+        self.strength * self.deviation.force * self.manner.force * self.accent
+    }
 }
 
 /// What a note can have for itself, beside what holds for all.
@@ -64,6 +84,12 @@ struct Note {
     /// Sample of the last key press of this very note while it was already down. The note-off of
     /// the press before may come a moment later and must not end the new one.
     pressed_again: Option<u64>,
+    /// Its fret.
+    fret: usize,
+    /// How hard it was begun.
+    strength: f64,
+    /// How long a slide to the next note takes, s, if that is how they are connected.
+    slide: Option<f64>,
 }
 
 /// The steps by which a note is ended, in order.
@@ -90,7 +116,16 @@ pub(crate) struct StringPlayer {
     /// The next step of the last note's ending, and when.
     ending: Option<(u64, Ending)>,
     plucked_at: Option<u64>,
+    /// Notes whose keys are still down under the one that sounds, the latest last.
+    under: [Option<Note>; UNDER],
+    /// What is to be done to the present note.
+    deeds: Deeds,
+    /// Strokes a second of a tremolo, 0 for none.
+    tremolo: f64,
 }
+
+/// Most keys that are remembered under the one that sounds.
+const UNDER: usize = 8;
 
 impl StringPlayer {
     /// A string nobody touches.
@@ -103,6 +138,9 @@ impl StringPlayer {
             note: None,
             ending: None,
             plucked_at: None,
+            under: [None; UNDER],
+            deeds: Deeds::default(),
+            tremolo: 0.0,
         }
     }
 
@@ -113,6 +151,9 @@ impl StringPlayer {
         self.note = None;
         self.ending = None;
         self.plucked_at = None;
+        self.under = [None; UNDER];
+        self.deeds = Deeds::default();
+        self.tremolo = 0.0;
     }
 
     /// What the string is doing, for the choice of strings.
@@ -126,45 +167,91 @@ impl StringPlayer {
 
     /// Begins a note; one that sounds gives way.
     pub(crate) fn start(&mut self, time: u64, start: Start, out: &mut impl GestureSink) {
+        self.under = [None; UNDER];
+        self.deeds = Deeds::default();
+        let strength = start.force();
+        self.begin(time, &start, strength);
+        let mut at = self.moment(time, out);
+        let Articulation { mut stroke, stop, .. } = start.articulation;
+        self.fingers.press(start.manner.pressure, &mut at);
+        if stroke == Stroke::Tap && start.fret > self.fingers.capo() {
+            self.fingers.hammer(start.fret, strength, &mut at);
+        } else {
+            if stroke == Stroke::Tap {
+                stroke = Stroke::Down;
+            }
+            self.fingers.stop(start.fret, stop, strength, &mut at);
+            if stop == Stop::Harmonic {
+                self.fingers.touch_node(start.order, &mut at);
+                self.deeds.plan(at.after(start.wait + AT_NODE), Deed::LeaveNode);
+            }
+            let mut beside = start.deviation.place + start.manner.place;
+            if stop == Stop::Harmonic {
+                beside += self.fingers.towards_antinode(start.order);
+            }
+            let struck = Struck { stroke, strength, beside };
+            if start.wait > 0.0 {
+                self.deeds.plan(at.after(start.wait + start.deviation.delay), Deed::Strike(struck));
+            } else {
+                self.strike(struck, start.deviation.delay, &mut at);
+            }
+            if self.tremolo > 0.0 {
+                self.deeds.plan(at.after(start.wait + 1.0 / self.tremolo), Deed::Tremolo(struck));
+            }
+        }
+        self.follow(time, &start.manner);
+    }
+
+    /// Writes down that a note begins.
+    fn begin(&mut self, time: u64, start: &Start, strength: f64) {
         let pressed_again = self
             .note
             .filter(|note| note.key_down && (note.channel, note.key) == (start.channel, start.key))
             .map(|_| time);
+        let Articulation { slide, slide_time, stop, tremolo, .. } = start.articulation;
         self.note = Some(Note {
             channel: start.channel,
             key: start.key,
-            since: time,
+            since: time + self.samples(start.wait),
             key_down: true,
             caught: false,
             pressed_again,
+            fret: start.fret,
+            strength,
+            slide: (slide || stop == Stop::Bar).then_some(slide_time),
         });
+        self.tremolo = tremolo;
         self.bend.begin(start.channel);
         self.plucked_at = Some(time);
         self.ending = None;
-        let mut at = self.moment(time, out);
-        let Manner { place, force, pressure, tuning, vibrato } = start.manner;
-        let strength = start.strength * start.deviation.force * force;
-        self.fingers.press(pressure, &mut at);
-        self.fingers.stop(start.fret, strength, &mut at);
-        let pluck = self.fingers.pluck(strength, start.deviation.place + place);
-        at.does_later(start.deviation.delay, pluck);
-        self.bend.tune(time, tuning);
-        self.bend.set_vibrato(time, vibrato);
+    }
+
+    /// Bends the string as its new note has it.
+    fn follow(&mut self, time: u64, manner: &Manner) {
+        self.bend.tune(time, manner.tuning);
+        self.bend.set_vibrato(time, manner.vibrato);
     }
 
     /// Lets go of a key, if it is this string's. Under the pedal the note goes on.
-    pub(crate) fn release(&mut self, time: u64, channel: u8, key: u8, pedal: bool) -> bool {
+    pub(crate) fn release(
+        &mut self,
+        time: u64,
+        channel: u8,
+        key: u8,
+        pedal: bool,
+        out: &mut impl GestureSink,
+    ) -> bool {
         let near = self.samples(SHORTEST_NOTE);
         let Some(note) =
             self.note.as_mut().filter(|note| note.key_down && (note.channel, note.key) == (channel, key))
         else {
-            return false;
+            return self.release_under(channel, key);
         };
         if note.pressed_again.take().is_some_and(|pressed| time - pressed <= near) {
             return true;
         }
         note.key_down = false;
-        if !pedal && !note.caught {
+        if !pedal && !note.caught && !self.go_back(time, out) {
             self.end(time);
         }
         true
@@ -189,7 +276,8 @@ impl StringPlayer {
 
     /// Whether the string sounds a key of a channel.
     pub(crate) fn sounds(&self, channel: u8, key: u8) -> bool {
-        self.note.is_some_and(|note| (note.channel, note.key) == (channel, key))
+        let notes = self.under.iter().chain([&self.note]);
+        notes.flatten().any(|note| (note.channel, note.key) == (channel, key))
     }
 
     /// Channel of the string's last note, whose wheel and pedals count.
@@ -235,10 +323,35 @@ impl StringPlayer {
         self.fingers.take_over(&old.fingers);
         (self.bend, self.note, self.ending) = (old.bend, old.note, old.ending);
         self.plucked_at = old.plucked_at;
+        (self.under, self.deeds, self.tremolo) = (old.under, old.deeds, old.tremolo);
+    }
+
+    /// The hands act differently on the note that sounds, and on those to come.
+    pub(crate) fn set_touch(&mut self, time: u64, articulation: &Articulation, out: &mut impl GestureSink) {
+        let sounds = self.note.is_some();
+        let mut at = self.moment(time, out);
+        self.fingers.set_palm(articulation.palm, sounds, &mut at);
+        let before = std::mem::replace(&mut self.tremolo, articulation.tremolo);
+        if let Some(note) = self.note.filter(|_| before == 0.0 && self.tremolo > 0.0) {
+            let struck = Struck { stroke: Stroke::Down, strength: note.strength, beside: 0.0 };
+            self.deeds.plan(at.after(1.0 / self.tremolo), Deed::Tremolo(struck));
+        }
+    }
+
+    /// The palm rests so hard on notes to come, 0 to 1.
+    pub(crate) fn set_palm(&mut self, time: u64, palm: f64, out: &mut impl GestureSink) {
+        let mut at = self.moment(time, out);
+        self.fingers.set_palm(palm, false, &mut at);
+    }
+
+    /// A capo at this fret, 0 for none, from the next note on.
+    pub(crate) fn set_capo(&mut self, fret: usize) {
+        self.fingers.set_capo(fret);
     }
 
     /// Lets go of whatever key of a channel holds this string.
     pub(crate) fn release_channel(&mut self, time: u64, channel: u8, pedal: bool) {
+        self.under = self.under.map(|note| note.filter(|note| note.channel != channel));
         if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel) {
             note.key_down = false;
             if !pedal && !note.caught {
@@ -271,19 +384,24 @@ impl StringPlayer {
         loop {
             let ending = self.ending.filter(|&(time, _)| time < until);
             let bend = self.bend.due().filter(|&time| time < until);
-            if let Some((time, step)) = ending.filter(|&(time, _)| bend.is_none_or(|bend| time <= bend)) {
-                self.end_by(step, self.moment(time, out));
-            } else if let Some(time) = bend {
-                let mut at = self.moment(time, out);
+            let deed = self.deeds.next().filter(|&time| time < until);
+            let Some(first) = [ending.map(|ending| ending.0), bend, deed].into_iter().flatten().min() else {
+                return;
+            };
+            let mut at = self.moment(first, out);
+            if let Some((_, step)) = ending.filter(|&(time, _)| time == first) {
+                self.end_by(step, at);
+            } else if bend == Some(first) {
                 self.bend.send(&mut self.fingers, &mut at);
             } else {
-                return;
+                self.do_next(&mut at);
             }
         }
     }
 
     /// The note is over: it is damped now, or once it has been heard.
     fn end(&mut self, time: u64) {
+        self.under = [None; UNDER];
         let heard = self.note.take().map_or(0, |note| note.since + self.samples(SHORTEST_NOTE));
         self.ending = Some((time.max(heard), Ending::Damp));
     }
@@ -292,6 +410,7 @@ impl StringPlayer {
     fn end_by(&mut self, step: Ending, mut at: Moment<impl GestureSink>) {
         let next = match step {
             Ending::Damp => {
+                self.deeds = Deeds::default();
                 self.fingers.damp(&mut at);
                 let next = if self.fingers.frets() { Ending::EaseOff } else { Ending::Leave };
                 Some((RELAXING, next))
@@ -305,7 +424,7 @@ impl StringPlayer {
                 Some((DAMPER_EASING.turning, Ending::Gone))
             }
             Ending::Gone => {
-                self.fingers.gone();
+                self.fingers.gone(&mut at);
                 None
             }
         };

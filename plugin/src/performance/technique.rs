@@ -1,6 +1,6 @@
 //! How the player moves: the constants of playing that no set-up changes.
 
-use low_action_dsp::FingerSlot;
+use low_action_dsp::{FingerSlot, Touch};
 
 /// Slots the fretting fingers take in turn: a new finger lands in one while the last is being lifted
 /// from the other, and the free one damps behind the finger when the note ends.
@@ -9,6 +9,10 @@ pub(crate) const FRETTING_SLOTS: usize = 2;
 /// part of the set-up's damper position. One point alone would leave the partials ringing that have
 /// a node there; a hand is wide, and a partial with nodes at both places is high and dies by itself.
 pub(crate) const DAMPERS: [(FingerSlot, f64); 2] = [(2, 1.0), (3, 0.37)];
+/// Slot of the palm, or the thumb, of the hand that plucks.
+pub(crate) const RIGHT_HAND: FingerSlot = 4;
+/// Slot of a capo.
+pub(crate) const CAPO: FingerSlot = 5;
 /// Where another damper rests behind a fretting finger, as a part of the way from the nut: what rings
 /// there is hardly heard until the finger leaves and lets it out.
 pub(crate) const BEHIND_FINGER: f64 = 0.62;
@@ -46,6 +50,11 @@ pub(crate) const QUICK_LIFT: Leaving = Leaving { speed: 0.5, turning: 0.001 };
 /// which a loud pluck covers and a soft one does not; setting it down slowly lets the open string be
 /// heard before the stopped one.
 pub(crate) const HASTE: f64 = 5.0;
+/// How much more the hand holds back the finger of the softest notes, up to the first of these strengths
+/// (velocity 20), and the one from which on it does not (velocity 29): between them the landing would drown
+/// the pluck, and held back more it would come after it.
+pub(crate) const SOFTEST_LANDING: f64 = 0.7;
+pub(crate) const SOFT: (f64, f64) = (0.0625, 0.11);
 /// How long the dampers rest before the fretting finger begins to leave, s, while it relaxes: 40 dB
 /// take 0.15 s, and a hand that relaxes as fast as that is itself heard through a bridge.
 pub(crate) const RELAXING: f64 = 0.4;
@@ -74,3 +83,100 @@ pub(crate) const VIBRATO_STEP: f64 = 0.012;
 pub(crate) const FIRMEST: f64 = 2.5;
 /// How far brightness moves the pluck from its usual place, m: towards the saddle at full, away at none.
 pub(crate) const BRIGHTNESS_REACH: f64 = 0.08;
+
+/// How fast a finger comes that is to make a string sound by itself, m/s: at the softest, and added at the
+/// hardest. Fingertips reach 1 to 2 m/s.
+pub(crate) const HAMMER_SPEED: (f64, f64) = (0.15, 1.6);
+/// How much of the landing speed the hand behind it would keep up by its force alone: the finger is thrown,
+/// and held back enough not to bounce.
+pub(crate) const HAMMER_GRIP: f64 = 0.5;
+/// Time in which it comes to press, s.
+pub(crate) const HAMMER_LANDING: f64 = 0.001;
+/// How fast a finger that is only held down behind another relaxes, and presses again, s: pressed on, it would
+/// stretch the string and raise the note.
+pub(crate) const ANCHOR_RAMP: (f64, f64) = (0.02, 0.003);
+/// How fast a finger is set down behind another, m/s: before that one has left.
+pub(crate) const BEHIND_SPEED: f64 = 0.5;
+/// How hard a finger that pulls off plucks the string, as a part of the usual pluck, and for how long, s.
+pub(crate) const PULL_OFF: (f64, f64) = (0.8, 0.002);
+/// Farthest a hammer or a pull reaches, frets: from the first finger to the last, stretched.
+pub(crate) const HAMMER_REACH: usize = 5;
+/// Farthest a slide goes, frets; what lies beyond is plucked anew.
+pub(crate) const SLIDE_REACH: usize = 12;
+
+/// How long a light finger stays at a node, s, and how it leaves.
+pub(crate) const AT_NODE: f64 = 0.12;
+/// How light: the damping of its pad as a multiple of a match with the string.
+pub(crate) const NODE_TOUCH: f64 = 1.0;
+/// How a finger leaves that hardly bends the string.
+pub(crate) const NODE_LIFT: Leaving = Leaving { speed: 0.02, turning: 0.05 };
+/// Semitones by which a natural harmonic may be off the key that asks for it.
+pub(crate) const NEAR_ENOUGH: f64 = 0.2;
+/// The highest partial played as a natural harmonic.
+pub(crate) const HIGHEST_HARMONIC: u32 = 8;
+/// Part of its largest motion under which a pickup hardly hears a partial.
+pub(crate) const DEAF: f64 = 0.2;
+/// How a resting finger mutes: a match with the string.
+pub(crate) const MUTE: f64 = 1.0;
+
+/// Force, duration (as factors of the usual pluck) and shift towards the saddle (m) of a stroke back: less
+/// of the plectrum is under the string.
+pub(crate) const UP_STROKE: [f64; 3] = [0.85, 0.8, 0.004];
+/// Of a rest stroke: towards the board, with the flesh.
+pub(crate) const REST_STROKE: [f64; 3] = [-0.8, 1.5, 0.0];
+/// Of a pop: three times as hard as a pluck.
+pub(crate) const POP: [f64; 3] = [3.0, 1.0, 0.0];
+
+/// How far the palm reaches from the saddle at the least and at full pressure, as a part of the length: 2 to
+/// 6 cm on guitars, and no farther than this part of the way to the pluck.
+pub(crate) const PALM_PLACE: (f64, f64) = (0.03, 0.09);
+pub(crate) const PALM_BEFORE_PLUCK: f64 = 0.7;
+/// Force of the palm then, as multiples of a match with the string. A damper R at a part x of the length takes
+/// most out of the fundamental where R is a π-th of 1/x wave impedances: 3.5 of them, 1.8 matches, at the
+/// farthest place.
+pub(crate) const PALM_FORCE: (f64, f64) = (0.25, 2.0);
+/// How fast the palm's force is there at a stroke, and how fast it follows its controller, s.
+pub(crate) const PALM_LANDING: f64 = 0.001;
+pub(crate) const PALM_RAMP: f64 = 0.03;
+
+/// The joint of a thumb, bone under thin flesh.
+pub(crate) const THUMB: Touch =
+    Touch { mass: 0.012, stiffness: 3e6, exponent: 1.8, damping: 0.2, hand_damping: 0.5 };
+/// How fast it comes, m/s: at the softest, and added at the hardest.
+pub(crate) const SLAP_SPEED: (f64, f64) = (0.05, 1.6);
+/// From how high, m.
+pub(crate) const SLAP_CLEARANCE: f64 = 5e-4;
+/// What presses it at the hardest while it is on the string, N, what lifts it, N, and when, s.
+pub(crate) const SLAP_FORCE: f64 = 2.0;
+pub(crate) const SLAP_BOUNCE: f64 = 12.0;
+pub(crate) const SLAP_TIME: f64 = 0.005;
+/// How far past the last fret it falls, as a part of the length.
+pub(crate) const PAST_LAST_FRET: f64 = 0.012;
+
+/// Lowest and highest partial that a thumb beside the plectrum lets through.
+pub(crate) const PINCHED: (f64, f64) = (3.0, 9.0);
+/// How firmly it grazes, as a multiple of a match with the string, and how long, s.
+pub(crate) const GRAZE: f64 = 1.0;
+pub(crate) const GRAZE_TIME: f64 = 0.04;
+/// Where the plectrum is then, as a part of the way from the saddle to the thumb.
+pub(crate) const BESIDE_THUMB: f64 = 0.75;
+
+/// A steel bar of 250 g in a hand that lets it come to rest on a string without a bounce.
+pub(crate) const BAR: Touch =
+    Touch { mass: 0.25, stiffness: 1e8, exponent: 1.5, damping: 0.05, hand_damping: 25.0 };
+/// How fast it comes down on a string, m/s.
+pub(crate) const BAR_SPEED: f64 = 0.05;
+/// Its weight on one string, N; and the largest part of what brings the string to the fret that may be used.
+pub(crate) const BAR_WEIGHT: f64 = 0.25;
+pub(crate) const BAR_SHARE: f64 = 0.5;
+
+/// How long the rest of a chord waits that has more notes than strings, s from note to note.
+pub(crate) const ARPEGGIO: f64 = 0.07;
+/// Most notes at one instant that are spread in time if strings do not suffice: more than ten fingers play.
+pub(crate) const LARGEST_ARPEGGIO: usize = 12;
+/// Where a hand mutes an open string, as a part of its length from the nut: away from the nodes of low
+/// partials.
+pub(crate) const MUTED_OPEN: f64 = 0.29;
+
+/// Largest part by which a strum grows or falls on its way.
+pub(crate) const STRUM_ACCENT: f64 = 0.7;

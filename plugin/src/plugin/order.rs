@@ -6,7 +6,9 @@ use nice_plug::prelude::*;
 use super::shelf::{self, Shelf};
 use crate::controls::{Luthier, Touching};
 use crate::engine::EngineOptions;
-use crate::params::{ControlParams, InputChoice, InstrumentChoice, LowActionParams, StringOrder, exact};
+use crate::params::{
+    ControlParams, InputChoice, InstrumentChoice, LegatoChoice, LowActionParams, StringOrder, exact,
+};
 use crate::performance::InputMode;
 
 /// What an engine is built from.
@@ -97,6 +99,8 @@ pub(super) fn touching(params: &LowActionParams) -> Touching {
         bend_range: f64::from(control.bend_range.value()),
         ignore_rpn: control.ignore_rpn.value(),
         tremolo_arm: exact(&control.tremolo_arm),
+        legato: control.legato.value() == LegatoChoice::Always,
+        keyswitches: u8::try_from(control.keyswitches.value()).ok(),
     }
 }
 

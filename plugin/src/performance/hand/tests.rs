@@ -5,12 +5,14 @@ use super::*;
 /// E4 B3 G3 D3 A2 E2 with 22 frets, string 0 the highest.
 fn guitar() -> Hand {
     let pitches = [64.0, 59.0, 55.0, 50.0, 45.0, 40.0];
-    Hand::new(pitches.map(|open_pitch| Range { open_pitch, frets: 22 }).to_vec())
+    Hand::new(pitches.map(|open_pitch| Range { open_pitch, frets: 22, coil: None }).to_vec())
 }
 
 fn play(hand: &mut Hand, keys: &[u8], uses: &[Use]) -> Vec<Option<(usize, usize)>> {
-    let wanted: Vec<Wanted> =
-        keys.iter().map(|&key| Wanted { channel: 0, key, pitch: f64::from(key), only: None }).collect();
+    let wanted: Vec<Wanted> = keys
+        .iter()
+        .map(|&key| Wanted { channel: 0, key, pitch: f64::from(key), only: None, harmonic: false })
+        .collect();
     let mut placements = vec![None; keys.len()];
     hand.place(&wanted, uses, &mut placements);
     placements.iter().map(|place| place.map(|place| (place.string, place.fret))).collect()
@@ -89,11 +91,11 @@ fn of_too_many_notes_the_outer_ones_stay() {
 #[test]
 fn keys_out_of_range_move_by_octaves() {
     let hand = guitar();
-    assert_eq!(hand.playable_pitch(60, None), Some(60.0));
-    assert_eq!(hand.playable_pitch(39, None), Some(51.0));
-    assert_eq!(hand.playable_pitch(0, None), Some(48.0));
-    assert_eq!(hand.playable_pitch(127, None), Some(79.0));
-    assert_eq!(hand.playable_pitch(87, None), Some(75.0));
+    assert_eq!(hand.playable_pitch(60, None, false), Some(60.0));
+    assert_eq!(hand.playable_pitch(39, None, false), Some(51.0));
+    assert_eq!(hand.playable_pitch(0, None, false), Some(48.0));
+    assert_eq!(hand.playable_pitch(127, None, false), Some(79.0));
+    assert_eq!(hand.playable_pitch(87, None, false), Some(75.0));
 }
 
 #[test]

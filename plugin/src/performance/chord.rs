@@ -1,0 +1,241 @@
+//! Notes that begin together, and notes that take over from one another.
+//!
+//! **Chords** are placed as a whole (`hand`). Of a chord that does not fit on the strings, up to twelve notes, a
+//! note that found none is moved to the nearest octave that a free string gives, the string nearest to the
+//! hand. If no string is left it comes a moment later, one after another, and takes the string of a note that
+//! has been heard. Of more than twelve at one instant the rest is left out, and counted.
+//!
+//! **Strums**: the right hand goes over the strings at one speed, towards the high ones or back, and reaches
+//! the first at once.
+//!
+//! **Legato**: a note that begins alone while the latest one of its channel is held is played on that note's
+//! string, if it is there and near enough.
+
+use super::articulation::{Articulation, Stop, Stroke};
+use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
+use super::string::{Manner, Start};
+use super::technique::*;
+use super::{CHANNELS, GestureSink, InputMode, Performance};
+
+/// A note-on waiting for the rest of its chord.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Struck {
+    pub wanted: Wanted,
+    pub velocity: f64,
+    /// What the note has for itself, its channel's share included.
+    pub manner: Manner,
+    pub articulation: Articulation,
+}
+
+/// A note that comes late.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Late {
+    pub time: u64,
+    pub struck: Struck,
+    /// Whether its key has gone up already.
+    pub released: bool,
+}
+
+/// The way of the right hand over the strings of a chord.
+struct Strum {
+    /// The strings at both ends, the one struck first first.
+    ends: [usize; 2],
+    /// Time from one string to the next, s.
+    step: f64,
+}
+
+impl Performance {
+    /// Notes a struck key; it is placed with all others of the same instant.
+    pub(super) fn strike(&mut self, channel: u8, key: u8, velocity: f64) {
+        if usize::from(channel) >= CHANNELS || self.press_switch(channel, key) {
+            return;
+        }
+        let twin =
+            self.chord.iter_mut().find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
+        if let Some(twin) = twin {
+            twin.velocity = twin.velocity.max(velocity);
+            return;
+        }
+        let Articulation { stop, .. } = self.channels[usize::from(channel)].articulation;
+        let harmonic = stop == Stop::Harmonic;
+        let only = match self.input {
+            InputMode::Strings { first, from_last } => {
+                let place = usize::from(channel).wrapping_sub(usize::from(first));
+                let last = self.strings.len().wrapping_sub(1);
+                Some(if from_last { last.wrapping_sub(place) } else { place })
+            }
+            _ => self.forced.filter(|&string| self.hand.reaches(string, f64::from(key), harmonic)),
+        };
+        match self.hand.playable_pitch(key, only, harmonic) {
+            Some(pitch) if self.chord.len() < LARGEST_CHORD => {
+                self.compromises.moved_by_octaves += u64::from(pitch != f64::from(key));
+                let wanted = Wanted { channel, key, pitch, only, harmonic };
+                let own = &self.channels[usize::from(channel)];
+                let (manner, articulation) = (own.manner, own.articulation);
+                self.chord.push(Struck { wanted, velocity, manner, articulation });
+            }
+            _ => self.compromises.left_out += 1,
+        }
+    }
+
+    /// Places and plays the notes that began together at `now`.
+    pub(super) fn begin_chord(&mut self, out: &mut impl GestureSink) {
+        if self.chord.is_empty() || self.take_over_note(out) {
+            return;
+        }
+        let time = self.now;
+        self.uses.clear();
+        self.uses.extend(self.strings.iter().map(|string| string.usage(time)));
+        self.wanted.clear();
+        self.wanted.extend(self.chord.iter().map(|struck| struck.wanted));
+        self.placements.clear();
+        self.placements.resize(self.wanted.len(), None);
+        self.hand.place(&self.wanted, &self.uses, &mut self.placements);
+        self.find_other_ways();
+        let strum = self.strum();
+        for index in 0..self.chord.len() {
+            let Some(placement) = self.placements[index] else { continue };
+            let start = self.start(index, placement, strum.as_ref());
+            let (channel, string) = (start.channel, placement.string);
+            let (bend, palm) = (self.bend(channel), start.articulation.palm);
+            self.strings[string].set_palm(time, palm, out);
+            self.strings[string].start(time, start, out);
+            self.strings[string].bend(time, channel, bend);
+        }
+        if self.chord.iter().any(|struck| struck.articulation.stroke == Stroke::Alternate) {
+            self.upward = !self.upward;
+        }
+        self.chord.clear();
+    }
+
+    /// What a string is told of the note of the chord that is placed there.
+    fn start(&mut self, index: usize, placement: Placement, strum: Option<&Strum>) -> Start {
+        let Struck { wanted, velocity, manner, mut articulation } = self.chord[index];
+        if articulation.stroke == Stroke::Alternate {
+            articulation.stroke = if self.upward { Stroke::Up } else { Stroke::Down };
+        }
+        let Placement { string, fret } = placement;
+        let (mut wait, mut accent) = (0.0, 1.0);
+        if let Some(&Strum { ends: [first, last], step }) = strum {
+            let way = first.abs_diff(string) as f64;
+            wait = step * way;
+            let part = way / first.abs_diff(last).max(1) as f64;
+            accent += STRUM_ACCENT * articulation.accent * (2.0 * part - 1.0);
+        }
+        Start {
+            channel: wanted.channel,
+            key: wanted.key,
+            fret,
+            strength: self.touching.strength(velocity),
+            deviation: self.variation.next(),
+            manner,
+            articulation,
+            order: self.hand.order(string, wanted.pitch),
+            wait,
+            accent,
+        }
+    }
+
+    /// How the hand goes over the strings of the chord, if that takes time.
+    fn strum(&self) -> Option<Strum> {
+        let articulation = self.chord.first()?.articulation;
+        let strings = self.placements.iter().flatten().map(|placement| placement.string);
+        let (high, low) = (strings.clone().min()?, strings.max()?);
+        if articulation.strum <= 0.0 || high == low {
+            return None;
+        }
+        let back = match articulation.stroke {
+            Stroke::Up => true,
+            Stroke::Alternate => self.upward,
+            _ => false,
+        };
+        let ends = if back { [high, low] } else { [low, high] };
+        Some(Strum { ends, step: articulation.strum / self.strings.len().saturating_sub(1).max(1) as f64 })
+    }
+
+    /// Finds other ways for notes of the chord that have no string: another octave, or another time.
+    fn find_other_ways(&mut self) {
+        let mut late = 0;
+        for index in 0..self.chord.len() {
+            if self.placements[index].is_some() {
+                continue;
+            }
+            if self.chord.len() > LARGEST_ARPEGGIO || self.late.len() == LARGEST_CHORD {
+                self.compromises.left_out += 1;
+            } else if let Some(placement) = self.revoiced(index) {
+                self.placements[index] = Some(placement);
+                self.compromises.moved_by_octaves += 1;
+            } else {
+                late += 1;
+                let time = self.now + (f64::from(late) * ARPEGGIO * self.sample_rate).round() as u64;
+                self.late.push(Late { time, struck: self.chord[index], released: false });
+                self.compromises.arpeggiated += 1;
+            }
+        }
+    }
+
+    /// The nearest octave of a note that a free string gives, on the one nearest to the hand.
+    fn revoiced(&mut self, index: usize) -> Option<Placement> {
+        let wanted = self.chord[index].wanted;
+        octaves(wanted.pitch).find_map(|pitch| {
+            let moved = Wanted { pitch, ..wanted };
+            let free = |string: &usize| {
+                self.uses[*string] == Use::Free
+                    && self.placements.iter().flatten().all(|placement| placement.string != *string)
+            };
+            let placed = |string: usize| Some(Placement { string, fret: self.hand.fret(&moved, string)? });
+            let found = (0..self.strings.len())
+                .filter(free)
+                .filter_map(placed)
+                .min_by_key(|placement| self.hand.distance(placement.fret))?;
+            self.chord[index].wanted = moved;
+            Some(found)
+        })
+    }
+
+    /// Plays the notes that come late and are due before sample `until`.
+    pub(super) fn begin_late(&mut self, until: u64, out: &mut impl GestureSink) {
+        loop {
+            let due = self.late.iter().enumerate().filter(|(_, late)| late.time < until);
+            let Some((index, &late)) = due.min_by_key(|(_, late)| late.time) else { return };
+            self.late.remove(index);
+            self.advance_strings(late.time.max(self.now), out);
+            let Wanted { channel, key, .. } = late.struck.wanted;
+            self.chord.push(late.struck);
+            self.begin_chord(out);
+            if late.released {
+                self.let_go(channel, key, out);
+            }
+        }
+    }
+
+    /// A note that begins alone takes over from the latest one of its channel, if that is held, notes are
+    /// to be connected, and its string gives the new one within reach.
+    fn take_over_note(&mut self, out: &mut impl GestureSink) -> bool {
+        let [Struck { wanted, articulation, .. }] = self.chord[..] else { return false };
+        let connected = articulation.legato || self.touching.legato;
+        if !connected || articulation.stop == Stop::Harmonic || articulation.stop == Stop::Mute {
+            return false;
+        }
+        let channel = (!self.is_mpe()).then_some(wanted.channel);
+        let held = self.strings.iter().enumerate().filter_map(|(index, string)| {
+            let (since, fret) = string.held(channel)?;
+            Some((since, index, fret))
+        });
+        let Some((_, string, from)) = held.max_by_key(|&(since, ..)| since) else { return false };
+        let Some(fret) = self.hand.fret(&wanted, string) else { return false };
+        let open = from.min(fret) <= self.hand.capo();
+        let slides = articulation.slide || articulation.stop == Stop::Bar;
+        let reach = if slides || open { SLIDE_REACH } else { HAMMER_REACH };
+        if fret == from || fret.abs_diff(from) > reach {
+            return false;
+        }
+        let start = self.start(0, Placement { string, fret }, None);
+        let (time, bend) = (self.now, self.bend(wanted.channel));
+        self.hand.follow(fret);
+        self.strings[string].connect(time, start, out);
+        self.strings[string].bend(time, wanted.channel, bend);
+        self.chord.clear();
+        true
+    }
+}

@@ -1,0 +1,134 @@
+//! From one note to the next without the right hand: hammers, pulls, slides and glides.
+
+use low_action_dsp::Gesture;
+
+use super::{Finger, Fingers, lifting};
+use crate::performance::technique::*;
+use crate::performance::{GestureSink, Moment};
+
+impl Fingers {
+    /// The string goes on sounding from another fret: by a slide of so many seconds if the finger can, or
+    /// else by a hammer or a pull, how hard, 0 to 1.
+    pub(crate) fn change(
+        &mut self,
+        fret: usize,
+        slide: Option<f64>,
+        strength: f64,
+        at: &mut Moment<impl GestureSink>,
+    ) {
+        let stopped = self.slidable().map_or(self.capo[1], |finger| finger.fret);
+        match slide.filter(|_| fret > self.capo[1] && self.slidable().is_some()) {
+            _ if fret == stopped => {}
+            Some(duration) => self.slide_to(fret, duration, at),
+            None if fret > stopped => self.hammer(fret, strength, at),
+            None => self.pull_off(fret, strength, at),
+        }
+    }
+
+    /// A finger comes down so fast that the string sounds by it: how hard, 0 to 1. One that stops a lower
+    /// fret stays down behind it.
+    pub(crate) fn hammer(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
+        self.make_way(at);
+        self.lay_capo(at);
+        let before = self.fretting.take();
+        // An anchor there was has the slot that the new finger takes.
+        self.anchor = before.filter(|old| old.fret < fret && !old.bar && !old.eased);
+        match (self.anchor, before) {
+            (Some(anchor), _) => {
+                let holding = HOLDING * self.leaving_force(anchor.fret);
+                let force = holding.min(self.force());
+                at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.0 });
+            }
+            (None, Some(old)) => at.does(lifting(old.slot, old.touch, QUICK_LIFT)),
+            (None, None) => {}
+        }
+        self.come_down(fret, HAMMER_SPEED.0 + HAMMER_SPEED.1 * strength, at);
+    }
+
+    /// The finger that sounds plucks the string as it leaves, how hard, 0 to 1; one behind it, or the nut,
+    /// stops the string then.
+    pub(crate) fn pull_off(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
+        self.make_way(at);
+        let Some(old) = self.fretting.take() else { return };
+        self.home = fret;
+        self.glided = 0.0;
+        self.next_slot = (old.slot + 1) % FRETTING_SLOTS;
+        match self.anchor.take() {
+            Some(anchor) if anchor.fret == fret => {
+                self.fretting = Some(anchor);
+                self.next_slot = old.slot;
+                let force = self.force();
+                at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.1 });
+            }
+            // The slot of an anchor elsewhere is the one that the new finger takes.
+            _ if fret > self.capo[1] => self.come_down(fret, BEHIND_SPEED, at),
+            Some(anchor) => at.does(lifting(anchor.slot, anchor.touch, QUICK_LIFT)),
+            None => {}
+        }
+        let (part, duration) = PULL_OFF;
+        let force = part * strength * self.hands.pluck_force;
+        at.does(Gesture::Pluck { position: self.place(old.fret, old.bar), force, duration });
+        at.does(lifting(old.slot, old.touch, QUICK_LIFT));
+    }
+
+    /// Throws a finger at the string behind a fret.
+    fn come_down(&mut self, fret: usize, speed: f64, at: &mut Moment<impl GestureSink>) {
+        let force = self.force();
+        let mut touch = self.hands.fretting.touch;
+        touch.hand_damping = touch.hand_damping.min(force / (HAMMER_GRIP * speed));
+        (self.home, self.glided) = (fret, 0.0);
+        let finger = self.take_slot(fret, touch, false);
+        let (position, clearance) = (self.geometry.finger_position(fret), self.hands.fretting.hover);
+        at.does(Gesture::Throw { finger, touch, position, clearance, speed });
+        at.does(Gesture::Press { finger, force, duration: HAMMER_LANDING });
+    }
+
+    /// The finger that sounds slides to another fret, which is the note's own from then on.
+    pub(crate) fn slide_to(&mut self, fret: usize, duration: f64, at: &mut Moment<impl GestureSink>) {
+        if let Some(anchor) = self.anchor.take() {
+            at.does(lifting(anchor.slot, anchor.touch, NODE_LIFT));
+        }
+        (self.home, self.glided) = (fret, 0.0);
+        self.slide(0, duration, at);
+    }
+
+    /// Slides the fretting finger so many frets away from where the note began, as far as there are frets.
+    /// Gives back how many it is away then; an open string cannot be slid.
+    pub(crate) fn slide(&mut self, frets: i32, duration: f64, at: &mut Moment<impl GestureSink>) -> i32 {
+        let last = self.geometry.frets.len() as i32;
+        let first = self.capo[1] as i32 + 1;
+        let Some(Finger { slot, fret: at_fret, bar, .. }) = self.slidable() else { return 0 };
+        let fret = (self.home as i32 + frets).clamp(first.min(last), last);
+        if fret as usize != at_fret {
+            if let Some(finger) = &mut self.fretting {
+                finger.fret = fret as usize;
+            }
+            let position = self.place(fret as usize, bar);
+            at.does(Gesture::Slide { finger: slot, position, duration });
+        }
+        fret - self.home as i32
+    }
+
+    fn slidable(&self) -> Option<Finger> {
+        self.fretting.filter(|finger| !finger.eased)
+    }
+
+    /// Whether nothing keeps the finger on frets, so that it is moved where others pull the string.
+    pub(crate) fn glides(&self) -> bool {
+        self.slidable().is_some_and(|finger| finger.bar || self.fretless)
+    }
+
+    /// Moves a finger that glides to so many semitones from its note.
+    pub(crate) fn glide(&mut self, semitones: f64, duration: f64, at: &mut Moment<impl GestureSink>) {
+        let Some(finger) = self.slidable().filter(|_| semitones != self.glided) else { return };
+        self.glided = semitones;
+        let last = self.geometry.frets.len() as f64;
+        let fret = (finger.fret as f64 + semitones).clamp(0.3, last);
+        // Between two frets the sounding length goes by equal factors.
+        let (below, part) = (fret.floor(), fret - fret.floor());
+        let sounding = |fret: f64| self.geometry.length - self.place(fret as usize, finger.bar);
+        let (long, short) = (sounding(below), sounding((below + 1.0).min(last)));
+        let position = self.geometry.length - long * libm::pow(short / long, part);
+        at.does(Gesture::Slide { finger: finger.slot, position, duration });
+    }
+}

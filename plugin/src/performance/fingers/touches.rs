@@ -1,0 +1,127 @@
+//! What touches a string beside the finger behind the fret: a light finger at a node, a muting one, a bar,
+//! a capo, the thumb.
+
+use low_action_dsp::Gesture;
+
+use super::{Fingers, lift_force, lifting};
+use crate::performance::right_hand::Field;
+use crate::performance::technique::*;
+use crate::performance::{GestureSink, Moment};
+
+impl Fingers {
+    /// A light finger touches the node of partial `order` of what sounds, the one nearest to the left hand.
+    pub(crate) fn touch_node(&mut self, order: u32, at: &mut Moment<impl GestureSink>) {
+        let sounding = self.sounding_length();
+        let position = self.geometry.length - sounding + sounding / f64::from(order.max(2));
+        self.touch_lightly(position, NODE_TOUCH, at);
+    }
+
+    /// How far from its usual place a pluck must fall not to miss partial `order` of what sounds, m, negative
+    /// towards the saddle: at the partial's antinode there.
+    pub(crate) fn towards_antinode(&self, order: u32) -> f64 {
+        let antinode = 0.5 * self.sounding_length() / f64::from(order.max(2));
+        (antinode - self.hands.pluck_position).min(0.0)
+    }
+
+    /// A finger rests on the string over a fret, or where a hand would lie over an open string.
+    pub(super) fn mute(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
+        let position = match fret > self.capo[1] {
+            true => self.geometry.finger_position(fret),
+            false => MUTED_OPEN * self.geometry.length,
+        };
+        self.touch_lightly(position, MUTE, at);
+    }
+
+    fn touch_lightly(&mut self, position: f64, times: f64, at: &mut Moment<impl GestureSink>) {
+        let sounding = self.sounding_length();
+        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        let (touch, force) = field.matched(times);
+        let finger = self.next_slot;
+        self.light = Some(finger);
+        at.does(Gesture::Place { finger, touch, position, clearance: 0.0 });
+        at.does(Gesture::Press { finger, force, duration: PALM_LANDING });
+    }
+
+    /// The light finger goes.
+    pub(crate) fn leave_node(&mut self, at: &mut Moment<impl GestureSink>) {
+        if let Some(slot) = self.light.take() {
+            at.does(lifting(slot, self.hands.damper.touch, NODE_LIFT));
+        }
+    }
+
+    /// Lays a bar over a fret, too light to touch it.
+    pub(super) fn lay_bar(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
+        let force = self.bar_force(fret);
+        let finger = self.take_slot(fret, BAR, true);
+        let position = self.place(fret, true);
+        at.does(Gesture::Throw { finger, touch: BAR, position, clearance: 0.0, speed: BAR_SPEED });
+        at.does(Gesture::Press { finger, force, duration: 0.0 });
+    }
+
+    /// What a bar presses a string with over a fret, N: its weight, or less where the string would touch the
+    /// fret.
+    pub(super) fn bar_force(&self, fret: usize) -> f64 {
+        (BAR_SHARE * self.leaving_force(fret)).min(BAR_WEIGHT)
+    }
+
+    /// Sees to it that the capo is where it should be.
+    pub(super) fn lay_capo(&mut self, at: &mut Moment<impl GestureSink>) {
+        let [wanted, there] = self.capo;
+        self.capo[1] = wanted;
+        let touch = self.hands.fretting.touch;
+        if wanted == 0 {
+            if there > 0 {
+                at.does(lifting(CAPO, touch, QUICK_LIFT));
+            }
+            return;
+        }
+        if wanted != there {
+            let position = self.geometry.finger_position(wanted);
+            at.does(Gesture::Place { finger: CAPO, touch, position, clearance: self.hands.fretting.hover });
+        }
+        let force = self.hands.fretting.force;
+        at.does(Gesture::Press { finger: CAPO, force, duration: self.hands.fretting.landing });
+    }
+
+    /// The capo of a string that has come to rest eases off: nothing is computed for a string that nobody
+    /// plays.
+    pub(super) fn ease_capo(&mut self, at: &mut Moment<impl GestureSink>) {
+        if self.capo[1] > 0 {
+            let force = -lift_force(self.hands.fretting.touch, FINGER_EASING);
+            at.does(Gesture::Press { finger: CAPO, force, duration: FINGER_EASING.turning });
+        }
+    }
+
+    /// And goes.
+    pub(super) fn lift_capo(&mut self, at: &mut Moment<impl GestureSink>) {
+        if std::mem::take(&mut self.capo[1]) > 0 {
+            at.does(lifting(CAPO, self.hands.fretting.touch, FINGER_EASING));
+        }
+    }
+
+    /// The thumb is thrown at the string, how hard, 0 to 1; gives the time after which it bounces off, s.
+    pub(crate) fn slap(&mut self, strength: f64, at: &mut Moment<impl GestureSink>) -> f64 {
+        let sounding = self.sounding_length();
+        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        self.right.slap(strength, &field, at)
+    }
+
+    /// It bounces off.
+    pub(crate) fn bounce(&mut self, at: &mut Moment<impl GestureSink>) {
+        self.right.bounce(at);
+    }
+
+    /// The thumb grazes the string beside the plectrum.
+    pub(crate) fn graze(&mut self, at: &mut Moment<impl GestureSink>) {
+        let sounding = self.sounding_length();
+        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        self.right.graze(&field, at);
+    }
+
+    /// It leaves, and the palm comes back if it was there.
+    pub(crate) fn leave_graze(&mut self, at: &mut Moment<impl GestureSink>) {
+        let sounding = self.sounding_length();
+        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        self.right.leave(&field, at);
+    }
+}

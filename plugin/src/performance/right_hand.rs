@@ -1,0 +1,192 @@
+//! The right hand on one string: plucks of every kind, the palm near the saddle, the thumb.
+
+use low_action_dsp::setup::{Damper, Player};
+use low_action_dsp::{Gesture, StringGeometry, Touch};
+
+use super::articulation::Stroke;
+use super::fingers::{QUIET_LIFT, lifting};
+use super::technique::*;
+use super::{GestureSink, Moment};
+
+/// What the right hand has on the string.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) enum Laid {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// The palm, with this pressure, above 0 to 1.
+    Palm(f64),
+    /// The thumb.
+    Thumb,
+}
+
+/// The right hand on one string.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct RightHand {
+    laid: Laid,
+    /// Pressure of the palm on notes to come, 0 to 1.
+    palm: f64,
+}
+
+/// Where a stroke falls.
+pub(crate) struct Field<'a> {
+    /// The string.
+    pub geometry: &'a StringGeometry,
+    /// How the hands act.
+    pub hands: &'a Player,
+    /// Length that sounds, m.
+    pub sounding: f64,
+}
+
+impl Field<'_> {
+    /// The place of a pluck so far from the saddle, m, as near to that as fingers can be.
+    fn place(&self, from_saddle: f64) -> f64 {
+        let farthest = FARTHEST_PLUCK * self.sounding;
+        self.geometry.length - from_saddle.max(NEAREST_PLUCK).min(farthest)
+    }
+
+    /// A stroke that pulls or pushes: so hard (0 to 1), and so far beside the usual place (m). `None` for
+    /// those that strike.
+    pub(crate) fn pluck(&self, stroke: Stroke, strength: f64, beside: f64) -> Option<Gesture> {
+        let Player { pluck_position, pluck_duration, pluck_force, .. } = *self.hands;
+        let [force, duration, nearer] = match stroke {
+            Stroke::Down | Stroke::Alternate => [1.0, 1.0, 0.0],
+            Stroke::Pinch => {
+                [1.0, 1.0, pluck_position - BESIDE_THUMB * (self.geometry.length - self.pinched())]
+            }
+            Stroke::Up => UP_STROKE,
+            Stroke::Rest => REST_STROKE,
+            Stroke::Pop => POP,
+            Stroke::Slap | Stroke::Tap => return None,
+        };
+        Some(Gesture::Pluck {
+            position: self.place(pluck_position + beside - nearer),
+            force: pluck_force * strength * force,
+            duration: pluck_duration * duration,
+        })
+    }
+
+    /// A touch so lossy that it takes up what the string sends it: pad's damping × force is so many times
+    /// twice the wave impedance, what the string's two halves offer it.
+    pub(crate) fn matched(&self, times: f64) -> (Touch, f64) {
+        let Damper { touch, force, .. } = self.hands.damper;
+        let matched = 2.0 * self.geometry.wave_impedance / touch.damping;
+        (touch, if matched.is_finite() { times * matched } else { times * force })
+    }
+
+    /// Where the palm rests, pressed so hard (0 to 1), m from the nut.
+    fn palm(&self, pressure: f64) -> f64 {
+        let part = PALM_PLACE.0 + (PALM_PLACE.1 - PALM_PLACE.0) * pressure;
+        let before_pluck = PALM_BEFORE_PLUCK * self.hands.pluck_position;
+        self.geometry.length - (part * self.geometry.length).min(before_pluck)
+    }
+
+    /// Where the thumb of a slap falls, m from the nut: just past the last fret, or where it would be.
+    fn slapped(&self) -> f64 {
+        let Self { geometry, .. } = self;
+        let last = geometry.frets.last().copied().unwrap_or(0.7 * geometry.length);
+        last + PAST_LAST_FRET * geometry.length
+    }
+
+    /// The node nearest to the pluck, m from the nut, that a thumb can graze: of the third partial of what
+    /// sounds or a higher one.
+    fn pinched(&self) -> f64 {
+        let from_saddle = self.hands.pluck_position.min(FARTHEST_PLUCK * self.sounding);
+        let order = (self.sounding / from_saddle).round().clamp(PINCHED.0, PINCHED.1);
+        self.geometry.length - self.sounding / order
+    }
+}
+
+impl RightHand {
+    /// Takes over from another.
+    pub(crate) fn take_over(&mut self, old: &Self) {
+        (self.laid, self.palm) = (old.laid, old.palm);
+    }
+
+    /// Nothing is on the string.
+    pub(crate) fn reset(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The palm is to rest so hard on notes to come, 0 to 1, and on one that sounds.
+    pub(crate) fn set_palm(
+        &mut self,
+        palm: f64,
+        sounds: bool,
+        field: &Field,
+        at: &mut Moment<impl GestureSink>,
+    ) {
+        if palm == self.palm {
+            return;
+        }
+        self.palm = palm;
+        if sounds {
+            self.lay(field, PALM_RAMP, at);
+        }
+    }
+
+    /// Gets ready for a stroke: thumb off, palm on or off.
+    pub(crate) fn prepare(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
+        if self.laid == Laid::Thumb {
+            at.does(lifting(RIGHT_HAND, field.hands.damper.touch, QUICK_LIFT));
+            self.laid = Laid::Nothing;
+        }
+        self.lay(field, PALM_LANDING, at);
+    }
+
+    /// Brings the palm to the pressure asked for.
+    fn lay(&mut self, field: &Field, duration: f64, at: &mut Moment<impl GestureSink>) {
+        let wanted = if self.palm > 0.0 { Laid::Palm(self.palm) } else { Laid::Nothing };
+        if wanted == self.laid {
+            return;
+        }
+        let finger = RIGHT_HAND;
+        let Laid::Palm(pressure) = wanted else {
+            return self.leave(field, at);
+        };
+        let (touch, light) = field.matched(1.0);
+        let force = light * PALM_FORCE.0 * libm::pow(PALM_FORCE.1 / PALM_FORCE.0, pressure);
+        let position = field.palm(pressure);
+        match self.laid {
+            Laid::Palm(_) => at.does(Gesture::Slide { finger, position, duration }),
+            _ => at.does(Gesture::Place { finger, touch, position, clearance: 0.0 }),
+        }
+        at.does(Gesture::Press { finger, force, duration });
+        self.laid = wanted;
+    }
+
+    /// The thumb is thrown at the string; gives the time after which it leaves, s.
+    pub(crate) fn slap(&mut self, strength: f64, field: &Field, at: &mut Moment<impl GestureSink>) -> f64 {
+        let finger = RIGHT_HAND;
+        let position = field.slapped();
+        let speed = SLAP_SPEED.0 + SLAP_SPEED.1 * strength;
+        at.does(Gesture::Throw { finger, touch: THUMB, position, clearance: SLAP_CLEARANCE, speed });
+        at.does(Gesture::Press { finger, force: SLAP_FORCE * strength.min(1.0), duration: 0.0 });
+        self.laid = Laid::Thumb;
+        SLAP_TIME
+    }
+
+    /// The thumb bounces off the string it was thrown at.
+    pub(crate) fn bounce(&mut self, at: &mut Moment<impl GestureSink>) {
+        if self.laid == Laid::Thumb {
+            at.does(Gesture::Lift { finger: RIGHT_HAND, force: SLAP_BOUNCE, duration: 0.001 });
+            self.laid = Laid::Nothing;
+        }
+    }
+
+    /// The thumb grazes the string where a partial has a node.
+    pub(crate) fn graze(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
+        let finger = RIGHT_HAND;
+        let (touch, force) = field.matched(GRAZE);
+        at.does(Gesture::Place { finger, touch, position: field.pinched(), clearance: 0.0 });
+        at.does(Gesture::Press { finger, force, duration: PALM_LANDING });
+        self.laid = Laid::Thumb;
+    }
+
+    /// Whatever is on the string leaves it.
+    pub(crate) fn leave(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
+        if std::mem::take(&mut self.laid) != Laid::Nothing {
+            at.does(lifting(RIGHT_HAND, field.hands.damper.touch, QUIET_LIFT));
+        }
+    }
+}

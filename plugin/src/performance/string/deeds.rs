@@ -1,0 +1,103 @@
+//! What is yet to be done to a note that sounds: strokes that are on their way, and touches that end.
+
+use super::StringPlayer;
+use crate::performance::articulation::Stroke;
+use crate::performance::technique::*;
+use crate::performance::{GestureSink, Moment};
+
+/// A stroke of the right hand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Struck {
+    /// Of what kind.
+    pub stroke: Stroke,
+    /// How hard, 1 for the hardest velocity.
+    pub strength: f64,
+    /// How far beside the usual place, m.
+    pub beside: f64,
+}
+
+/// Something to do at its time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Deed {
+    /// A stroke.
+    Strike(Struck),
+    /// A stroke of a tremolo, back and forth, with the next one to follow.
+    Tremolo(Struck),
+    /// The light finger leaves its node.
+    LeaveNode,
+    /// The thumb bounces off.
+    Bounce,
+    /// The thumb grazes the string, and leaves it.
+    Graze,
+    LeaveGraze,
+}
+
+/// Deeds in any order; a note has a handful at most.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Deeds([Option<(u64, Deed)>; 6]);
+
+impl Deeds {
+    /// Adds one; where there is no room left it is left out.
+    pub(super) fn plan(&mut self, time: u64, deed: Deed) {
+        if let Some(free) = self.0.iter_mut().find(|deed| deed.is_none()) {
+            *free = Some((time, deed));
+        }
+    }
+
+    /// When the next one is due.
+    pub(super) fn next(&self) -> Option<u64> {
+        self.0.iter().flatten().map(|&(time, _)| time).min()
+    }
+
+    /// Takes the next one out.
+    fn take(&mut self) -> Option<Deed> {
+        let next = self.next()?;
+        let slot = self.0.iter_mut().find(|deed| deed.is_some_and(|(time, _)| time == next))?;
+        slot.take().map(|(_, deed)| deed)
+    }
+}
+
+impl StringPlayer {
+    /// Does what is due next.
+    pub(super) fn do_next(&mut self, at: &mut Moment<impl GestureSink>) {
+        match self.deeds.take() {
+            None => {}
+            Some(Deed::Strike(struck)) => self.strike(struck, 0.0, at),
+            Some(Deed::Tremolo(struck)) => {
+                if self.tremolo <= 0.0 || self.note.is_none() {
+                    return;
+                }
+                let stroke = match struck.stroke {
+                    Stroke::Down => Stroke::Up,
+                    Stroke::Up => Stroke::Down,
+                    other => other,
+                };
+                let struck = Struck { stroke, ..struck };
+                self.strike(struck, 0.0, at);
+                self.deeds.plan(at.after(1.0 / self.tremolo).max(at.time + 1), Deed::Tremolo(struck));
+            }
+            Some(Deed::LeaveNode) => self.fingers.leave_node(at),
+            Some(Deed::Bounce) => self.fingers.bounce(at),
+            Some(Deed::Graze) => {
+                self.fingers.graze(at);
+                self.deeds.plan(at.after(GRAZE_TIME), Deed::LeaveGraze);
+            }
+            Some(Deed::LeaveGraze) => self.fingers.leave_graze(at),
+        }
+    }
+
+    /// The right hand strikes, so many seconds from now.
+    pub(super) fn strike(&mut self, struck: Struck, delay: f64, at: &mut Moment<impl GestureSink>) {
+        let Struck { stroke, strength, beside } = struck;
+        if stroke == Stroke::Slap {
+            let time = self.fingers.slap(strength, at);
+            return self.deeds.plan(at.after(time), Deed::Bounce);
+        }
+        if let Some(pluck) = self.fingers.pluck(stroke, strength, beside) {
+            at.does_later(delay, pluck);
+        }
+        if stroke == Stroke::Pinch {
+            self.deeds.plan(at.after(delay + self.fingers.pluck_duration()), Deed::Graze);
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! One note after another on a string that goes on sounding.
+
+use super::{Note, Start, StringPlayer};
+use crate::performance::GestureSink;
+
+impl StringPlayer {
+    /// The note that sounds while its key is down, if it is of that channel (`None`: of any): since when, and
+    /// its fret.
+    pub(crate) fn held(&self, channel: Option<u8>) -> Option<(u64, usize)> {
+        let note = self.note.filter(|note| note.key_down && self.ending.is_none())?;
+        channel.is_none_or(|channel| channel == note.channel).then_some((note.since, note.fret))
+    }
+
+    /// A note takes over from the one that sounds, whose key stays down under it: by a hammer, a pull or a
+    /// slide.
+    pub(crate) fn connect(&mut self, time: u64, start: Start, out: &mut impl GestureSink) {
+        let strength = start.force();
+        if let Some(before) = self.note.filter(|note| note.key_down) {
+            // Of too many the first is forgotten.
+            if self.under.iter().all(Option::is_some) {
+                self.under.rotate_left(1);
+                self.under[self.under.len() - 1] = None;
+            }
+            if let Some(free) = self.under.iter_mut().find(|under| under.is_none()) {
+                *free = Some(before);
+            }
+        }
+        self.begin(time, &start, strength);
+        let slide = self.note.and_then(|note| note.slide);
+        let mut at = self.moment(time, out);
+        self.fingers.press(start.manner.pressure, &mut at);
+        self.fingers.change(start.fret, slide, strength, &mut at);
+        self.follow(time, &start.manner);
+    }
+
+    /// Forgets a key under the one that sounds; `false` if it is not there.
+    pub(super) fn release_under(&mut self, channel: u8, key: u8) -> bool {
+        let same = |note: &Note| (note.channel, note.key) == (channel, key);
+        let Some(found) = self.under.iter().position(|note| note.as_ref().is_some_and(same)) else {
+            return false;
+        };
+        self.under[found] = None;
+        self.under[found..].rotate_left(1);
+        true
+    }
+
+    /// Goes back to the latest note whose key is still down; `false` if there is none.
+    pub(super) fn go_back(&mut self, time: u64, out: &mut impl GestureSink) -> bool {
+        let Some(latest) = self.under.iter().rposition(Option::is_some) else { return false };
+        let (Some(back), Some(from)) = (self.under[latest].take(), self.note) else { return false };
+        self.note = Some(Note { since: time, pressed_again: None, ..back });
+        self.bend.begin(back.channel);
+        let mut at = self.moment(time, out);
+        self.fingers.change(back.fret, from.slide, from.strength, &mut at);
+        self.bend.tune(time, 0.0);
+        true
+    }
+}

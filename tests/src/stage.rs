@@ -1,0 +1,141 @@
+//! A player with an instrument in hand and nothing between them, so that what hands do, what strings do and
+//! what is heard can be seen together.
+
+use low_action::performance::{InputMode, Performance, PlayedString, PlayerEvent, Style};
+use low_action_dsp::{Instrument, Quality, Setup, TimedGesture};
+
+/// Samples between two looks of an observer.
+pub const LOOK: u64 = 16;
+
+/// A player with an instrument in hand.
+pub struct Stage {
+    /// Who plays.
+    pub performance: Performance,
+    /// What is played.
+    pub instrument: Instrument,
+    /// Hz.
+    pub rate: f64,
+}
+
+/// What came of it.
+pub struct Played {
+    /// What the hands did.
+    pub gestures: Vec<TimedGesture>,
+    /// The sound of each string.
+    pub strings: Vec<Vec<f32>>,
+}
+
+impl Stage {
+    /// A set-up at 48 kHz, every pluck exactly alike.
+    pub fn new(setup: &Setup) -> Self {
+        let rate = 48_000.0;
+        let instrument =
+            Instrument::new(setup, &Quality::Live.settings(rate)).expect("the set-up can be built");
+        let strings = (0..instrument.string_count())
+            .map(|index| PlayedString::new(setup, &instrument, index))
+            .collect();
+        let style = Style { variation: 0.0, seed: 0, bend_range: 2.0 };
+        Self { performance: Performance::new(strings, &setup.player, style, rate), instrument, rate }
+    }
+
+    /// One string of a set-up that comes with the program, so that every note is played on it.
+    pub fn alone(setup: &str, string: usize) -> Self {
+        let setup = Setup::shipped(setup).expect("it comes with the program");
+        let spec = setup.string[string].clone();
+        Self::new(&Setup { string: vec![spec], ..setup })
+    }
+
+    /// The same with channels that mean something else.
+    pub fn with_input(mut self, input: InputMode) -> Self {
+        self.performance.set_input(input);
+        self
+    }
+
+    /// Plays events (seconds, in order) for so many seconds from the start.
+    pub fn play(&mut self, events: &[(f64, PlayerEvent)], seconds: f64) -> Played {
+        self.watch(events, seconds, |_, _| {})
+    }
+
+    /// The same, with somebody who looks at time (s) and instrument every [`LOOK`] samples.
+    pub fn watch(
+        &mut self,
+        events: &[(f64, PlayerEvent)],
+        seconds: f64,
+        mut look: impl FnMut(f64, &Instrument),
+    ) -> Played {
+        self.performance.reset();
+        self.instrument.reset();
+        let count = self.instrument.string_count();
+        let end = (seconds * self.rate).round() as u64;
+        let mut played = Played { gestures: Vec::new(), strings: vec![Vec::new(); count] };
+        let mut waiting =
+            events.iter().map(|&(time, event)| ((time * self.rate).round() as u64, event)).peekable();
+        let mut now = 0;
+        while now < end {
+            let until = (now + LOOK).min(end);
+            let first = played.gestures.len();
+            while let Some((time, event)) = waiting.next_if(|event| event.0 < until) {
+                self.performance.event(time, event, &mut played.gestures);
+            }
+            self.performance.advance(until, &mut played.gestures);
+            for &gesture in &played.gestures[first..] {
+                self.instrument.schedule(gesture).expect("there is room");
+            }
+            let frames = (until - now) as usize;
+            let mut stems = vec![vec![0.0; frames]; count];
+            let mut slices: Vec<&mut [f32]> = stems.iter_mut().map(Vec::as_mut_slice).collect();
+            let (mut left, mut right) = (vec![0.0; frames], vec![0.0; frames]);
+            self.instrument.process_stems(&mut slices, &mut left, &mut right);
+            for (string, stem) in played.strings.iter_mut().zip(stems) {
+                string.extend(stem);
+            }
+            now = until;
+            look(now as f64 / self.rate, &self.instrument);
+        }
+        played
+    }
+}
+
+/// A key goes down on channel 1; velocity 0 to 127.
+pub fn on(key: u8, velocity: u8) -> PlayerEvent {
+    PlayerEvent::NoteOn { channel: 0, key, velocity: f32::from(velocity) / 127.0 }
+}
+
+/// It goes up.
+pub fn off(key: u8) -> PlayerEvent {
+    PlayerEvent::NoteOff { channel: 0, key }
+}
+
+/// A controller of channel 1, 0 to 127.
+pub fn cc(number: u8, value: u8) -> PlayerEvent {
+    PlayerEvent::Controller { channel: 0, number, value: f32::from(value) / 127.0 }
+}
+
+/// Amplitude of one frequency (Hz) in a sound under a Hann window: 1 for a sine of amplitude 1.
+pub fn amplitude(sound: &[f32], rate: f64, frequency: f64) -> f64 {
+    let count = sound.len() as f64;
+    let turn = std::f64::consts::TAU;
+    let (mut re, mut im) = (0.0, 0.0);
+    for (n, &sample) in sound.iter().enumerate() {
+        let hann = 1.0 - (turn * (n as f64 + 0.5) / count).cos();
+        let phase = turn * frequency * n as f64 / rate;
+        re += hann * f64::from(sample) * phase.cos();
+        im -= hann * f64::from(sample) * phase.sin();
+    }
+    2.0 * re.hypot(im) / count
+}
+
+/// The frequency of a MIDI key, Hz.
+pub fn hertz(key: f64) -> f64 {
+    440.0 * ((key - 69.0) / 12.0).exp2()
+}
+
+/// The largest |sample|.
+pub fn peak(sound: &[f32]) -> f64 {
+    f64::from(sound.iter().fold(0.0_f32, |most, sample| most.max(sample.abs())))
+}
+
+/// A ratio of sizes, dB.
+pub fn decibels(ratio: f64) -> f64 {
+    20.0 * ratio.max(1e-15).log10()
+}

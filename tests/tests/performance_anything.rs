@@ -1,0 +1,150 @@
+//! The promise: whatever hands are told, in whatever order, no finger stays on a string after everything has
+//! stopped, no force or place is absurd, and how time is cut into blocks changes nothing.
+
+use std::sync::LazyLock;
+
+use low_action::controls::Touching;
+use low_action::performance::{Expression, InputMode, Performance, PlayedString, PlayerEvent, Style};
+use low_action_dsp::{FINGERS_PER_STRING, Gesture, Instrument, Quality, Setup, TimedGesture};
+use proptest::prelude::*;
+
+const RATE: f64 = 48_000.0;
+
+static NECKS: LazyLock<Vec<(Setup, Vec<PlayedString>)>> = LazyLock::new(|| {
+    let neck = |name: &str| {
+        let setup = Setup::shipped(name).expect("it comes with the program");
+        let instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).expect("builds");
+        let count = instrument.string_count();
+        let strings = (0..count).map(|index| PlayedString::new(&setup, &instrument, index)).collect();
+        (setup, strings)
+    };
+    // One with frets, one without, and one where nothing can be stopped.
+    ["electric", "fretless-bass", "tanpura"].map(neck).into()
+});
+
+fn player(neck: usize, input: InputMode, touching: &Touching) -> Performance {
+    let (setup, strings) = &NECKS[neck];
+    let style = Style { variation: 0.5, seed: 1, bend_range: 2.0 };
+    let mut performance = Performance::new(strings.clone(), &setup.player, style, RATE);
+    performance.set_input(input);
+    performance.touch(0, touching, &mut Vec::new());
+    performance
+}
+
+const CONTROLLERS: [u8; 22] =
+    [1, 2, 5, 6, 11, 20, 21, 22, 23, 24, 25, 26, 27, 64, 65, 66, 68, 74, 100, 101, 121, 123];
+
+/// Any event: many controllers, and among notes many that are held over one another.
+fn any_event() -> impl Strategy<Value = PlayerEvent> {
+    let channel = 0..4_u8;
+    let unit = 0.0_f32..=1.0;
+    prop_oneof![
+        8 => (channel.clone(), 24..90_u8, unit.clone())
+            .prop_map(|(channel, key, velocity)| PlayerEvent::NoteOn { channel, key, velocity }),
+        6 => (channel.clone(), 24..90_u8).prop_map(|(channel, key)| PlayerEvent::NoteOff { channel, key }),
+        // The low numbers of 22 and 23 are the ones that mean something.
+        8 => (channel.clone(), prop::sample::select(CONTROLLERS.to_vec()), prop_oneof![0..9_u8, 0..128_u8])
+            .prop_map(|(channel, number, value)| {
+                PlayerEvent::Controller { channel, number, value: f32::from(value) / 127.0 }
+            }),
+        2 => (channel.clone(), -1.0_f32..=1.0)
+            .prop_map(|(channel, value)| PlayerEvent::PitchBend { channel, value }),
+        1 => (channel.clone(), 24..90_u8, unit.clone()).prop_map(|(channel, key, value)| {
+            PlayerEvent::Note { channel, key, expression: Expression::Vibrato(value) }
+        }),
+        1 => (channel, unit).prop_map(|(channel, pressure)| PlayerEvent::ChannelPressure { channel, pressure }),
+        1 => Just(PlayerEvent::AllNotesOff),
+    ]
+}
+
+fn any_input() -> impl Strategy<Value = InputMode> {
+    prop_oneof![
+        Just(InputMode::Keyboard),
+        any::<bool>().prop_map(|from_last| InputMode::Strings { first: 0, from_last }),
+        Just(InputMode::Mpe),
+        Just(InputMode::Auto)
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn nothing_hangs_and_blocks_do_not_matter(
+        neck in 0..3_usize,
+        input in any_input(),
+        legato: bool,
+        keyswitches in prop::option::of(0..60_u8),
+        steps in prop::collection::vec((prop_oneof![Just(0_u64), 0..9000_u64], any_event()), 1..100),
+        block in 1..3000_u64,
+    ) {
+        let touching = Touching { legato, keyswitches, ..Touching::default() };
+        let mut time = 0;
+        let mut events: Vec<(u64, PlayerEvent)> = steps.into_iter().map(|(step, event)| {
+            time += step;
+            (time, event)
+        }).collect();
+        events.push((time, PlayerEvent::AllNotesOff));
+        let end = time + 2 * RATE as u64;
+
+        let mut whole = Vec::new();
+        let mut performance = player(neck, input, &touching);
+        for &(time, event) in &events {
+            performance.event(time, event, &mut whole);
+        }
+        performance.advance(end, &mut whole);
+        for channel in 0..4 {
+            prop_assert!((0..128).all(|key| !performance.sounds(channel, key)));
+        }
+
+        let mut performance = player(neck, input, &touching);
+        let mut blocks = Vec::new();
+        let mut waiting = events.iter().peekable();
+        let mut now = 0;
+        while now < end {
+            now = (now + block).min(end);
+            while let Some(&(time, event)) = waiting.next_if(|event| event.0 < now) {
+                performance.event(time, event, &mut blocks);
+            }
+            performance.advance(now, &mut blocks);
+        }
+
+        let count = NECKS[neck].1.len();
+        let mut left = vec![[false; FINGERS_PER_STRING]; count];
+        for string in 0..count {
+            let of = |gestures: &[TimedGesture]| -> Vec<TimedGesture> {
+                gestures.iter().filter(|g| g.string == string).copied().collect()
+            };
+            prop_assert_eq!(of(&whole), of(&blocks));
+            let length = NECKS[neck].1[string].geometry.length;
+            for TimedGesture { gesture, .. } in of(&whole) {
+                let place = match gesture {
+                    Gesture::Place { finger, position, .. } | Gesture::Throw { finger, position, .. } => {
+                        left[string][finger] = true;
+                        position
+                    }
+                    Gesture::Lift { finger, force, .. } => {
+                        prop_assert!(force > 0.0 && force < 200.0, "{gesture:?}");
+                        left[string][finger] = false;
+                        0.5 * length
+                    }
+                    Gesture::Press { force, .. } => {
+                        prop_assert!(force.abs() < 100.0, "{gesture:?}");
+                        0.5 * length
+                    }
+                    Gesture::Slide { position, .. } | Gesture::Pluck { position, .. } => position,
+                    Gesture::Bend { tension_ratio, .. } => {
+                        prop_assert!(tension_ratio > 0.0, "{gesture:?}");
+                        0.5 * length
+                    }
+                };
+                prop_assert!(place > 0.0 && place < length, "{gesture:?}");
+                // A finger is moved only while it is there.
+                if let Gesture::Slide { finger, .. } | Gesture::Press { finger, .. } = gesture {
+                    prop_assert!(left[string][finger], "{gesture:?} of nobody");
+                }
+            }
+        }
+        prop_assert_eq!(left, vec![[false; FINGERS_PER_STRING]; count]);
+    }
+}

@@ -1,0 +1,207 @@
+//! The promise: notes that overlap on one string are connected as a left hand does it. A hammer sounds
+//! without a pluck and the louder the faster it comes, a pull-off gives the note behind it, a slide crosses
+//! each semitone where the fret is; and each gives way to a new pluck where a hand would not reach.
+
+use low_action::performance::PlayerEvent;
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{Stage, amplitude, cc, hertz, off, on, peak};
+
+const RATE: f64 = 48_000.0;
+
+fn at(seconds: f64) -> usize {
+    (seconds * RATE) as usize
+}
+
+fn plucks(gestures: &[TimedGesture]) -> usize {
+    gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).count()
+}
+
+/// How far a sound is off a key, cents.
+fn off_pitch(sound: &[f32], key: u8) -> f64 {
+    let pitch = hertz(f64::from(key));
+    cents(frequency_near(sound, RATE, pitch), pitch)
+}
+
+/// Set-up, string, its open key.
+const STRINGS: [(&str, usize, u8); 5] =
+    [("electric", 0, 64), ("electric", 2, 55), ("electric", 5, 40), ("classical", 4, 45), ("bass", 3, 28)];
+
+#[test]
+fn a_finger_that_taps_sounds_by_its_own_speed() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        let mut before = 0.0;
+        for velocity in [20, 64, 100, 127] {
+            let played = stage.play(&[(0.0, cc(22, 7)), (0.0, on(open + 7, velocity))], 0.8);
+            assert_eq!(plucks(&played.gestures), 0);
+            let sound = &played.strings[0];
+            let loud = peak(&sound[..at(0.3)]);
+            assert!(loud > 1.2 * before, "{setup} {string} at {velocity}: {loud} after {before}");
+            assert!(off_pitch(&sound[at(0.2)..], open + 7).abs() < 3.0, "{setup} {string} at {velocity}");
+            before = loud;
+        }
+    }
+}
+
+/// The wave has yet to travel to the pickup; the string under the finger moves at once.
+#[test]
+fn a_tap_moves_the_string_within_three_milliseconds() {
+    for (setup, string, open) in STRINGS {
+        for velocity in [1, 127] {
+            let mut first = f64::NAN;
+            let mut stage = Stage::alone(setup, string);
+            stage.watch(&[(0.01, cc(22, 7)), (0.01, on(open + 5, velocity))], 0.05, |time, instrument| {
+                let state = instrument.state(0);
+                let moves = state.displacement().iter().any(|u| u.abs() > 1e-6);
+                if moves && first.is_nan() {
+                    first = time - 0.01;
+                }
+            });
+            assert!(first < 0.003, "{setup} {string} at {velocity}: {first} s");
+        }
+    }
+}
+
+#[test]
+fn a_hammer_and_a_pull_connect_two_notes() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        let events = |velocity| {
+            [(0.0, cc(68, 127)), (0.0, on(open + 5, 90)), (0.5, on(open + 7, velocity)), (1.0, off(open + 7))]
+        };
+        let [soft, hard] = [40, 127].map(|velocity| stage.play(&events(velocity), 1.6));
+        for played in [&soft, &hard] {
+            let hammered: Vec<&TimedGesture> =
+                played.gestures.iter().filter(|g| g.time > 0 && g.time < 48_000).collect();
+            assert!(hammered.iter().all(|g| !matches!(g.gesture, Gesture::Pluck { .. })), "{hammered:?}");
+            let sound = &played.strings[0];
+            for (from, to, key) in [(0.2, 0.5, 5), (0.65, 1.0, 7), (1.1, 1.6, 5)] {
+                let cents = off_pitch(&sound[at(from)..at(to)], open + key);
+                assert!(cents.abs() < 4.0, "{setup} {string} from {from} s: {cents} cents");
+            }
+        }
+        let difference = |sound: &[f32]| -> f64 {
+            sound.windows(2).map(|pair| f64::from(pair[1] - pair[0]).powi(2)).sum()
+        };
+        // The finger that pulls off plucks, and it is heard.
+        let pulled = &hard.strings[0];
+        let [before, after] = [0.95, 1.0].map(|from| difference(&pulled[at(from)..at(from + 0.05)]));
+        assert!(after > 1.2 * before, "{setup} {string}: {}", after / before);
+        let [soft, hard] = [&soft, &hard].map(|played| difference(&played.strings[0][at(0.5)..at(0.55)]));
+        assert!(hard > 1.2 * soft, "{setup} {string}: a harder hammer is brighter: {}", hard / soft);
+    }
+}
+
+#[test]
+fn a_pull_off_reaches_the_open_string_and_a_trill_never_needs_a_pluck() {
+    let mut stage = Stage::alone("electric", 2);
+    let mut events = vec![(0.0, cc(68, 127)), (0.0, on(55, 90))];
+    for turn in 0..5 {
+        let start = 0.3 + 0.2 * f64::from(turn);
+        events.extend([(start, on(57, 80)), (start + 0.1, off(57))]);
+    }
+    let played = stage.play(&events, 2.0);
+    // The first note and one for each finger that pulls off.
+    assert_eq!(plucks(&played.gestures), 6);
+    let sound = &played.strings[0];
+    assert!(off_pitch(&sound[at(1.4)..], 55).abs() < 3.0);
+    assert!(peak(&sound[at(1.9)..]) > 0.01, "it rings on");
+}
+
+#[test]
+fn a_slide_crosses_each_semitone_where_the_fret_is() {
+    for (setup, string, open) in [("electric", 2, 55), ("electric", 5, 40), ("classical", 4, 45)] {
+        let mut stage = Stage::alone(setup, string);
+        let frets = stage.instrument.geometry(0).frets.clone();
+        let mut places = Vec::new();
+        // Half a second over five frets.
+        let events = [
+            (0.0, cc(5, 86)),
+            (0.0, cc(65, 127)),
+            (0.0, cc(68, 127)),
+            (0.0, on(open + 3, 110)),
+            (0.3, on(open + 8, 90)),
+        ];
+        let played = stage.watch(&events, 1.6, |time, instrument| {
+            if let Some(finger) = instrument.state(0).fingers()[0] {
+                places.push((time, finger.position));
+            }
+        });
+        assert_eq!(plucks(&played.gestures), 1);
+        let sound = &played.strings[0];
+        for fret in 3..8_u8 {
+            let crown = frets[usize::from(fret) - 1];
+            let over = places.iter().find(|(_, place)| *place > crown).expect("it gets there").0;
+            let [below, above] = [fret, fret + 1].map(|fret| hertz(f64::from(open + fret)));
+            // A window must hold two periods and a half to tell one semitone from the next.
+            let half = (1.25 * RATE / below) as usize;
+            let strength = |n: usize, pitch: f64| -> f64 {
+                let window = &sound[n - half..n + half];
+                (1..4).map(|k| amplitude(window, RATE, pitch * f64::from(k))).sum()
+            };
+            let crossing = (at(over - 0.06)..at(over + 0.08))
+                .step_by(48)
+                .find(|&n| strength(n, above) > strength(n, below))
+                .map(|n| n as f64 / RATE);
+            let late = crossing.map(|time| time - over);
+            // The new pitch is there one period after the fret, to the width of the window.
+            let window = half as f64 / RATE;
+            let within = late.is_some_and(|late| (-window..2.0 * window + 0.01).contains(&late));
+            assert!(within, "{setup} {string} fret {fret}: {late:?} s, window {window} s");
+        }
+        assert!(off_pitch(&sound[at(1.2)..], open + 8).abs() < 4.0);
+    }
+}
+
+#[test]
+fn the_slide_takes_as_long_as_controller_5_says() {
+    for (value, seconds) in [(0, 0.03), (64, 0.25), (127, 2.0)] {
+        let mut stage = Stage::alone("electric", 2);
+        let events = [
+            (0.0, cc(5, value)),
+            (0.0, cc(65, 127)),
+            (0.0, cc(68, 127)),
+            (0.0, on(58, 90)),
+            (0.1, on(60, 90)),
+        ];
+        let played = stage.play(&events, 0.2);
+        let slide = played.gestures.iter().find_map(|g| match g.gesture {
+            Gesture::Slide { duration, .. } => Some(duration),
+            _ => None,
+        });
+        let duration = slide.expect("it slides");
+        assert!((duration / seconds - 1.0).abs() < 0.03, "{value}: {duration} s");
+    }
+}
+
+#[test]
+fn what_a_hand_does_not_reach_is_plucked() {
+    let count =
+        |events: &[(f64, PlayerEvent)]| plucks(&Stage::alone("electric", 2).play(events, 0.5).gestures);
+    let legato = (0.0, cc(68, 127));
+    // Six frets are too many for a hammer, not for a slide; thirteen are too many for both.
+    assert_eq!(count(&[legato, (0.0, on(57, 90)), (0.2, on(62, 90))]), 1);
+    assert_eq!(count(&[legato, (0.0, on(57, 90)), (0.2, on(63, 90))]), 2);
+    assert_eq!(count(&[legato, (0.0, cc(65, 127)), (0.0, on(57, 90)), (0.2, on(63, 90))]), 1);
+    assert_eq!(count(&[legato, (0.0, cc(65, 127)), (0.0, on(57, 90)), (0.2, on(70, 90))]), 2);
+    // Neither without the pedal, nor after the key is up, nor for a key struck again.
+    assert_eq!(count(&[(0.0, on(57, 90)), (0.2, on(60, 90))]), 2);
+    assert_eq!(count(&[legato, (0.0, on(57, 90)), (0.15, off(57)), (0.2, on(60, 90))]), 2);
+    assert_eq!(count(&[legato, (0.0, on(57, 90)), (0.2, on(57, 90))]), 2);
+}
+
+/// A finger that eases off after its note is still the player's: struck again at any moment until it is gone,
+/// the note has its pitch. (Once it was lifted for good while the player counted on it, and the open string
+/// sounded.)
+#[test]
+fn a_note_struck_again_while_its_finger_leaves_is_stopped() {
+    let mut stage = Stage::alone("electric", 2);
+    for step in 0..14 {
+        let again = 0.35 + 0.1 * f64::from(step);
+        let played = stage.play(&[(0.0, on(60, 90)), (0.3, off(60)), (again, on(60, 90))], again + 0.6);
+        let sound = &played.strings[0][at(again + 0.1)..];
+        let [stopped, open] = [60.0, 55.0].map(|key| amplitude(sound, RATE, hertz(key)));
+        assert!(off_pitch(sound, 60).abs() < 3.0 && stopped > 10.0 * open, "struck again after {again} s");
+    }
+}

@@ -1,0 +1,280 @@
+//! The promise: what touches a string shapes its sound as it does under hands. A light finger at a node leaves a
+//! harmonic, a palm near the saddle shortens a note, a bar and a capo stop it, a thumb throws it against the
+//! frets; bends and vibrato reach the depth they are asked for.
+
+use low_action::performance::PlayerEvent;
+use low_action_dsp::{Gesture, Setup};
+use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{Stage, amplitude, cc, decibels, hertz, off, on, peak};
+
+const RATE: f64 = 48_000.0;
+
+fn at(seconds: f64) -> usize {
+    (seconds * RATE) as usize
+}
+
+/// Time in which a partial (Hz) falls by 60 dB, s, from its level in 60 ms after two moments.
+fn t60(sound: &[f32], frequency: f64, [from, to]: [f64; 2]) -> f64 {
+    let level = |time| decibels(amplitude(&sound[at(time)..at(time + 0.06)], RATE, frequency));
+    60.0 * (to - from) / (level(from) - level(to))
+}
+
+/// The open string's own frequency when it rings freely.
+fn fundamental(stage: &mut Stage, key: u8) -> f64 {
+    let sound = &stage.play(&[(0.0, on(key, 90))], 1.2).strings[0];
+    frequency_near(&sound[at(0.1)..], RATE, hertz(f64::from(key)))
+}
+
+const STRINGS: [(&str, usize, u8); 6] = [
+    ("electric", 0, 64),
+    ("electric", 2, 55),
+    ("electric", 5, 40),
+    ("classical", 0, 64),
+    ("steel", 5, 40),
+    ("bass", 3, 28),
+];
+
+#[test]
+fn the_harmonic_of_the_twelfth_fret_has_no_odd_partials() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        let played = stage.play(&[(0.0, cc(23, 1)), (0.0, on(open + 12, 100))], 1.6);
+        // The finger has left.
+        assert!(played.gestures.iter().any(|g| matches!(g.gesture, Gesture::Lift { .. })));
+        let sound = &played.strings[0][at(0.4)..];
+        let octave = frequency_near(sound, RATE, hertz(f64::from(open + 12)));
+        assert!(cents(octave, hertz(f64::from(open + 12))).abs() < 5.0, "{setup} {string}: {octave} Hz");
+        let level = |partial: f64| amplitude(sound, RATE, 0.5 * octave * partial);
+        for odd in [1.0, 3.0, 5.0] {
+            let down = decibels(level(odd) / level(2.0));
+            assert!(down < -40.0, "{setup} {string} partial {odd}: {down} dB");
+        }
+        assert!(peak(sound) > 0.01, "{setup} {string}: it rings on");
+    }
+}
+
+#[test]
+fn a_harmonic_sounds_at_its_key_on_a_string_that_lets_it_be_heard() {
+    let mut stage = Stage::new(&Setup::builtin("electric").expect("built in"));
+    // Natural ones, and those of stopped notes; E6 would lie under the pickup's node on the first string.
+    for key in [52, 59, 64, 67, 69, 71, 74, 76, 78, 81, 83, 88] {
+        let played = stage.play(&[(0.0, cc(23, 1)), (0.0, on(key, 100))], 1.2);
+        let sounds = played.strings.iter().max_by(|a, b| peak(a).total_cmp(&peak(b))).expect("strings");
+        let sound = &sounds[at(0.3)..];
+        let off = cents(frequency_near(sound, RATE, hertz(f64::from(key))), hertz(f64::from(key)));
+        // A natural harmonic is where nature has it: the fifth partial 14 cents under the key.
+        assert!(off.abs() < 20.0, "key {key}: {off} cents");
+        let strength = amplitude(sound, RATE, frequency_near(sound, RATE, hertz(f64::from(key))));
+        // Under the node of the pickup it would be 77 dB down.
+        assert!(decibels(strength) > -65.0, "key {key}: {} dB", decibels(strength));
+    }
+}
+
+#[test]
+fn the_palm_shortens_notes_tenfold() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        let pitch = fundamental(&mut stage, open);
+        let mut last = t60(&stage.play(&[(0.0, on(open, 100))], 2.0).strings[0], pitch, [0.1, 1.8]);
+        let plain = last;
+        for pressure in [32, 64, 127] {
+            let played = stage.play(&[(0.0, cc(20, pressure)), (0.0, on(open, 100))], 1.0);
+            let time = t60(&played.strings[0], pitch, [0.03, 0.13]);
+            assert!(time < 0.8 * last, "{setup} {string} at {pressure}: {time} s after {last} s");
+            last = time;
+        }
+        assert!(last < 0.1 * plain, "{setup} {string}: {last} s of {plain} s");
+        // A palm laid on later does the same, and one taken off lets the next note ring.
+        let later = [(0.0, on(open, 100)), (0.5, cc(20, 127)), (1.0, cc(20, 0)), (1.2, on(open, 100))];
+        let sound = &stage.play(&later, 3.0).strings[0];
+        assert!(t60(sound, pitch, [0.6, 0.7]) < 0.2 * plain, "{setup} {string}");
+        assert!(t60(sound, pitch, [1.4, 2.9]) > 0.7 * plain, "{setup} {string}");
+    }
+}
+
+#[test]
+fn a_resting_finger_leaves_a_knock() {
+    for (setup, string, open) in &STRINGS[..5] {
+        let mut stage = Stage::alone(setup, *string);
+        let sound = &stage.play(&[(0.0, cc(23, 2)), (0.0, on(open + 5, 100))], 0.5).strings[0];
+        assert!(peak(sound) > 0.01);
+        let down = decibels(peak(&sound[at(0.15)..at(0.25)]) / peak(&sound[..at(0.05)]));
+        assert!(down < -20.0, "{setup} {string}: {down} dB after 150 ms");
+    }
+}
+
+#[test]
+fn a_bar_stops_a_string_without_its_frets() {
+    for (setup, string, open) in
+        [("electric", 0, 64), ("electric", 2, 55), ("electric", 4, 45), ("lap-steel", 1, 59)]
+    {
+        let mut stage = Stage::alone(setup, string);
+        for fret in [3, 7, 12] {
+            let events = [
+                (0.0, cc(23, 3)),
+                (0.0, on(open + fret, 80)),
+                (0.8, PlayerEvent::PitchBend { channel: 0, value: 0.25 }),
+            ];
+            let mut touched = false;
+            let played = stage.watch(&events, 2.0, |time, instrument| {
+                let crown = instrument.geometry(0).frets[usize::from(fret) - 1];
+                let state = instrument.state(0);
+                let grid = state.displacement().len() + 1;
+                let node = (crown / instrument.geometry(0).length * grid as f64) as usize;
+                touched |= time > 0.3 && state.displacement()[node - 1] < -0.0012;
+            });
+            let sound = &played.strings[0];
+            for (from, to, key) in
+                [(0.3, 0.8, f64::from(open + fret)), (1.0, 2.0, f64::from(open + fret) + 0.5)]
+            {
+                let pitch = hertz(key);
+                let off = cents(frequency_near(&sound[at(from)..at(to)], RATE, pitch), pitch);
+                // It weighs 0.25 N on the string and is not infinitely heavy: both raise the pitch a little.
+                assert!(
+                    (-4.0..10.0).contains(&off),
+                    "{setup} {string} fret {fret} from {from} s: {off} cents"
+                );
+            }
+            if setup == "electric" {
+                assert!(!touched, "{setup} {string} fret {fret}: the string lies on the frets");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_capo_is_a_new_nut() {
+    let mut stage = Stage::new(&Setup::builtin("electric").expect("built in"));
+    // G with a capo at the third fret: the open shape of E, no finger but the capo.
+    let chord = [43, 50, 55, 59, 62, 67];
+    let mut events = vec![(0.0, cc(26, 3))];
+    events.extend(chord.map(|key| (0.0, on(key, 80))));
+    events.extend(chord.map(|key| (0.8, off(key))));
+    let played = stage.play(&events, 3.5);
+    let fingers: Vec<usize> = played
+        .gestures
+        .iter()
+        .filter_map(|g| match g.gesture {
+            Gesture::Place { finger: finger @ (0 | 1), .. } if g.time == 0 => Some(finger),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(fingers.len(), 3, "only three strings are stopped beside the capo");
+    for string in 0..6 {
+        let key = f64::from([67, 62, 59, 55, 50, 43][string]);
+        let sound = &played.strings[string][at(0.2)..at(0.8)];
+        let off = cents(frequency_near(sound, RATE, hertz(key)), hertz(key));
+        assert!(off.abs() < 12.0, "string {string}: {off} cents");
+    }
+    // Nothing is left on strings that nobody plays.
+    let instrument = &stage.instrument;
+    for string in 0..6 {
+        assert!(instrument.state(string).fingers().iter().all(Option::is_none), "string {string}");
+    }
+    assert!(peak(&played.strings[0][at(3.3)..]) < 1e-4);
+}
+
+#[test]
+fn a_slap_throws_the_string_against_the_frets() {
+    let mut stage = Stage::alone("bass", 3);
+    stage.instrument.open_ledgers();
+    let mut contact = |stroke: u8, velocity: u8| {
+        let mut most = 0.0_f64;
+        let events = [(0.0, cc(22, stroke)), (0.0, on(28, velocity))];
+        let played = stage.watch(&events, 0.3, |_, instrument| {
+            let ledger = instrument.ledger(0).expect("it is open");
+            most = most.max(ledger.energies().contact);
+        });
+        (most, peak(&played.strings[0]))
+    };
+    let (soft, _) = contact(0, 40);
+    let (slap, loud) = contact(4, 100);
+    let (pop, _) = contact(5, 110);
+    assert_eq!(soft, 0.0, "a soft pluck of an open string touches nothing");
+    assert!(slap > 1e-6 && pop > 1e-6, "{slap} J, {pop} J");
+    assert!(loud < 1.0);
+}
+
+#[test]
+fn a_pinch_leaves_a_high_partial() {
+    let mut stage = Stage::alone("electric", 3);
+    let mut partials = |stroke: u8| {
+        let played = stage.play(&[(0.0, cc(22, stroke)), (0.0, on(55, 110))], 1.0);
+        let sound = played.strings[0][at(0.1)..at(0.9)].to_vec();
+        let pitch = frequency_near(&sound, RATE, hertz(55.0));
+        (1..10).map(|k| decibels(amplitude(&sound, RATE, pitch * f64::from(k)))).collect::<Vec<f64>>()
+    };
+    let plain = partials(0);
+    let pinched = partials(6);
+    let strongest = (0..9).max_by(|&a, &b| pinched[a].total_cmp(&pinched[b])).expect("partials") + 1;
+    assert!((3..=9).contains(&strongest), "{pinched:?}");
+    assert!(pinched[strongest - 1] > pinched[0] + 20.0, "{pinched:?}");
+    assert!(plain[0] > plain[strongest - 1], "{plain:?}");
+}
+
+#[test]
+fn bends_and_vibrato_have_their_depth() {
+    for (setup, string, open) in
+        [("electric", 0, 64), ("electric", 2, 55), ("electric", 5, 40), ("steel", 1, 59)]
+    {
+        let mut stage = Stage::alone(setup, string);
+        for fret in [0, 4, 7, 12] {
+            for (turn, semitones) in [(0.5, 1.0), (0.9, 1.8), (-0.5, -1.0)] {
+                let bend = PlayerEvent::PitchBend { channel: 0, value: turn };
+                let sound = &stage.play(&[(0.0, on(open + fret, 70)), (0.3, bend)], 1.8).strings[0];
+                let pitch = hertz(f64::from(open + fret) + semitones);
+                let off = cents(frequency_near(&sound[at(0.8)..], RATE, pitch), pitch);
+                assert!(off.abs() < 3.0, "{setup} {string} fret {fret} by {semitones}: {off} cents");
+            }
+        }
+    }
+    // Half a semitone each way; frequency in windows much shorter than a swing.
+    let mut stage = Stage::alone("electric", 0);
+    let sound = &stage.play(&[(0.0, cc(1, 127)), (0.0, on(71, 90))], 1.5).strings[0];
+    let width = at(0.024);
+    let off: Vec<f64> = (at(0.2)..sound.len() - width)
+        .step_by(96)
+        .map(|n| cents(frequency_near(&sound[n..n + width], RATE, hertz(71.0)), hertz(71.0)))
+        .collect();
+    let (low, high) = off.iter().fold((0.0_f64, 0.0_f64), |(low, high), &x| (low.min(x), high.max(x)));
+    assert!((low + 50.0).abs() < 3.0 && (high - 50.0).abs() < 3.0, "{low} to {high} cents");
+}
+
+#[test]
+fn on_a_bare_board_the_finger_itself_swings_and_bends() {
+    let mut stage = Stage::alone("fretless-bass", 0);
+    let mut places = Vec::new();
+    let played = stage.watch(&[(0.0, cc(1, 127)), (0.0, on(50, 90))], 1.0, |time, instrument| {
+        if let Some(finger) = instrument.state(0).fingers()[0].filter(|_| time > 0.3) {
+            places.push(finger.position);
+        }
+    });
+    assert!(played.gestures.iter().all(|g| !matches!(g.gesture, Gesture::Bend { .. })), "no pull");
+    let (near, far) = places.iter().fold((f64::MAX, 0.0_f64), |(near, far), &x| (near.min(x), far.max(x)));
+    assert!((0.01..0.05).contains(&(far - near)), "the finger rolls over {} m", far - near);
+    let bent = [(0.0, on(50, 90)), (0.3, PlayerEvent::PitchBend { channel: 0, value: 1.0 })];
+    let sound = &stage.play(&bent, 1.5).strings[0];
+    let off = cents(frequency_near(&sound[at(0.6)..], RATE, hertz(52.0)), hertz(52.0));
+    assert!(off.abs() < 8.0, "{off} cents");
+}
+
+#[test]
+fn every_stroke_is_heard_within_three_milliseconds_and_every_finger_leaves() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        for stroke in 0..7 {
+            let events =
+                [(0.0, cc(22, stroke)), (0.0, cc(20, 40)), (0.0, on(open + 3, 100)), (0.4, off(open + 3))];
+            let played = stage.play(&events, 2.5);
+            let sound = &played.strings[0];
+            let attack = peak(&sound[..at(0.04)]);
+            let first = sound.iter().position(|sample| f64::from(sample.abs()) > 0.01 * attack);
+            assert!(
+                first.is_some_and(|first| first < at(0.003)),
+                "{setup} {string} stroke {stroke}: {first:?}"
+            );
+            let left = stage.instrument.state(0).fingers().iter().flatten().count();
+            assert_eq!(left, 0, "{setup} {string} stroke {stroke}");
+        }
+    }
+}
