@@ -5,5 +5,6 @@ pub mod dense;
 pub mod host;
 pub mod midi;
 pub mod paper;
+pub mod parameters;
 pub mod pitch;
 pub mod stage;

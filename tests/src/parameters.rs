@@ -1,0 +1,44 @@
+//! The plugin with its parameters set, and what is heard of it.
+
+use crate::host::{Action, Host, Score, parameter};
+use crate::pitch::{cents, frequency_near};
+
+/// Hz.
+pub const RATE: f64 = 48_000.0;
+/// Half a second.
+pub const LENGTH: usize = 24_000;
+
+/// Two notes, one stopped and one open, the second softer.
+pub fn score() -> Score {
+    vec![
+        (480, Action::NoteOn { channel: 0, key: 48, velocity: 110 }),
+        (6000, Action::NoteOn { channel: 0, key: 59, velocity: 60 }),
+        (20_000, Action::NoteOff { channel: 0, key: 48 }),
+    ]
+}
+
+/// The left channel of the plugin with parameters set before everything else.
+pub fn with(settings: &[(&str, f64)], score: &Score) -> Vec<f32> {
+    let mut host = Host::new();
+    let settings = settings.iter().map(|&(id, value)| (0, Action::Parameter(parameter(id), value))).collect();
+    // A first activation takes the values in; the second begins with them.
+    host.play(RATE, &settings, 64, &[64]);
+    let [left, _] = host.play(RATE, score, LENGTH, &[512]);
+    left
+}
+
+/// Mean size of a sound.
+pub fn rms(sound: &[f32]) -> f64 {
+    (sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / sound.len() as f64).sqrt()
+}
+
+/// One stopped note, C3 on the string A2.
+pub fn stopped() -> Score {
+    vec![(0, Action::NoteOn { channel: 0, key: 48, velocity: 100 })]
+}
+
+/// Pitch of a sound from 0.1 s on, as a MIDI note number within 60 cents of `near`.
+pub fn sounding_pitch(sound: &[f32], near: f64) -> f64 {
+    let frequency = |key: f64| 440.0 * ((key - 69.0) / 12.0).exp2();
+    near + 0.01 * cents(frequency_near(&sound[4800..], RATE, frequency(near)), frequency(near))
+}

@@ -1,0 +1,131 @@
+//! Promise: the parameters that stand for no value of a set-up are heard as they say: hands, wheel and arm, what
+//! channels mean, level and bypass, and what is meant for one way of rendering alone.
+
+use low_action_tests::host::{Action, Host, Score, parameter};
+use low_action_tests::parameters::{LENGTH, RATE, rms, score, sounding_pitch, stopped, with};
+
+#[test]
+fn the_hands_act_as_they_are_told() {
+    let ends = |id: &str, score: &Score| [0.0, 1.0].map(|end| with(&[("variation", 0.0), (id, end)], score));
+
+    // Pressed harder, the stopped string is stretched more; a set-up made for such a finger would make up for it.
+    let [light, firm] = ends("finger_force", &stopped()).map(|sound| sounding_pitch(&sound, 48.0));
+    assert!(firm > light + 0.02, "finger force: {light} and {firm}");
+
+    // Under a soft pad the string goes on moving behind the fret, and loses there what a hard one leaves it.
+    let [soft, hard] = ends("finger_hardness", &stopped()).map(|sound| rms(&sound[12_000..]));
+    assert!(hard > 1.05 * soft, "finger hardness: {soft} and {hard}");
+
+    // Without a curve a soft note is as loud as a hard one; with a steep one it hardly sounds.
+    let soft = vec![(0, Action::NoteOn { channel: 0, key: 45, velocity: 30 })];
+    let [flat, steep] = ends("velocity_curve", &soft).map(|sound| rms(&sound[2400..]));
+    let expected = (30.0 / 127.0_f64).powi(4);
+    assert!((steep / flat / expected - 1.0).abs() < 0.5, "velocity curve: {steep} of {flat}");
+
+    // If the softest pluck is as hard as the hardest, velocity means nothing, as without a curve.
+    let [usual, level] = ends("pluck_softest", &soft);
+    assert_eq!(usual, with(&[("variation", 0.0)], &soft));
+    assert_eq!(level, with(&[("variation", 0.0), ("velocity_curve", 0.0)], &soft));
+}
+
+#[test]
+fn the_tremolo_arm_bends_everything() {
+    for (end, semitones) in [(0.0, -12.0), (1.0, 3.0)] {
+        let mut score = stopped();
+        score[0].1 = Action::NoteOn { channel: 0, key: 45, velocity: 60 };
+        let sound = with(&[("tremolo_arm", end)], &score);
+        let cents = 100.0 * (sounding_pitch(&sound, 45.0 + semitones) - (45.0 + semitones));
+        // A slack string buzzes and is stretched more by the same pluck.
+        let limit = if semitones < 0.0 { 60.0 } else { 5.0 };
+        assert!(cents.abs() < limit, "{semitones} semitones: off by {cents} cents");
+    }
+}
+
+#[test]
+fn the_wheel_reaches_as_far_as_it_is_told() {
+    let assert_bent = |settings: &[(&str, f64)], announced: bool, semitones: f64| {
+        let mut score = stopped();
+        if announced {
+            let messages = [(101, 0), (100, 0), (6, 1)];
+            score.extend(messages.map(|(number, value)| (0, Action::Midi([0xB0, number, value]))));
+        }
+        score.push((0, Action::Midi([0xE0, 127, 127])));
+        let straight = sounding_pitch(&with(settings, &stopped()), 48.0);
+        let raised = sounding_pitch(&with(settings, &score), 48.0 + semitones) - straight;
+        assert!((raised - semitones).abs() < 0.06, "{settings:?}: {raised} instead of {semitones}");
+    };
+    assert_bent(&[("bend_range", 0.0)], false, 0.0);
+    assert_bent(&[("bend_range", 3.0)], false, 3.0);
+    // Past what pulling can do, the finger slides.
+    assert_bent(&[("bend_range", 5.0)], false, 5.0);
+    assert_bent(&[("bend_range", 96.0), ("ignore_rpn", 0.0)], true, 1.0);
+    assert_bent(&[("bend_range", 3.0), ("ignore_rpn", 1.0)], true, 3.0);
+}
+
+#[test]
+fn channels_mean_what_they_are_told() {
+    // On channel 2 a C3 is the string B3's only where channels are strings: there it must move up an octave.
+    let score = vec![(0, Action::NoteOn { channel: 1, key: 48, velocity: 100 })];
+    let [keyboard, strings] = [0.0, 2.0].map(|mode| key_heard(&with(&[("input_mode", mode)], &score)));
+    assert_eq!((keyboard, strings), (48, 60));
+    // Counted from the lowest string, channel 2 is the A2's, which has a C3.
+    let [first, last] =
+        [0.0, 1.0].map(|order| key_heard(&with(&[("input_mode", 2.0), ("string_order", order)], &score)));
+    assert_eq!((first, last), (60, 48));
+    // From channel 11 on, and on the last channel alone; channels without a string are silent.
+    let on = |channel, key| vec![(0, Action::NoteOn { channel, key, velocity: 100 })];
+    for (first, channel, key) in [(0.0, 0, 64), (10.0, 11, 60), (15.0, 15, 64)] {
+        let settings = [("input_mode", 2.0), ("first_channel", first)];
+        let pitch = sounding_pitch(&with(&settings, &on(channel, key)), f64::from(key));
+        assert!((pitch - f64::from(key)).abs() < 0.1, "channel {channel} from {first} on: {pitch}");
+        assert_eq!(rms(&with(&settings, &on(9, key))), 0.0);
+    }
+    // In MPE a turn of the wheel is 48 semitones of that note alone: a seventh of it a fifth.
+    let mut bent = on(3, 48);
+    let wheel = 8192 + 8191 * 7 / 48;
+    bent.push((0, Action::Midi([0xE3, (wheel & 127) as u8, (wheel >> 7) as u8])));
+    let pitch = sounding_pitch(&with(&[("input_mode", 3.0)], &bent), 55.0);
+    assert!((pitch - 55.0).abs() < 0.1, "{pitch}");
+}
+
+/// The key whose fundamental is strongest among C3 and C4.
+fn key_heard(sound: &[f32]) -> u8 {
+    let sound: Vec<f64> = sound[4800..].iter().map(|&x| f64::from(x)).collect();
+    let size = |key: u8| {
+        let frequency = 440.0 * ((f64::from(key) - 69.0) / 12.0).exp2() * std::f64::consts::TAU / RATE;
+        let sum = |wave: fn(f64) -> f64| -> f64 {
+            sound.iter().enumerate().map(|(i, x)| x * wave(frequency * i as f64)).sum()
+        };
+        sum(f64::sin).hypot(sum(f64::cos))
+    };
+    if size(48) > 0.1 * size(60) { 48 } else { 60 }
+}
+
+#[test]
+fn level_and_bypass_act_on_the_output_alone() {
+    let usual = with(&[], &score());
+    for (value, decibels) in [(0.0, -60.0), (1.0, 12.0)] {
+        let gain = 10_f64.powf(decibels / 20.0);
+        let found = with(&[("level", value)], &score());
+        let off = usual.iter().zip(&found).map(|(a, b)| (f64::from(*a) * gain - f64::from(*b)).abs());
+        assert!(off.fold(0.0, f64::max) <= 1e-6 * gain, "level at {decibels} dB");
+    }
+    assert_eq!(with(&[("bypass", 0.0)], &score()), usual);
+    assert!(with(&[("bypass", 1.0)], &score()).iter().all(|&sample| sample == 0.0));
+}
+
+#[test]
+fn relaxing_is_for_real_time_alone() {
+    let usual = with(&[], &score());
+    [0.0, 1.0].into_iter().for_each(|end| assert_eq!(with(&[("relax", end)], &score()), usual));
+}
+
+#[test]
+fn the_offline_quality_is_for_offline_alone() {
+    let mut host = Host::in_real_time();
+    let settings = [("render_quality", 4.0), ("relax", 0.0)];
+    let settings = settings.map(|(id, value)| (0, Action::Parameter(parameter(id), value))).to_vec();
+    host.play(RATE, &settings, 64, &[64]);
+    let [left, _] = host.play(RATE, &score(), LENGTH, &[512]);
+    assert!(left == with(&[], &score()));
+}
