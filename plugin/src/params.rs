@@ -6,11 +6,13 @@
 
 mod choices;
 mod ranges;
+mod start;
 
 use nice_plug::prelude::*;
 
 pub use choices::{InputChoice, InstrumentChoice, LegatoChoice, QualityChoice, RenderChoice, StringOrder};
 pub use ranges::{exact, poly};
+pub use start::{Start, begin_with};
 
 use crate::plugin::shelf::Shelf;
 use crate::plugin::state::Marked;

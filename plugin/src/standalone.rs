@@ -1,16 +1,126 @@
 //! The instrument as a program of its own, playing through the sound card.
+//!
+//! The plugin framework opens the devices and plays. Here it is told which, and what to begin with; where it would
+//! go on without any sound, this ends with an error.
 
+use anyhow::{Context, Result, bail, ensure};
+use cpal::traits::{DeviceTrait, HostTrait};
+use midir::MidiInput;
 use nice_plug::prelude::nice_export_standalone_with_args;
 
+use crate::params::{Start, begin_with};
 use crate::plugin::LowAction;
 
-/// Opens the instrument and plays what arrives on MIDI until it is interrupted; gives back whether that
-/// could be done.
+/// The system's own way to its devices, by the framework's name for it.
+const NATIVE: &str = if cfg!(target_os = "macos") {
+    "core-audio"
+} else if cfg!(target_os = "windows") {
+    "wasapi"
+} else {
+    "alsa"
+};
+/// The way through the JACK server, which knows its own devices.
+const JACK: &str = "jack";
+/// What stands for the first of the two that can be opened.
+const AUTO: &str = "auto";
+
+/// A port that leads programs to each other and is no keyboard.
+const THROUGH: &str = "Midi Through";
+
+/// Which devices are to be used.
+#[derive(Debug, Clone, Default)]
+pub struct Devices {
+    /// `auto`, `jack`, `alsa`, `core-audio` or `wasapi`; nothing is `auto`.
+    pub backend: Option<String>,
+    /// Where the sound goes; nothing is what the system usually takes.
+    pub output: Option<String>,
+    /// Which keyboard plays; nothing is the first there is.
+    pub keyboard: Option<String>,
+    /// Hz, but for JACK, which has its own.
+    pub sample_rate: u32,
+    /// Samples computed at a time, but for JACK.
+    pub period: u32,
+    /// More of the framework's options.
+    pub others: Vec<String>,
+}
+
+/// Opens the instrument and plays what arrives on MIDI until it is interrupted.
 ///
-/// The options are the plugin framework's: `--midi-input NAME`, `--output-device NAME`,
-/// `--sample-rate HZ`, `--period-size SAMPLES`, `--backend auto|jack|alsa|…`; `--help` lists them all, and
-/// an empty name lists the devices. Without `--midi-input` ALSA, Core Audio and WASAPI connect no keyboard.
-pub fn open(options: impl IntoIterator<Item = String>) -> bool {
-    let arguments = std::iter::once("low-action --".to_owned()).chain(options);
-    nice_export_standalone_with_args::<LowAction, _>(arguments)
+/// # Errors
+/// When no device can be opened, or not the one that was named; the log says more.
+pub fn open(start: Start, devices: &Devices) -> Result<()> {
+    begin_with(start);
+    let ways = match devices.backend.as_deref().unwrap_or(AUTO) {
+        AUTO => vec![JACK, NATIVE],
+        named => vec![named],
+    };
+    for way in &ways {
+        let mut arguments = vec!["low-action --".to_owned(), format!("--backend={way}")];
+        if *way != JACK {
+            arguments.push(format!("--sample-rate={}", devices.sample_rate));
+            arguments.push(format!("--period-size={}", devices.period));
+            arguments.extend(devices.output.as_ref().map(|name| format!("--output-device={name}")));
+            arguments.extend(keyboard(devices)?.map(|name| format!("--midi-input={name}")));
+        }
+        arguments.extend(devices.others.iter().cloned());
+        if nice_export_standalone_with_args::<LowAction, _>(arguments) {
+            return Ok(());
+        }
+    }
+    bail!("no sound can be played by {}: see `low-action --list-devices`", ways.join(" or "))
+}
+
+/// The name of the keyboard that is to play, if there is one.
+fn keyboard(devices: &Devices) -> Result<Option<String>> {
+    let known = keyboards()?;
+    match &devices.keyboard {
+        Some(name) => {
+            ensure!(
+                known.contains(name),
+                "there is no MIDI input {name:?}: {}",
+                match known.as_slice() {
+                    [] => "there is none at all".to_owned(),
+                    known => format!("it must be {}", known.join(" or ")),
+                }
+            );
+            Ok(Some(name.clone()))
+        }
+        None => Ok(known.into_iter().find(|name| !name.contains(THROUGH))),
+    }
+}
+
+/// The names of all MIDI inputs.
+fn keyboards() -> Result<Vec<String>> {
+    let midi = MidiInput::new("Low Action").context("MIDI cannot be reached")?;
+    Ok(midi.ports().iter().filter_map(|port| midi.port_name(port).ok()).collect())
+}
+
+/// What there is to choose from, for people to read.
+///
+/// # Errors
+/// When the system does not say.
+pub fn list() -> Result<String> {
+    let host = cpal::default_host();
+    let usual = host.default_output_device().and_then(|device| device.description().ok());
+    let mut text = String::from("Outputs (--output-device NAME):\n");
+    let outputs = host.output_devices().map(Iterator::collect::<Vec<_>>).unwrap_or_default();
+    let names = outputs.iter().filter_map(|device| device.description().ok());
+    let mut lines: Vec<String> = names
+        .map(|one| {
+            let is_usual = usual.as_ref().is_some_and(|usual| usual.name() == one.name());
+            format!("  {}{}\n", one.name(), if is_usual { " (the usual one)" } else { "" })
+        })
+        .collect();
+    if lines.is_empty() {
+        lines.push("  none\n".into());
+    }
+    text += &lines.concat();
+    text += "MIDI inputs (--midi-input NAME; the first keyboard if none is named):\n";
+    let keyboards = keyboards().unwrap_or_default();
+    if keyboards.is_empty() {
+        text += "  none\n";
+    }
+    keyboards.iter().for_each(|name| text += &format!("  {name}\n"));
+    text += "With a JACK server running, outputs and inputs are its own: --backend jack.\n";
+    Ok(text)
 }

@@ -1,6 +1,6 @@
 //! Finding the set-up that `--instrument` names.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context;
 use low_action_dsp::Setup;
@@ -10,9 +10,14 @@ use crate::setups::{self, SHIPPED};
 
 /// A set-up that comes with the program or was installed, by name, or one from a file.
 pub(super) fn load(name: &str) -> Result<Setup, Failure> {
-    if let Some(setup) = Setup::shipped(name) {
-        return Ok(setup);
+    match Setup::shipped(name) {
+        Some(setup) => Ok(setup),
+        None => Ok(file(name)?.1),
     }
+}
+
+/// A set-up that was installed, by name, or one from a file: its text, and what it says.
+pub(super) fn file(name: &str) -> Result<(String, Setup), Failure> {
     let mut path = PathBuf::from(name);
     // A bare word that is no file is the name of an installed set-up, or a misspelt one.
     if !path.exists() && path.extension().is_none() && path.components().count() == 1 {
@@ -26,10 +31,7 @@ pub(super) fn load(name: &str) -> Result<Setup, Failure> {
         };
         path.clone_from(&file.path);
     }
-    from_file(&path)
-}
-
-fn from_file(path: &Path) -> Result<Setup, Failure> {
-    let text = setups::read(path)?;
-    Ok(Setup::from_toml(&text).with_context(|| path.display().to_string())?)
+    let text = setups::read(&path)?;
+    let setup = Setup::from_toml(&text).with_context(|| path.display().to_string())?;
+    Ok((text, setup))
 }

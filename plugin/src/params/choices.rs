@@ -27,6 +27,11 @@ fn titles(words: &'static Words, ids: impl Iterator<Item = &'static str>) -> &'s
 pub struct InstrumentChoice(usize);
 
 impl InstrumentChoice {
+    /// The set-up of a name, if there is one.
+    pub fn named(name: &str) -> Option<Self> {
+        SHIPPED.iter().position(|known| *known == name).map(Self)
+    }
+
     /// The name of the set-up, as the command line knows it.
     pub fn id(self) -> &'static str {
         SHIPPED.get(self.0).unwrap_or(&SHIPPED[0])

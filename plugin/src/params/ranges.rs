@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use nice_plug::prelude::*;
 
+use super::start::{Start, start};
 use super::{
-    ControlParams, InputChoice, InstrumentChoice, InstrumentParams, LegatoChoice, LowActionParams,
-    OutputParams, PlayerParams, QualityChoice, RenderChoice, SetupParams, StringOrder, StringParams,
+    ControlParams, InputChoice, InstrumentParams, LegatoChoice, LowActionParams, OutputParams, PlayerParams,
+    QualityChoice, RenderChoice, SetupParams, StringOrder, StringParams,
 };
 use crate::engine::EngineOptions;
 use crate::plugin::shelf::{MOST_FILES, Shelf};
@@ -24,16 +25,16 @@ const FINE_STEP: f32 = 0.1;
 
 impl Default for LowActionParams {
     fn default() -> Self {
-        Self::new(Shelf::of_user())
+        Self::new(Shelf::of_user(), &start())
     }
 }
 
 impl LowActionParams {
-    /// Everything as usual, with such files of the user's.
-    pub(crate) fn new(shelf: Shelf) -> Self {
+    /// Everything as usual but for the start, with such files of the user's.
+    pub(crate) fn new(shelf: Shelf, start: &Start) -> Self {
         Self {
             mark: Marked,
-            instrument: InstrumentParams::new(&shelf),
+            instrument: InstrumentParams::new(&shelf, start),
             shelf,
             setup: SetupParams::default(),
             strings: std::array::from_fn(StringParams::new),
@@ -45,17 +46,22 @@ impl LowActionParams {
 }
 
 impl InstrumentParams {
-    fn new(shelf: &Shelf) -> Self {
+    fn new(shelf: &Shelf, start: &Start) -> Self {
+        let number = start.file.as_ref().map_or(0, |(name, text)| shelf.keep(name, text) as i32);
         let [chosen, titled, numbered] = std::array::from_fn(|_| shelf.clone());
         Self {
-            instrument: EnumParam::new("Instrument", InstrumentChoice::default()),
+            instrument: EnumParam::new("Instrument", start.instrument),
             // What a number means depends on the folder, so nothing should move it by itself.
-            file: IntParam::new("Instrument file", 0, IntRange::Linear { min: 0, max: MOST_FILES as i32 })
-                .non_automatable()
-                .with_callback(Arc::new(move |number| chosen.choose(number.unsigned_abs())))
-                .with_value_to_string(Arc::new(move |number| titled.title(number.unsigned_abs())))
-                .with_string_to_value(Arc::new(move |title| numbered.number(title))),
-            quality: EnumParam::new("Quality", QualityChoice::default()),
+            file: IntParam::new(
+                "Instrument file",
+                number,
+                IntRange::Linear { min: 0, max: MOST_FILES as i32 },
+            )
+            .non_automatable()
+            .with_callback(Arc::new(move |number| chosen.choose(number.unsigned_abs())))
+            .with_value_to_string(Arc::new(move |number| titled.title(number.unsigned_abs())))
+            .with_string_to_value(Arc::new(move |title| numbered.number(title))),
+            quality: EnumParam::new("Quality", QualityChoice(start.quality)),
             render_quality: EnumParam::new("Offline quality", RenderChoice::default()),
             iterations: IntParam::new("Newton cap", 0, IntRange::Linear { min: 0, max: 200 })
                 .with_value_to_string(Arc::new(|cap| match cap {

@@ -34,6 +34,8 @@ pub(crate) struct Channel {
     usual_range: f64,
     /// Reach of the wheel now: whole semitones and hundredths.
     range: (f64, f64),
+    /// Whether that was announced: what is announced counts in MPE, too, even if it is what was set up.
+    announced: bool,
     /// The registered parameter that data entry sets: upper and lower half.
     parameter: (u8, u8),
 }
@@ -83,6 +85,7 @@ impl Channel {
             wheel: 0.0,
             usual_range: range,
             range: (range, 0.0),
+            announced: false,
             parameter: NO_PARAMETER,
         }
     }
@@ -94,13 +97,14 @@ impl Channel {
             self.usual_range = range;
             self.ignores_range = ignores_announced;
             self.range = (range, 0.0);
+            self.announced = false;
         }
     }
 
     /// The reach while nothing is announced, semitones: another one in MPE.
     pub(crate) fn reach(&self, mpe: Option<f64>) -> (f64, f64) {
         match mpe {
-            Some(reach) if self.range == (self.usual_range, 0.0) => (reach, 0.0),
+            Some(reach) if !self.announced => (reach, 0.0),
             _ => self.range,
         }
     }
@@ -164,10 +168,12 @@ impl Channel {
             // Data entry: the reach of the wheel is registered parameter 0, in semitones and cents.
             6 if self.parameter == (0, 0) => {
                 self.range = (f64::from(value).min(WIDEST_RANGE), 0.0);
+                self.announced = true;
                 Request::Bend
             }
             38 if self.parameter == (0, 0) => {
                 self.range.1 = f64::from(value).min(99.0);
+                self.announced = true;
                 Request::Bend
             }
             64 => {
@@ -238,6 +244,21 @@ mod tests {
             channel.set_controller(number, value);
         }
         assert_eq!(channel.bend(None), -6.25);
+    }
+
+    #[test]
+    fn what_is_announced_counts_in_mpe_whatever_was_set_up() {
+        let mut channel = Channel::new(2.0);
+        channel.set_wheel(1.0);
+        assert_eq!(channel.bend(Some(48.0)), 48.0);
+        for (number, value) in [(101, 0), (100, 0), (6, 2)] {
+            channel.set_controller(number, value);
+        }
+        assert_eq!(channel.bend(Some(48.0)), 2.0);
+        // Passed over if that is asked for.
+        channel.set_range(2.0, true);
+        channel.set_controller(6, 12);
+        assert_eq!(channel.bend(Some(48.0)), 48.0);
     }
 
     #[test]

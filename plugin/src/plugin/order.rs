@@ -171,8 +171,8 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
             page.add_param(&control.string_order);
             page.add_param(&control.bend_range);
             page.add_param(&control.ignore_rpn);
-            page.add_spacer();
-            page.add_spacer();
+            page.add_param(&control.legato);
+            page.add_param(&control.keyswitches);
             page.add_spacer();
         });
     });

@@ -13,7 +13,7 @@ use nice_plug::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::shelf::{KEPT, Saved, Shelf};
-use crate::params::LowActionParams;
+use crate::params::{LowActionParams, Start};
 use crate::setups::SHIPPED;
 
 /// The form in which states are saved now. It grows when an older program could not read them rightly, or has to be
@@ -106,7 +106,7 @@ fn bring_up_to_date(values: &mut BTreeMap<String, ParamValue>) {
 /// Gives parameters that did not exist when the state was saved their usual values: what was set before has no
 /// place in it.
 fn complete(values: &mut BTreeMap<String, ParamValue>) {
-    let params = LowActionParams::new(Shelf::new(Vec::new()));
+    let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
     for (id, param, _) in params.param_map() {
         values.entry(id).or_insert_with(|| {
             // SAFETY: the pointers lead into `params`, which lives on.
@@ -125,7 +125,7 @@ fn complete(values: &mut BTreeMap<String, ParamValue>) {
 /// Brings every number into the range of its parameter, and replaces a set-up that is not there any more by
 /// the usual one.
 fn bring_into_range(values: &mut BTreeMap<String, ParamValue>) {
-    let params = LowActionParams::new(Shelf::new(Vec::new()));
+    let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
     for (id, param, _) in params.param_map() {
         let Some(value) = values.get_mut(&id) else { continue };
         match (param, value) {

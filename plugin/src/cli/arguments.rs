@@ -1,0 +1,167 @@
+//! What each command can be told.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::render::{self, BitDepth, Tail};
+use crate::engine::Quality;
+
+/// Arguments of `low-action render`.
+#[derive(Debug, Clone, Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+Examples:
+  low-action render                            the built-in demo, to demo.wav
+  low-action render song.mid                   to song.wav in the current folder
+  low-action render song.mid -o - | aplay      to standard output
+  low-action render - -o take.wav < song.mid   from standard input
+  low-action render song.mid --instrument my-guitar.toml --quality studio --bit-depth 32f
+  low-action render song.mid --track 2 --tail 5 --stems strings/
+
+Notes go to the string and fret nearest to the hand; those no string can give move by octaves.
+Channel 10 is percussion and left out unless asked for with --channel 10.
+
+Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept)."
+)]
+pub struct RenderArgs {
+    /// MIDI file to play, - for standard input; without it, the built-in demo.
+    pub song: Option<PathBuf>,
+    /// WAV file to write, - for standard output [default: SONG.wav in the current folder].
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Set-up that comes with the program (electric, classical, steel, bass, tanpura, ...) or was installed, or
+    /// a set-up file; `low-action instruments` lists them.
+    #[arg(short, long, value_name = "NAME|FILE", default_value = "electric")]
+    pub instrument: String,
+    /// How much computing: draft, live, studio or reference.
+    #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live)]
+    pub quality: Quality,
+    /// Samples per second, 8000 to 384000.
+    #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate)]
+    pub sample_rate: u32,
+    /// Sample format: 16 or 24 bit whole numbers, or 32f for floating point.
+    #[arg(short, long, value_name = "16|24|32f", default_value_t = BitDepth::Int24)]
+    pub bit_depth: BitDepth,
+    /// How long to go on after the last event: until it is quiet (auto, 30 s at most), so many
+    /// seconds, or not at all (none).
+    #[arg(long, value_name = "auto|SECONDS|none", default_value_t = Tail::Auto)]
+    pub tail: Tail,
+    /// Play only this track, counted from 1; tempo changes of all tracks count.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub track: Option<u16>,
+    /// Play only this channel, 1 to 16.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
+    pub channel: Option<u8>,
+    /// Longest music accepted, minutes.
+    #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes)]
+    pub max_length: f64,
+    /// Also write each string's own sound, mono and before panning, into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub stems: Option<PathBuf>,
+    /// Size of the small differences between one pluck and the next, 0 (none) to 1.
+    #[arg(long, value_name = "AMOUNT", default_value_t = crate::engine::EngineOptions::VARIATION, value_parser = render::parse_variation)]
+    pub variation: f64,
+    /// Which sequence of those differences.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+}
+
+/// Arguments of `low-action scene`.
+#[derive(Debug, Clone, Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+Examples:
+  low-action scene scene.toml                          computed, checked, summed up
+  low-action scene scene.toml --wav out.wav
+  low-action scene scene.toml --trace out.npz --every 4
+  low-action scene scene.toml --figure out.svg
+  low-action scene - --wav - < scene.toml | aplay      from standard input to standard output
+
+The trace is an .npz file of NumPy arrays. Strings (S), frets (F) and fingers (N) count from 1. Row n of
+the arrays over time belongs to its time t: the state there, the forces and powers that act there, and
+the energies half a sample later.
+  t                                                    s
+  x_S, u_S                                             m; places, and displacements over time and places
+  u_finger_N                                           m
+  force_board_S, force_fret_S_F, force_finger_N        N
+  iterations                                           of the contact solver, all strings together
+  energy_string, energy_tension, energy_contact, energy_finger    J
+  power_loss, power_solver, power_in                   W
+  residual                                             J in that sample: what the balance does not explain
+
+The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to
+1e-9 of the largest energy.
+
+Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check."
+)]
+pub struct SceneArgs {
+    /// Scene file (TOML, SI units), - for standard input.
+    pub file: PathBuf,
+    /// WAV file to write, - for standard output: 32-bit float, in SI units, at the scene's rate.
+    #[arg(long, value_name = "FILE")]
+    pub wav: Option<PathBuf>,
+    /// Trace to write: displacements, contact forces and the energy balance.
+    #[arg(long, value_name = "FILE")]
+    pub trace: Option<PathBuf>,
+    /// Keep every N-th sample of the trace, from the first.
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "trace", value_parser = clap::value_parser!(u64).range(1..))]
+    pub every: u64,
+    /// Picture to draw (SVG): the strings over the board, energies, contact forces, iterations, penetration.
+    #[arg(long, value_name = "FILE")]
+    pub figure: Option<PathBuf>,
+}
+
+/// Options of the stand-alone instrument.
+#[derive(Debug, Clone, Args)]
+pub struct StandAloneArgs {
+    /// Set-up that comes with the program or was installed, or a set-up file; `low-action instruments` lists
+    /// them.
+    #[arg(short, long, value_name = "NAME|FILE", default_value = "electric")]
+    pub instrument: String,
+    /// How much computing: draft, live, studio or reference.
+    #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live)]
+    pub quality: Quality,
+    /// The keyboard or guitar that plays [default: the first there is].
+    #[arg(long, value_name = "NAME")]
+    pub midi_input: Option<String>,
+    /// Where the sound goes [default: where the system's usually does].
+    #[arg(long, value_name = "NAME")]
+    pub output_device: Option<String>,
+    /// Way to the devices: jack, alsa (Linux), core-audio (macOS) or wasapi (Windows) [default: the first that
+    /// can be opened].
+    #[arg(long, value_name = "NAME", value_parser = ["auto", "jack", "alsa", "core-audio", "wasapi"])]
+    pub backend: Option<String>,
+    /// Samples per second, 8000 to 384000; JACK has its own.
+    #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate)]
+    pub sample_rate: u32,
+    /// Samples computed at a time: fewer answer sooner, more are safer. JACK has its own.
+    #[arg(short, long, value_name = "SAMPLES", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub period_size: u32,
+    /// Lists outputs and MIDI inputs, and plays nothing.
+    #[arg(long)]
+    pub list_devices: bool,
+    /// More options, of the plugin framework: `low-action -- --help` lists them.
+    #[arg(last = true, value_name = "OPTION")]
+    pub options: Vec<String>,
+}
+
+/// Arguments of `low-action instruments`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Installed set-ups can be named like those that come with the program (render --instrument NAME), and the plugin
+lists them by number under `Instrument file` when it is loaded. They are kept in a folder of yours, which the
+variable LOW_ACTION_INSTRUMENTS may name.
+
+Examples:
+  low-action instruments                             what there is
+  low-action instruments --install my-guitar.toml    checks the file and copies it to the folder
+
+Exit codes: 0 done, 1 could not be done, 2 wrong usage.")]
+pub struct InstrumentsArgs {
+    /// Set-up files to check and copy to the folder, in place of those of the same name.
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub install: Vec<PathBuf>,
+}

@@ -1,0 +1,62 @@
+//! The program without a command: the instrument itself.
+
+use super::{Failure, Outcome, StandAloneArgs};
+
+/// Plays, or lists the devices there are.
+#[cfg(feature = "standalone")]
+pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
+    use std::path::Path;
+
+    use low_action_dsp::Setup;
+
+    use super::{instrument, say};
+    use crate::engine::{Engine, EngineOptions};
+    use crate::params::Start;
+    use crate::standalone::{self, Devices};
+
+    if arguments.list_devices {
+        print!("{}", standalone::list()?);
+        return Ok(());
+    }
+    let mut start = Start { quality: arguments.quality, ..Start::default() };
+    let name = arguments.instrument.as_str();
+    let setup = match (crate::params::InstrumentChoice::named(name), Setup::shipped(name)) {
+        (Some(choice), Some(setup)) => {
+            start.instrument = choice;
+            setup
+        }
+        _ => {
+            let (text, setup) = instrument::file(name)?;
+            let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+            start.file = Some((stem.into_owned(), text));
+            setup
+        }
+    };
+    // Whatever cannot be built is better said before the devices are opened.
+    let rate = f64::from(arguments.sample_rate);
+    let options = EngineOptions { quality: arguments.quality, ..EngineOptions::new(setup, rate) };
+    Engine::new(&options).map_err(|error| Failure::Impossible(anyhow::anyhow!("{name}: {error}")))?;
+    say(name, "playing what arrives on MIDI until Ctrl+C");
+    standalone::open(
+        start,
+        &Devices {
+            backend: arguments.backend.clone(),
+            output: arguments.output_device.clone(),
+            keyboard: arguments.midi_input.clone(),
+            sample_rate: arguments.sample_rate,
+            period: arguments.period_size,
+            others: arguments.options.clone(),
+        },
+    )?;
+    Ok(())
+}
+
+/// Says how to get the instrument.
+#[cfg(not(feature = "standalone"))]
+pub(super) fn run(_arguments: &StandAloneArgs) -> Outcome {
+    Err(Failure::Usage(
+        "this build has no stand-alone instrument: build it with `cargo build --release --features \
+         standalone`, or see `low-action --help` for the commands"
+            .into(),
+    ))
+}

@@ -1,0 +1,29 @@
+//! What the parameters begin with, where there is no host to set them.
+
+use std::sync::OnceLock;
+
+use super::InstrumentChoice;
+use crate::engine::Quality;
+
+/// What to begin with.
+#[derive(Debug, Clone, Default)]
+pub struct Start {
+    /// Instrument that comes with the program.
+    pub instrument: InstrumentChoice,
+    /// A set-up that is played in its place: name and text.
+    pub file: Option<(String, String)>,
+    /// How much computing.
+    pub quality: Quality,
+}
+
+static START: OnceLock<Start> = OnceLock::new();
+
+/// Has all plugins that are made from now on begin so; the first time counts.
+pub fn begin_with(start: Start) {
+    START.get_or_init(|| start);
+}
+
+/// What to begin with: what is usual, unless something else was said.
+pub(super) fn start() -> Start {
+    START.get().cloned().unwrap_or_default()
+}
