@@ -3,10 +3,10 @@
 //! [`Performance`] takes [`PlayerEvent`]s at sample times and hands out
 //! [`low_action_dsp::TimedGesture`]s: which string and fret (`hand`), notes that begin together or take over
 //! from one another (`chord`), what fingers and plucks a note takes from its start to its silence (`string`),
-//! how hands are told to play (`articulation`, `switches`), what pedals and wheels say (`channel`) and do to it (`control`, `bend`), and how one pluck
-//! differs from the next (`variation`). There are no host types here, nothing is allocated after
-//! construction, and the result depends only on the events and their times, not on how the time
-//! between them is cut into blocks.
+//! how hands are told to play (`articulation`, `switches`), what pedals and wheels say (`channel`) and do to
+//! it (`control`, `bend`), and how one pluck differs from the next (`variation`). There are no host types
+//! here, nothing is allocated after construction, and the result depends only on the events and their times,
+//! not on how the time between them is cut into blocks.
 
 mod articulation;
 mod bend;

@@ -1,0 +1,192 @@
+//! The promise: no note of a chord is lost. One that does not fit on the strings is moved by an octave or comes a
+//! moment later; a strum reaches the strings one after another at the speed asked for; and keyswitches say how
+//! to play without sounding themselves.
+
+use std::sync::LazyLock;
+
+use low_action::controls::Touching;
+use low_action::performance::{InputMode, Performance, PlayedString, PlayerEvent, Style};
+use low_action_dsp::{Gesture, Instrument, Quality, Setup, TimedGesture};
+use low_action_tests::stage::{cc, off, on};
+use proptest::prelude::*;
+
+const RATE: f64 = 48_000.0;
+
+static GUITAR: LazyLock<(Setup, Vec<PlayedString>)> = LazyLock::new(|| {
+    let setup = Setup::builtin("electric").expect("built in");
+    let instrument = Instrument::new(&setup, &Quality::Draft.settings(RATE)).expect("builds");
+    let strings = (0..instrument.string_count()).map(|index| PlayedString::new(&setup, &instrument, index));
+    let strings = strings.collect();
+    (setup, strings)
+});
+
+fn player() -> Performance {
+    let (setup, strings) = &*GUITAR;
+    let style = Style { variation: 0.0, seed: 0, bend_range: 2.0 };
+    Performance::new(strings.clone(), &setup.player, style, RATE)
+}
+
+/// Plays events (samples) and two seconds more.
+fn play(performance: &mut Performance, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
+    let mut gestures = Vec::new();
+    for &(time, event) in events {
+        performance.event(time, event, &mut gestures);
+    }
+    let end = events.last().map_or(0, |event| event.0);
+    performance.advance(end + 2 * RATE as u64, &mut gestures);
+    gestures
+}
+
+/// (time, string, force) of the plucks, in order of time.
+fn plucks(gestures: &[TimedGesture]) -> Vec<(u64, usize, f64)> {
+    let mut plucks: Vec<(u64, usize, f64)> = gestures
+        .iter()
+        .filter_map(|g| match g.gesture {
+            Gesture::Pluck { force, .. } => Some((g.time, g.string, force)),
+            _ => None,
+        })
+        .collect();
+    plucks.sort_by_key(|pluck| pluck.0);
+    plucks
+}
+
+#[test]
+fn neighbours_on_one_string_are_moved_to_others() {
+    // F2, F♯2, G2 are on the lowest string only.
+    let mut player = player();
+    let gestures = play(&mut player, &[(0, on(41, 90)), (0, on(42, 90)), (0, on(43, 90))]);
+    let strings: Vec<usize> = plucks(&gestures).iter().map(|pluck| pluck.1).collect();
+    assert_eq!(strings.len(), 3, "{gestures:?}");
+    assert!(plucks(&gestures).iter().all(|pluck| pluck.0 == 0), "all at once");
+    let compromises = player.compromises();
+    assert_eq!((compromises.moved_by_octaves, compromises.arpeggiated, compromises.left_out), (2, 0, 0));
+    // They are let go of by their own keys.
+    assert!((41..44).all(|key| player.sounds(0, key)));
+}
+
+#[test]
+fn what_finds_no_string_comes_later() {
+    let keys = [40, 47, 52, 55, 59, 64, 67, 71];
+    let mut events: Vec<(u64, PlayerEvent)> = keys.iter().map(|&key| (0, on(key, 90))).collect();
+    let mut performance = player();
+    let times: Vec<u64> = plucks(&play(&mut performance, &events)).iter().map(|pluck| pluck.0).collect();
+    assert_eq!(times, [0, 0, 0, 0, 0, 0, 3360, 6720]);
+    assert_eq!(performance.compromises().arpeggiated, 2);
+    // Keys that go up before their notes have come are heard nevertheless, and end.
+    events.extend(keys.iter().map(|&key| (480, off(key))));
+    let mut performance = player();
+    assert_eq!(plucks(&play(&mut performance, &events)).len(), 8);
+    assert!((0..128).all(|key| !performance.sounds(0, key)));
+    // Everything stopping stops them too.
+    events.push((960, PlayerEvent::AllNotesOff));
+    assert_eq!(plucks(&play(&mut player(), &events)).len(), 6);
+}
+
+#[test]
+fn a_strum_goes_over_the_strings_at_one_speed() {
+    let chord = [40, 47, 52, 56, 59, 64];
+    let strum = |settings: &[(u8, u8)], keys: &[u8]| {
+        let mut events: Vec<(u64, PlayerEvent)> =
+            settings.iter().map(|&(n, value)| (0, cc(n, value))).collect();
+        events.extend(keys.iter().map(|&key| (0, on(key, 90))));
+        plucks(&play(&mut player(), &events))
+    };
+    // 0.4 s over all strings at 127: 19200 samples, a fifth of it from each string to the next.
+    let down = strum(&[(21, 127)], &chord);
+    let places: Vec<(u64, usize)> = down.iter().map(|&(time, string, _)| (time, string)).collect();
+    assert_eq!(places, [(0, 5), (3840, 4), (7680, 3), (11520, 2), (15360, 1), (19200, 0)]);
+    let up = strum(&[(21, 127), (22, 1)], &chord);
+    assert_eq!((up[0].1, up[5].1), (0, 5));
+    // Three strings take two fifths.
+    let three = strum(&[(21, 127)], &[40, 47, 52]);
+    assert_eq!(three.iter().map(|pluck| pluck.0).collect::<Vec<_>>(), [0, 3840, 7680]);
+    // The accent makes it grow or fall.
+    let forces = |accent| strum(&[(21, 64), (24, accent)], &chord).iter().map(|p| p.2).collect::<Vec<f64>>();
+    assert!(forces(127).is_sorted() && forces(127)[0] < 0.5 * forces(127)[5]);
+    assert!(forces(0).iter().rev().is_sorted());
+    assert!(forces(64).iter().all(|force| (force / forces(64)[0] - 1.0).abs() < 1e-12));
+}
+
+#[test]
+fn strokes_go_back_and_forth() {
+    let mut events = vec![(0, cc(22, 2))];
+    events.extend((0..4).map(|n| (n * 9600, on(64, 90))));
+    let forces: Vec<f64> = plucks(&play(&mut player(), &events)).iter().map(|pluck| pluck.2).collect();
+    assert_eq!(forces[0], forces[2]);
+    assert!((forces[1] / forces[0] - 0.85).abs() < 1e-12 && forces[1] == forces[3]);
+    // A tremolo at 20 strokes a second for a second, the first at once; it ends with its note.
+    let tremolo = [(0, cc(25, 127)), (0, on(64, 90)), (48_000, off(64))];
+    let struck = plucks(&play(&mut player(), &tremolo));
+    assert!((20..=21).contains(&struck.len()), "{}", struck.len());
+    assert!(struck.windows(2).all(|pair| pair[1].0 - pair[0].0 == 2400));
+    assert!(struck.last().is_some_and(|last| last.0 <= 48_000));
+}
+
+#[test]
+fn keyswitches_are_off_until_asked_for_and_can_be_moved() {
+    let events = [(0, on(12, 90)), (0, on(64, 90))];
+    // Off, C0 is a note like any other, three octaves too low.
+    assert_eq!(plucks(&play(&mut player(), &events)).len(), 2);
+    for first in [12, 20] {
+        let mut performance = player();
+        let touching = Touching { keyswitches: Some(first), ..Touching::new(0.0, 2.0) };
+        performance.touch(0, &touching, &mut Vec::new());
+        // Rest stroke: the third.
+        let gestures =
+            play(&mut performance, &[(0, on(first + 2, 90)), (0, off(first + 2)), (10, on(64, 90))]);
+        let struck = plucks(&gestures);
+        assert!(matches!(struck[..], [(10, 0, force)] if force < 0.0), "{struck:?}");
+        assert!(!performance.sounds(0, first + 2));
+    }
+    // One that comes at the note's own sample, and after it, still counts.
+    let mut performance = player();
+    performance.event(0, cc(27, 12), &mut Vec::new());
+    let late = play(&mut performance, &[(0, on(64, 90)), (0, on(14, 90))]);
+    assert!(matches!(plucks(&late)[..], [(0, 0, force)] if force < 0.0));
+}
+
+#[test]
+fn a_keyswitch_for_a_string_holds_while_it_is_down() {
+    let string = |events: &[(u64, PlayerEvent)]| {
+        let mut performance = player();
+        performance.event(0, cc(27, 12), &mut Vec::new());
+        plucks(&play(&mut performance, events))[0].1
+    };
+    assert_eq!(string(&[(10, on(64, 90))]), 0);
+    assert_eq!(string(&[(0, on(26, 90)), (10, on(64, 90))]), 2);
+    assert_eq!(string(&[(0, on(26, 90)), (5, off(26)), (10, on(64, 90))]), 0);
+    // A string that does not have the note is not forced.
+    assert_eq!(string(&[(0, on(24, 90)), (10, on(40, 90))]), 5);
+}
+
+#[test]
+fn a_palm_of_one_strings_channel_leaves_the_others_alone() {
+    let mut performance = player();
+    performance.set_input(InputMode::Strings { first: 0, from_last: false });
+    let palm = PlayerEvent::Controller { channel: 1, number: 20, value: 1.0 };
+    let note = |channel, key| PlayerEvent::NoteOn { channel, key, velocity: 0.7 };
+    let gestures = play(&mut performance, &[(0, palm), (0, note(0, 64)), (0, note(1, 59)), (0, note(2, 55))]);
+    let palms: Vec<usize> = gestures
+        .iter()
+        .filter(|g| matches!(g.gesture, Gesture::Place { finger: 4, .. }))
+        .map(|g| g.string)
+        .collect();
+    assert_eq!(palms, [1]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Whatever up to twelve keys are struck together, each of them sounds: at once or within a second.
+    #[test]
+    fn every_note_of_a_chord_is_played(keys in prop::collection::hash_set(0..128_u8, 1..=12)) {
+        let mut performance = player();
+        let mut gestures = Vec::new();
+        for &key in &keys {
+            performance.event(0, on(key, 90), &mut gestures);
+        }
+        performance.advance(RATE as u64, &mut gestures);
+        prop_assert_eq!(plucks(&gestures).len(), keys.len());
+        prop_assert_eq!(performance.compromises().left_out, 0);
+    }
+}
