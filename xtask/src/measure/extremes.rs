@@ -91,7 +91,8 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
         seed,
         trials,
         threads: threads.unwrap_or(1),
-        kept: (!arguments.fresh && !arguments.quick).then(|| root.join("target/extremes")),
+        kept: (!arguments.quick).then(|| root.join("target/extremes")),
+        fresh: arguments.fresh,
         failures: root.join("tests/regressions/extremes/open"),
     };
     let tally = campaign.run()?;

@@ -1,6 +1,7 @@
 //! What each element of a scene costs: over the bare string in instructions, which callgrind counts and
 //! which are the same on every run, and in time.
 
+mod baseline;
 mod cases;
 mod count;
 
@@ -21,12 +22,17 @@ const AGREEMENT: f64 = 0.05;
     name = "cargo xtask measure features",
     after_help = "Examples:\n  cargo xtask measure features            measures and prints the table\n  \
                   cargo xtask measure features --write    puts it into docs/features.md\n  \
-                  cargo xtask measure features --quick    counts only, and compares with docs/features.md"
+                  cargo xtask measure features --quick    counts only, and compares with docs/features.md\n  \
+                  cargo xtask measure features --quick --since v0.1.0    and with an earlier version"
 )]
 struct Arguments {
     /// Count instructions only, and compare with the table in docs/features.md.
     #[arg(long, conflicts_with = "write")]
     quick: bool,
+    /// Count an earlier version too and refuse over 5 % more than it takes: a tag or commit, or `auto` for the last
+    /// release, or if there is none the commit before this.
+    #[arg(long, value_name = "VERSION")]
+    since: Option<String>,
     /// Put the table into docs/features.md.
     #[arg(long)]
     write: bool,
@@ -60,12 +66,15 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     println!("{table}");
     check_promises(&rows)?;
     if let Some(committed) = committed {
-        if !count::vectors_are_those_of_the_table() {
+        if count::vectors_are_those_of_the_table() {
+            compare(&rows, &committed)?;
+            println!("as in {PAGE}, within {} %", 100.0 * AGREEMENT);
+        } else {
             println!("not compared with {PAGE}: this processor has no AVX2");
-            return Ok(());
         }
-        compare(&rows, &committed)?;
-        println!("as in {PAGE}, within {} %", 100.0 * AGREEMENT);
+    }
+    if let Some(version) = &arguments.since {
+        baseline::compare(&rows, version)?;
     }
     if arguments.write {
         page::write(PAGE, "features", &table)?;

@@ -29,6 +29,8 @@ pub struct Campaign {
     pub threads: usize,
     /// Where tallies are kept and looked for; nowhere, if nothing is to be resumed.
     pub kept: Option<PathBuf>,
+    /// Whether what is kept already is thrown away first.
+    pub fresh: bool,
     /// Where trials that fail are written, made small.
     pub failures: PathBuf,
 }
@@ -39,7 +41,7 @@ impl Campaign {
     /// # Errors
     /// When a file cannot be written.
     pub fn run(&self) -> Result<Tally> {
-        let folder = self.kept.as_ref().map(|kept| this_programs(kept, self.seed)).transpose()?;
+        let folder = self.kept.as_ref().map(|kept| this_programs(kept, self.seed, self.fresh)).transpose()?;
         let chunks = self.trials.div_ceil(CHUNK);
         let style =
             ProgressStyle::with_template("{wide_bar} {pos}/{len} trials, {elapsed} of {duration}, {msg}")?;
@@ -104,11 +106,14 @@ impl Campaign {
 }
 
 /// The folder of what this very program has tallied from a seed: one built anew begins anew.
-fn this_programs(kept: &Path, seed: u64) -> Result<PathBuf> {
+fn this_programs(kept: &Path, seed: u64, fresh: bool) -> Result<PathBuf> {
     let program = fs::read(std::env::current_exe()?).context("the program itself")?;
     let mut hasher = std::hash::DefaultHasher::new();
     hasher.write(&program);
     let folder = kept.join(format!("{:016x}-seed-{seed}", hasher.finish()));
+    if fresh && folder.is_dir() {
+        fs::remove_dir_all(&folder).with_context(|| format!("{}", folder.display()))?;
+    }
     fs::create_dir_all(&folder).with_context(|| format!("{}", folder.display()))?;
     Ok(folder)
 }

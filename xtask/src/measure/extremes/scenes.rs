@@ -36,7 +36,9 @@ pub fn scene(draw: &mut Draw) -> Table {
     let points: usize = strings.iter().map(|string| string.intervals).sum();
     // How far things are apart in this scene.
     let reach = draw.over(1e-6, 0.1);
-    let budget = draw.over(3e3, MOST_POINT_SAMPLES);
+    // Mostly short, so that there can be many; one in ten may be long.
+    let most = if draw.chance(0.1) { MOST_POINT_SAMPLES } else { 0.1 * MOST_POINT_SAMPLES };
+    let budget = draw.over(3e3, most);
     let samples = (budget / points as f64).clamp(2.0, 20e3).floor();
     let duration = samples / rate;
 

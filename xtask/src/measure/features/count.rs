@@ -46,14 +46,18 @@ pub fn vectors_are_those_of_the_table() -> bool {
 
 /// Instructions of a case per sample.
 pub fn instructions(case: &Case) -> Result<f64> {
-    let total = |count| total_instructions(case.name, count);
+    instructions_of(&std::env::current_exe().context("this program has no path")?, case)
+}
+
+/// The same as this program or another version of it runs the case.
+pub fn instructions_of(program: &Path, case: &Case) -> Result<f64> {
+    let total = |count| total_instructions(program, case.name, count);
     Ok((total(true)? - total(false)?) / COUNTED as f64)
 }
 
 /// Instructions of a whole run of this program.
-fn total_instructions(name: &str, count: bool) -> Result<f64> {
+fn total_instructions(program: &Path, name: &str, count: bool) -> Result<f64> {
     let out = scratch_file(name, count);
-    let program = std::env::current_exe().context("this program has no path")?;
     let mode = if count { "counted" } else { "warm-up" };
     let run = Command::new("valgrind")
         .args(["--tool=callgrind", &format!("--callgrind-out-file={}", out.display())])

@@ -1,0 +1,96 @@
+//! The same cases as an earlier version computes them: built beside this one, counted in the same run by the same
+//! compiler on the same machine, so that a difference is one of the code.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, bail, ensure};
+
+use super::Row;
+use super::count;
+
+/// How many more instructions than before a case may take.
+const WORSE: f64 = 0.05;
+
+/// Where the earlier version is laid out and built.
+const FOLDER: &str = "target/baseline";
+
+/// The version to compare with: the one named, or the last release before this commit, or the commit before it.
+fn version(named: &str) -> Result<String> {
+    if named != "auto" {
+        return git(&["rev-parse", "--verify", &format!("{named}^{{commit}}")]);
+    }
+    if let Ok(tag) = git(&["describe", "--tags", "--abbrev=0", "--match", "v*", "HEAD^"]) {
+        return git(&["rev-parse", &format!("{tag}^{{commit}}")]);
+    }
+    git(&["rev-parse", "--verify", "HEAD^"])
+}
+
+/// The root of the repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn git(arguments: &[&str]) -> Result<String> {
+    let out =
+        Command::new("git").args(arguments).current_dir(root()).output().context("git cannot be run")?;
+    ensure!(
+        out.status.success(),
+        "git {}: {}",
+        arguments.join(" "),
+        String::from_utf8_lossy(&out.stderr).trim()
+    );
+    Ok(String::from_utf8_lossy(&out.stdout).trim().to_owned())
+}
+
+/// Builds the measuring program of a version; the path of it.
+fn build(version: &str) -> Result<PathBuf> {
+    let tree = Path::new(FOLDER).join("tree");
+    let tree_name = tree.to_string_lossy().into_owned();
+    // What an interrupted run left behind.
+    let _ = git(&["worktree", "remove", "--force", &tree_name]);
+    let _ = git(&["worktree", "prune"]);
+    git(&["worktree", "add", "--force", "--detach", &tree_name, version])?;
+    let target = root().join(FOLDER).join("build");
+    let built = Command::new("cargo")
+        .args(["build", "--release", "--locked", "--package", "xtask"])
+        .current_dir(root().join(&tree))
+        .env("CARGO_TARGET_DIR", &target)
+        .stdout(Stdio::null())
+        .status()
+        .context("cargo cannot be run");
+    git(&["worktree", "remove", "--force", &tree_name])?;
+    ensure!(built?.success(), "version {version} cannot be built");
+    Ok(target.join("release/xtask"))
+}
+
+/// Counts the cases as an earlier version runs them, prints the difference, and refuses what takes more than
+/// before by over 5 %.
+pub fn compare(rows: &[Row], named: &str) -> Result<()> {
+    let version = match version(named) {
+        Ok(version) => version,
+        Err(reason) if named == "auto" => {
+            println!("compared with no earlier version, since there is none here: {reason}");
+            return Ok(());
+        }
+        Err(reason) => return Err(reason),
+    };
+    let short = &version[..version.len().min(9)];
+    eprintln!("building version {short} to compare with");
+    let program = build(&version)?;
+    let mut worse = Vec::new();
+    println!("| | {short} | now | change |\n|---|--:|--:|--:|");
+    for row in rows {
+        // A case that the earlier version does not know is new.
+        let Ok(before) = count::instructions_of(&program, row.case) else { continue };
+        let change = row.instructions / before - 1.0;
+        println!("| {} | {before:.0} | {:.0} | {:+.1} % |", row.case.name, row.instructions, 100.0 * change);
+        if change > WORSE {
+            worse.push(format!("`{}` by {:.1} %", row.case.name, 100.0 * change));
+        }
+    }
+    if !worse.is_empty() {
+        bail!("more instructions than {short}, over 5 %: {}", worse.join(", "));
+    }
+    Ok(())
+}
