@@ -7,6 +7,9 @@ const AHEAD: f64 = 2.0;
 /// Steps of that size for which contacts are listed as near.
 const LISTED: f64 = 8.0;
 
+/// Steps of that size after which the list is made anew in any case, to be rid of what is near no more.
+const LASTING: f64 = 16.0;
+
 /// Way, m, after which it is counted from 0 again, so that gaps keep their digits.
 const LONG: f64 = 1.0;
 
@@ -22,7 +25,7 @@ pub(crate) struct Watch {
     last: f64,
     /// The way at which each contact can be reached, m.
     due: Vec<f64>,
-    /// The contacts that can be reached by the way `listed`, in order.
+    /// Contacts that are near, in order: all that are due before the way `listed`.
     near: Vec<u32>,
     listed: f64,
 }
@@ -41,7 +44,8 @@ impl Watch {
         self.due.fill(0.0);
         self.way = 0.0;
         self.last = 0.0;
-        self.list(0.0);
+        self.near.clear();
+        self.listed = 0.0;
     }
 
     /// The way within which contacts are looked at before a step: all that touch at n − 1 or n are, and most
@@ -63,19 +67,21 @@ impl Watch {
     /// Has [`near`](Self::near) hold all that are due by some way.
     #[inline(always)]
     pub fn look(&mut self, way: f64) {
-        let known = way <= self.listed;
+        let known = way < self.listed;
         if !known {
-            self.list(way + (LISTED - AHEAD) * self.last);
+            self.list(way + (LISTED - AHEAD) * self.last, way + LASTING * self.last);
         }
     }
 
-    /// Lists what is due by some way. (What is not a number is.)
-    fn list(&mut self, way: f64) {
-        self.listed = way;
+    /// Lists what is due by some way. (What is not a number is.) The list holds until the next contact is due, at
+    /// most up to the way `longest`.
+    fn list(&mut self, way: f64, longest: f64) {
         self.near.clear();
+        self.listed = longest;
         for (contact, &due) in self.due.iter().enumerate() {
-            let beyond = due > way;
-            if !beyond {
+            if due > way {
+                self.listed = self.listed.min(due);
+            } else {
                 self.near.push(contact as u32);
             }
         }
