@@ -3,16 +3,18 @@
 //! Two slots belong to fingers that stop the string. The one that sounds is `fretting`; another may be
 //! held down behind it (`anchor`), so that a pull-off finds it there, or touch the string lightly.
 
+mod leaving;
 mod legato;
 mod touches;
 
-use low_action_dsp::setup::{Damper, Fretting, Player};
+use low_action_dsp::setup::{Fretting, Player};
 use low_action_dsp::{FINGERS_PER_STRING, FingerSlot, Gesture, StringGeometry, Touch};
 
 use super::articulation::{Stop, Stroke};
 use super::right_hand::{Field, RightHand};
 use super::technique::*;
 use super::{GestureSink, Moment, PlayedString};
+pub(super) use leaving::{QUIET_LIFT, lift_force, lifting};
 
 /// A finger behind a fret, or a bar over one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -255,80 +257,6 @@ impl Fingers {
         Field { geometry: &self.geometry, hands: &self.hands, sounding }.pluck(stroke, strength, beside)
     }
 
-    /// Lays the edge of the hand near the saddle, and a finger of the other hand behind a fretting one,
-    /// which goes on pressing just hard enough.
-    pub(crate) fn damp(&mut self, at: &mut Moment<impl GestureSink>) {
-        let near_saddle = self.hands.damper.position.min(FARTHEST_DAMPER * self.sounding_length());
-        for (slot, part) in DAMPERS {
-            self.rest(slot, self.geometry.length - part * near_saddle, at);
-        }
-        if let Some(anchor) = self.anchor.take() {
-            // It keeps quiet what is behind; it leaves as softly as the other.
-            at.does(lifting(anchor.slot, anchor.touch, FINGER_EASING));
-        } else if self.light.is_none() {
-            let behind = BEHIND_FINGER * (self.geometry.length - self.sounding_length());
-            if behind >= NEAREST_NUT {
-                self.rest(self.next_slot, behind, at);
-            }
-        }
-        let holding = HOLDING * self.fretting.map_or(0.0, |finger| self.leaving_force(finger.fret));
-        if holding < self.hands.fretting.force && self.fretting.is_some_and(|finger| !finger.bar) {
-            self.ease(holding, RELAXING, at);
-        }
-    }
-
-    /// The fretting finger eases off until the string is free of it.
-    pub(crate) fn ease_off(&mut self, at: &mut Moment<impl GestureSink>) {
-        // It is not lifted yet: the next note may want it back.
-        if let Some(finger) = self.fretting {
-            self.ease(-lift_force(finger.touch, FINGER_EASING), FINGER_EASING.turning, at);
-        }
-    }
-
-    /// The fretting finger goes, and the dampers ease off and go.
-    pub(crate) fn leave(&mut self, at: &mut Moment<impl GestureSink>) {
-        if let Some(finger) = self.fretting.take() {
-            at.does(lifting(finger.slot, finger.touch, FINGER_EASING));
-        }
-        for slot in self.resting_slots() {
-            at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));
-        }
-        if let Some(slot) = self.light.take() {
-            at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));
-        }
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
-        self.right.leave(&field, at);
-        self.ease_capo(at);
-    }
-
-    /// The dampers have gone.
-    pub(crate) fn gone(&mut self, at: &mut Moment<impl GestureSink>) {
-        self.resting = [false; FINGERS_PER_STRING];
-        self.lift_capo(at);
-    }
-
-    /// Brings the fretting finger's force to another value, N.
-    fn ease(&mut self, force: f64, duration: f64, at: &mut Moment<impl GestureSink>) {
-        if let Some(finger) = &mut self.fretting {
-            finger.eased = true;
-            at.does(Gesture::Press { finger: finger.slot, force, duration });
-        }
-    }
-
-    fn rest(&mut self, finger: FingerSlot, position: f64, at: &mut Moment<impl GestureSink>) {
-        let Damper { touch, force, landing, .. } = self.hands.damper;
-        let clearance = self.hands.fretting.hover;
-        self.resting[finger] = true;
-        at.does(Gesture::Place { finger, touch, position, clearance });
-        at.does(Gesture::Press { finger, force, duration: landing });
-    }
-
-    fn resting_slots(&self) -> impl Iterator<Item = FingerSlot> + use<> {
-        let resting = self.resting;
-        (0..FINGERS_PER_STRING).filter(move |&slot| resting[slot])
-    }
-
     /// Length that sounds: from the fretting finger, or the capo, or the nut, to the saddle, m.
     fn sounding_length(&self) -> f64 {
         let capo = self.geometry.finger_position(self.capo[1]);
@@ -348,18 +276,4 @@ impl Fingers {
 /// not louder than the pluck.
 fn softness(strength: f64) -> f64 {
     1.0 + SOFTEST_LANDING * ((SOFT.1 - strength) / (SOFT.1 - SOFT.0)).clamp(0.0, 1.0)
-}
-
-/// How the right hand leaves a ringing string.
-pub(super) const QUIET_LIFT: Leaving = NODE_LIFT;
-
-/// Lifts a finger in a manner of leaving.
-pub(super) fn lifting(finger: FingerSlot, touch: Touch, manner: Leaving) -> Gesture {
-    Gesture::Lift { finger, force: lift_force(touch, manner), duration: manner.turning }
-}
-
-/// Force that brings a finger to its leaving speed, N: the hand's damping takes one part of it, the
-/// finger's inertia the other.
-fn lift_force(touch: Touch, Leaving { speed, turning }: Leaving) -> f64 {
-    touch.hand_damping * speed + touch.mass * speed / turning
 }

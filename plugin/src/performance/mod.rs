@@ -16,14 +16,15 @@ mod control;
 mod event;
 mod fingers;
 mod hand;
+mod played;
 mod right_hand;
 mod string;
 mod switches;
 mod technique;
 mod variation;
 
-use low_action_dsp::setup::{Pickup, Player, Setup};
-use low_action_dsp::{Gesture, Instrument, StringGeometry, TimedGesture};
+use low_action_dsp::setup::Player;
+use low_action_dsp::{Gesture, TimedGesture};
 
 use crate::controls::Touching;
 use channel::Channel;
@@ -31,6 +32,7 @@ use chord::{Late, Struck};
 pub use control::InputMode;
 pub use event::{Expression, PlayerEvent};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
+pub use played::PlayedString;
 use string::StringPlayer;
 pub use technique::VELOCITY_CURVE;
 use variation::Variation;
@@ -85,42 +87,6 @@ pub struct Compromises {
     pub arpeggiated: u64,
     /// Notes left out because more began at one instant than anybody could play.
     pub left_out: u64,
-}
-
-/// What the player knows of one string.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlayedString {
-    /// Its pitch, its length and its frets.
-    pub geometry: StringGeometry,
-    /// Force of a fretting finger under which the string leaves the fret, N, fret 1 first.
-    pub leaving_forces: Vec<f64>,
-    /// Whether fingers stop it on a bare board.
-    pub fretless: bool,
-    /// Where a coil hears it, m from the saddle, if that is what hears it.
-    pub coil: Option<f64>,
-}
-
-impl PlayedString {
-    /// What there is to know of string `index` of an instrument built from a set-up.
-    pub fn new(setup: &Setup, instrument: &Instrument, index: usize) -> Self {
-        let geometry = instrument.geometry(index).clone();
-        // Z² = Tρ.
-        let tension = geometry.wave_impedance.powi(2) / setup.string[index].linear_density;
-        let leaving_force = |(fret, &crown): (usize, &f64)| {
-            // The string hangs from nut and saddle in two straight lines that meet under the finger,
-            // so deep that it just touches the crown.
-            let finger = geometry.finger_position(fret + 1);
-            let beyond = geometry.length - finger;
-            let depth = -setup.neck.crown_height(crown) * beyond / (geometry.length - crown);
-            tension * depth * (1.0 / finger + 1.0 / beyond)
-        };
-        let leaving_forces = geometry.frets.iter().enumerate().map(leaving_force).collect();
-        let coil = match setup.pickup {
-            Pickup::Magnetic { position, .. } if setup.blend < 0.5 => Some(position),
-            _ => None,
-        };
-        Self { geometry, leaving_forces, fretless: setup.neck.fretless, coil }
-    }
 }
 
 /// How a performance is played.

@@ -7,7 +7,9 @@
 //! happen later is kept here as deadlines, because the next note may come first and call it off.
 
 mod deeds;
+mod ending;
 mod legato;
+mod note;
 
 use low_action_dsp::setup::Player;
 
@@ -16,94 +18,11 @@ use super::bend::Bend;
 use super::fingers::Fingers;
 use super::hand::Use;
 use super::technique::*;
-use super::variation::Deviation;
 use super::{GestureSink, Moment, PlayedString};
 use deeds::{Deed, Deeds, Struck};
-
-/// A note to begin.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Start {
-    /// Its channel.
-    pub channel: u8,
-    /// Its key, as sent.
-    pub key: u8,
-    /// Fret, 0 for the open string.
-    pub fret: usize,
-    /// Part of the hardest pluck's force.
-    pub strength: f64,
-    /// How this pluck differs from the usual.
-    pub deviation: Deviation,
-    /// What the note has for itself.
-    pub manner: Manner,
-    /// What the hands are told to do.
-    pub articulation: Articulation,
-    /// The partial that a harmonic is of what sounds.
-    pub order: u32,
-    /// How long the stroke has yet to go to this string, s.
-    pub wait: f64,
-    /// Factor of the force for this string of a strum.
-    pub accent: f64,
-}
-
-impl Start {
-    /// How hard the string is plucked, 1 for the hardest velocity, everything counted.
-    fn force(&self) -> f64 {
-        self.strength * self.deviation.force * self.manner.force * self.accent
-    }
-}
-
-/// What a note can have for itself, beside what holds for all.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Manner {
-    /// Moves the pluck away from the saddle, m.
-    pub place: f64,
-    /// Factor of the pluck's force.
-    pub force: f64,
-    /// Factor of the finger's force.
-    pub pressure: f64,
-    /// Tuning, semitones.
-    pub tuning: f64,
-    /// Depth of the vibrato, 0 to 1.
-    pub vibrato: f64,
-}
-
-impl Manner {
-    /// Nothing special.
-    pub const PLAIN: Self = Self { place: 0.0, force: 1.0, pressure: 1.0, tuning: 0.0, vibrato: 0.0 };
-}
-
-/// The note on a string, from its pluck until it is damped.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Note {
-    channel: u8,
-    key: u8,
-    since: u64,
-    key_down: bool,
-    /// Whether the sostenuto pedal caught it.
-    caught: bool,
-    /// Sample of the last key press of this very note while it was already down. The note-off of
-    /// the press before may come a moment later and must not end the new one.
-    pressed_again: Option<u64>,
-    /// Its fret.
-    fret: usize,
-    /// How hard it was begun.
-    strength: f64,
-    /// How long a slide to the next note takes, s, if that is how they are connected.
-    slide: Option<f64>,
-}
-
-/// The steps by which a note is ended, in order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ending {
-    /// The dampers come to rest on the string.
-    Damp,
-    /// The string is quiet: the fretting finger eases off.
-    EaseOff,
-    /// The fretting finger goes, and the dampers ease off.
-    Leave,
-    /// The dampers have gone too.
-    Gone,
-}
+use ending::Ending;
+use note::Note;
+pub(crate) use note::{Manner, Start};
 
 /// The player's dealings with one string.
 #[derive(Debug, Clone)]
@@ -397,38 +316,6 @@ impl StringPlayer {
                 self.do_next(&mut at);
             }
         }
-    }
-
-    /// The note is over: it is damped now, or once it has been heard.
-    fn end(&mut self, time: u64) {
-        self.under = [None; UNDER];
-        let heard = self.note.take().map_or(0, |note| note.since + self.samples(SHORTEST_NOTE));
-        self.ending = Some((time.max(heard), Ending::Damp));
-    }
-
-    /// Takes one step of an ending and plans the next.
-    fn end_by(&mut self, step: Ending, mut at: Moment<impl GestureSink>) {
-        let next = match step {
-            Ending::Damp => {
-                self.deeds = Deeds::default();
-                self.fingers.damp(&mut at);
-                let next = if self.fingers.frets() { Ending::EaseOff } else { Ending::Leave };
-                Some((RELAXING, next))
-            }
-            Ending::EaseOff => {
-                self.fingers.ease_off(&mut at);
-                Some((FINGER_EASING.turning, Ending::Leave))
-            }
-            Ending::Leave => {
-                self.fingers.leave(&mut at);
-                Some((DAMPER_EASING.turning, Ending::Gone))
-            }
-            Ending::Gone => {
-                self.fingers.gone(&mut at);
-                None
-            }
-        };
-        self.ending = next.map(|(delay, step)| (at.after(delay), step));
     }
 
     fn moment<'a, S: GestureSink>(&self, time: u64, out: &'a mut S) -> Moment<'a, S> {

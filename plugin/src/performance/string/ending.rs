@@ -1,0 +1,53 @@
+//! How a note ends: step by step, and so gently that only the string's own silence is heard.
+
+use super::deeds::Deeds;
+use super::{StringPlayer, UNDER};
+use crate::performance::technique::*;
+use crate::performance::{GestureSink, Moment};
+
+/// The steps by which a note is ended, in order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ending {
+    /// The dampers come to rest on the string.
+    Damp,
+    /// The string is quiet: the fretting finger eases off.
+    EaseOff,
+    /// The fretting finger goes, and the dampers ease off.
+    Leave,
+    /// The dampers have gone too.
+    Gone,
+}
+
+impl StringPlayer {
+    /// The note is over: it is damped now, or once it has been heard.
+    pub(super) fn end(&mut self, time: u64) {
+        self.under = [None; UNDER];
+        let heard = self.note.take().map_or(0, |note| note.since + self.samples(SHORTEST_NOTE));
+        self.ending = Some((time.max(heard), Ending::Damp));
+    }
+
+    /// Takes one step of an ending and plans the next.
+    pub(super) fn end_by(&mut self, step: Ending, mut at: Moment<impl GestureSink>) {
+        let next = match step {
+            Ending::Damp => {
+                self.deeds = Deeds::default();
+                self.fingers.damp(&mut at);
+                let next = if self.fingers.frets() { Ending::EaseOff } else { Ending::Leave };
+                Some((RELAXING, next))
+            }
+            Ending::EaseOff => {
+                self.fingers.ease_off(&mut at);
+                Some((FINGER_EASING.turning, Ending::Leave))
+            }
+            Ending::Leave => {
+                self.fingers.leave(&mut at);
+                Some((DAMPER_EASING.turning, Ending::Gone))
+            }
+            Ending::Gone => {
+                self.fingers.gone(&mut at);
+                None
+            }
+        };
+        self.ending = next.map(|(delay, step)| (at.after(delay), step));
+    }
+}
