@@ -3,7 +3,7 @@
 //! each semitone where the fret is; and each gives way to a new pluck where a hand would not reach.
 
 use low_action::performance::PlayerEvent;
-use low_action_dsp::{Gesture, TimedGesture};
+use low_action_dsp::{FINGERS_PER_STRING, Gesture, TimedGesture};
 use low_action_tests::pitch::{cents, frequency_near};
 use low_action_tests::stage::{Stage, amplitude, cc, hertz, off, on, peak};
 
@@ -192,14 +192,23 @@ fn what_a_hand_does_not_reach_is_plucked() {
 }
 
 /// A finger that eases off after its note is still the player's: struck again at any moment until it is gone,
-/// the note has its pitch. (Once it was lifted for good while the player counted on it, and the open string
-/// sounded.)
+/// the note has its pitch, and no finger is told to press that was lifted for good. (Once one was while the
+/// player counted on it, and where it was clear of the string by then the open string sounded.)
 #[test]
 fn a_note_struck_again_while_its_finger_leaves_is_stopped() {
     let mut stage = Stage::alone("electric", 2);
     for step in 0..14 {
         let again = 0.35 + 0.1 * f64::from(step);
         let played = stage.play(&[(0.0, on(60, 90)), (0.3, off(60)), (again, on(60, 90))], again + 0.6);
+        let mut there = [false; FINGERS_PER_STRING];
+        for TimedGesture { gesture, .. } in &played.gestures {
+            match *gesture {
+                Gesture::Place { finger, .. } | Gesture::Throw { finger, .. } => there[finger] = true,
+                Gesture::Lift { finger, .. } => there[finger] = false,
+                Gesture::Press { finger, .. } => assert!(there[finger], "struck again after {again} s"),
+                _ => {}
+            }
+        }
         let sound = &played.strings[0][at(again + 0.1)..];
         let [stopped, open] = [60.0, 55.0].map(|key| amplitude(sound, RATE, hertz(key)));
         assert!(off_pitch(sound, 60).abs() < 3.0 && stopped > 10.0 * open, "struck again after {again} s");
