@@ -142,6 +142,21 @@ fn a_bar_stops_a_string_without_its_frets() {
     }
 }
 
+/// No finger reaches the frets of a lap steel: an open string that is connected with a stopped note gets the bar.
+#[test]
+fn a_bar_is_laid_on_an_open_string() {
+    let mut stage = Stage::alone("lap-steel", 1);
+    let events =
+        [(0.0, cc(23, 3)), (0.0, cc(68, 127)), (0.0, on(59, 100)), (0.5, on(63, 90)), (1.5, off(63))];
+    let sound = &stage.play(&events, 2.2).strings[0];
+    for (from, to, key) in [(0.1, 0.5, 59.0), (0.8, 1.5, 63.0), (1.6, 2.2, 59.0)] {
+        let part = &sound[at(from)..at(to)];
+        let off = cents(frequency_near(part, RATE, hertz(key)), hertz(key));
+        assert!((-4.0..10.0).contains(&off), "from {from} s: {off} cents");
+        assert!(decibels(peak(part)) > -45.0, "from {from} s: {} dB", decibels(peak(part)));
+    }
+}
+
 #[test]
 fn a_capo_is_a_new_nut() {
     let mut stage = Stage::new(&Setup::builtin("electric").expect("built in"));

@@ -137,6 +137,7 @@ impl StringPlayer {
             pressed_again,
             fret: start.fret,
             strength,
+            bar: stop == Stop::Bar,
             slide: (slide || stop == Stop::Bar).then_some(slide_time),
         });
         self.tremolo = tremolo;

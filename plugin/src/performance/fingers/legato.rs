@@ -3,16 +3,18 @@
 use low_action_dsp::Gesture;
 
 use super::{Finger, Fingers, lifting};
+use crate::performance::articulation::Stop;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
     /// The string goes on sounding from another fret: by a slide of so many seconds if the finger can, or
-    /// else by a hammer or a pull, how hard, 0 to 1.
+    /// else by a hammer or a pull, how hard, 0 to 1. A bar is laid on an open string and not thrown.
     pub(crate) fn change(
         &mut self,
         fret: usize,
         slide: Option<f64>,
+        bar: bool,
         strength: f64,
         at: &mut Moment<impl GestureSink>,
     ) {
@@ -20,6 +22,7 @@ impl Fingers {
         match slide.filter(|_| fret > self.capo[1] && self.slidable().is_some()) {
             _ if fret == stopped => {}
             Some(duration) => self.slide_to(fret, duration, at),
+            None if fret > stopped && bar => self.stop(fret, Stop::Bar, strength, at),
             None if fret > stopped => self.hammer(fret, strength, at),
             None => self.pull_off(fret, strength, at),
         }

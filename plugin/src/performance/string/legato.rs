@@ -26,10 +26,10 @@ impl StringPlayer {
             }
         }
         self.begin(time, &start, strength);
-        let slide = self.note.and_then(|note| note.slide);
+        let (slide, bar) = self.note.map_or((None, false), |note| (note.slide, note.bar));
         let mut at = self.moment(time, out);
         self.fingers.press(start.manner.pressure, &mut at);
-        self.fingers.change(start.fret, slide, strength, &mut at);
+        self.fingers.change(start.fret, slide, bar, strength, &mut at);
         self.follow(time, &start.manner);
     }
 
@@ -51,7 +51,7 @@ impl StringPlayer {
         self.note = Some(Note { since: time, pressed_again: None, ..back });
         self.bend.begin(back.channel);
         let mut at = self.moment(time, out);
-        self.fingers.change(back.fret, from.slide, from.strength, &mut at);
+        self.fingers.change(back.fret, from.slide, from.bar, from.strength, &mut at);
         self.bend.tune(time, 0.0);
         true
     }

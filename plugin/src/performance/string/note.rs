@@ -71,6 +71,8 @@ pub(super) struct Note {
     pub fret: usize,
     /// How hard it was begun.
     pub strength: f64,
+    /// Whether a bar stops it.
+    pub bar: bool,
     /// How long a slide to the next note takes, s, if that is how they are connected.
     pub slide: Option<f64>,
 }
