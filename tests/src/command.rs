@@ -6,6 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use low_action::setups::FOLDER_VARIABLE;
 use tempfile::TempDir;
 
 /// How a run of the command line ended.
@@ -75,6 +76,8 @@ impl Workplace {
         let mut child = Command::new(&self.program)
             .args(arguments)
             .current_dir(self.folder.path())
+            // A user without set-ups of their own, but for what is installed here.
+            .env(FOLDER_VARIABLE, self.folder.path().join("instruments"))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())

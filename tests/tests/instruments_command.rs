@@ -1,0 +1,87 @@
+//! Promise: `low-action instruments` lists every instrument there is, with the numbers the plugin knows files by, and
+//! installs set-up files: checked, whole or not at all; what is installed can be named like what comes with the
+//! program.
+
+use low_action::setups::SHIPPED;
+use low_action_tests::command::Workplace;
+
+const LOWER: &str =
+    "name = \"lower\"\ndescription = \"two semitones lower\"\nbased_on = \"electric\"\ntuning = -2.0\n";
+
+fn workplace() -> Workplace {
+    Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
+}
+
+/// What is in the folder of the user's own.
+fn installed(place: &Workplace) -> Vec<String> {
+    let entries = std::fs::read_dir(place.path("instruments")).into_iter().flatten().flatten();
+    let mut names: Vec<_> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn what_comes_with_the_program_is_listed() {
+    let place = workplace();
+    let done = place.run(&["instruments"]);
+    assert_eq!((done.code, done.error.as_str()), (0, ""));
+    for name in SHIPPED {
+        let line = done.text().lines().find(|line| line.trim_start().starts_with(name)).map(str::to_owned);
+        // With what it is, after its name.
+        assert!(line.is_some_and(|line| line.trim().len() > name.len() + 10), "{name}");
+    }
+    assert!(done.text().contains("none;"), "{}", done.text());
+}
+
+#[test]
+fn what_is_installed_is_listed_and_played() {
+    let place = workplace();
+    place.write("lower.toml", LOWER);
+    place.write("zither.toml", LOWER);
+    let done = place.run(&["instruments", "--install", "zither.toml", "lower.toml"]);
+    assert_eq!(done.code, 0, "{}", done.error);
+    assert_eq!(installed(&place), ["lower.toml", "zither.toml"]);
+    let list = place.run(&["instruments"]).text();
+    assert!(list.contains(" 1 lower          two semitones lower\n"), "{list}");
+    assert!(list.contains(" 2 zither"), "{list}");
+    // By its name, from anywhere.
+    std::fs::remove_file(place.path("lower.toml")).expect("it is there");
+    let render = ["render", "-o", "low.wav", "--instrument", "lower", "--quality", "draft", "--tail", "none"];
+    let done = place.run(&render);
+    assert_eq!(done.code, 0, "{}", done.error);
+    assert!(place.path("low.wav").exists());
+    // Once more takes the place of the old one.
+    place.write("lower.toml", LOWER.replace("two", "three"));
+    assert_eq!(place.run(&["instruments", "--install", "lower.toml"]).code, 0);
+    assert!(place.run(&["instruments"]).text().contains("three semitones lower"));
+}
+
+#[test]
+fn what_is_no_set_up_is_refused_in_one_line() {
+    let place = workplace();
+    place.write("broken.toml", "name = \"broken\"\nbased_on = \"electric\"\n[neck]\naction = 9.0\n");
+    place.write("bass.toml", LOWER);
+    for (file, words) in [
+        ("broken.toml", ["broken.toml", "neck.action"]),
+        ("bass.toml", ["bass comes with the program", "another name"]),
+        ("nowhere.toml", ["nowhere.toml", "cannot read"]),
+    ] {
+        let done = place.run(&["instruments", "--install", file]);
+        assert_eq!(done.code, 1);
+        assert!(done.error.lines().count() == 1, "{}", done.error);
+        assert!(words.iter().all(|word| done.error.contains(word)), "{}", done.error);
+    }
+    assert!(installed(&place).is_empty());
+    // One that was put there by hand is listed with what is wrong with it.
+    std::fs::create_dir_all(place.path("instruments")).expect("there is room");
+    std::fs::copy(place.path("broken.toml"), place.path("instruments/broken.toml")).expect("it is there");
+    let list = place.run(&["instruments"]).text();
+    assert!(list.contains("broken         not usable: neck.action = 9"), "{list}");
+    let done = place.run(&["render", "--instrument", "fiddle"]);
+    assert_eq!(done.code, 2);
+    assert!(
+        done.error.contains("unknown instrument \"fiddle\"") && done.error.contains("broken"),
+        "{}",
+        done.error
+    );
+}
