@@ -3,11 +3,12 @@
 //! The plugin framework opens the devices and plays. Here it is told which, and what to begin with; where it would
 //! go on without any sound, this ends with an error.
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Result, bail, ensure};
 use cpal::traits::{DeviceTrait, HostTrait};
 use midir::MidiInput;
 use nice_plug::prelude::nice_export_standalone_with_args;
 
+use crate::cli::say;
 use crate::params::{Start, begin_with};
 use crate::plugin::LowAction;
 
@@ -21,7 +22,7 @@ const NATIVE: &str = if cfg!(target_os = "macos") {
 };
 /// The way through the JACK server, which knows its own devices.
 const JACK: &str = "jack";
-/// What stands for the first of the two that can be opened.
+/// What stands for JACK if a server runs, and for the system's own way otherwise.
 const AUTO: &str = "auto";
 
 /// A port that leads programs to each other and is no keyboard.
@@ -50,29 +51,41 @@ pub struct Devices {
 /// When no device can be opened, or not the one that was named; the log says more.
 pub fn open(start: Start, devices: &Devices) -> Result<()> {
     begin_with(start);
-    let ways = match devices.backend.as_deref().unwrap_or(AUTO) {
-        AUTO => vec![JACK, NATIVE],
-        named => vec![named],
+    let way = match devices.backend.as_deref().unwrap_or(AUTO) {
+        AUTO if jack_runs() => JACK,
+        AUTO => NATIVE,
+        named => named,
     };
-    for way in &ways {
-        let mut arguments = vec!["low-action --".to_owned(), format!("--backend={way}")];
-        if *way != JACK {
-            arguments.push(format!("--sample-rate={}", devices.sample_rate));
-            arguments.push(format!("--period-size={}", devices.period));
-            arguments.extend(devices.output.as_ref().map(|name| format!("--output-device={name}")));
-            arguments.extend(keyboard(devices)?.map(|name| format!("--midi-input={name}")));
-        }
-        arguments.extend(devices.others.iter().cloned());
-        if nice_export_standalone_with_args::<LowAction, _>(arguments) {
-            return Ok(());
+    let mut arguments = vec!["low-action --".to_owned(), format!("--backend={way}")];
+    if way == JACK {
+        say("low-action", "plays what arrives at its JACK port, until Ctrl+C");
+    } else {
+        arguments.push(format!("--sample-rate={}", devices.sample_rate));
+        arguments.push(format!("--period-size={}", devices.period));
+        arguments.extend(devices.output.as_ref().map(|name| format!("--output-device={name}")));
+        match keyboard(devices)? {
+            Some(name) => {
+                say("low-action", &format!("plays what {name} sends, until Ctrl+C"));
+                arguments.push(format!("--midi-input={name}"));
+            }
+            None => say("warning", "there is no MIDI keyboard: nothing will be heard"),
         }
     }
-    bail!("no sound can be played by {}: see `low-action --list-devices`", ways.join(" or "))
+    arguments.extend(devices.others.iter().cloned());
+    if nice_export_standalone_with_args::<LowAction, _>(arguments) {
+        return Ok(());
+    }
+    bail!("no sound can be played by {way}: `low-action --list-devices` shows what there is")
+}
+
+/// Whether a JACK server runs; none is started.
+fn jack_runs() -> bool {
+    jack::Client::new("Low Action", jack::ClientOptions::NO_START_SERVER).is_ok()
 }
 
 /// The name of the keyboard that is to play, if there is one.
 fn keyboard(devices: &Devices) -> Result<Option<String>> {
-    let known = keyboards()?;
+    let known = keyboards().unwrap_or_default();
     match &devices.keyboard {
         Some(name) => {
             ensure!(
@@ -90,16 +103,13 @@ fn keyboard(devices: &Devices) -> Result<Option<String>> {
 }
 
 /// The names of all MIDI inputs.
-fn keyboards() -> Result<Vec<String>> {
-    let midi = MidiInput::new("Low Action").context("MIDI cannot be reached")?;
-    Ok(midi.ports().iter().filter_map(|port| midi.port_name(port).ok()).collect())
+fn keyboards() -> Option<Vec<String>> {
+    let midi = MidiInput::new("Low Action").ok()?;
+    Some(midi.ports().iter().filter_map(|port| midi.port_name(port).ok()).collect())
 }
 
 /// What there is to choose from, for people to read.
-///
-/// # Errors
-/// When the system does not say.
-pub fn list() -> Result<String> {
+pub fn list() -> String {
     let host = cpal::default_host();
     let usual = host.default_output_device().and_then(|device| device.description().ok());
     let mut text = String::from("Outputs (--output-device NAME):\n");
@@ -122,5 +132,5 @@ pub fn list() -> Result<String> {
     }
     keyboards.iter().for_each(|name| text += &format!("  {name}\n"));
     text += "With a JACK server running, outputs and inputs are its own: --backend jack.\n";
-    Ok(text)
+    text
 }

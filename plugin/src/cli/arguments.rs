@@ -130,8 +130,8 @@ pub struct StandAloneArgs {
     /// Where the sound goes [default: where the system's usually does].
     #[arg(long, value_name = "NAME")]
     pub output_device: Option<String>,
-    /// Way to the devices: jack, alsa (Linux), core-audio (macOS) or wasapi (Windows) [default: the first that
-    /// can be opened].
+    /// Way to the devices: jack, alsa (Linux), core-audio (macOS) or wasapi (Windows) [default: jack if its server
+    /// runs].
     #[arg(long, value_name = "NAME", value_parser = ["auto", "jack", "alsa", "core-audio", "wasapi"])]
     pub backend: Option<String>,
     /// Samples per second, 8000 to 384000; JACK has its own.

@@ -9,13 +9,13 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
 
     use low_action_dsp::Setup;
 
-    use super::{instrument, say};
+    use super::instrument;
     use crate::engine::{Engine, EngineOptions};
     use crate::params::Start;
     use crate::standalone::{self, Devices};
 
     if arguments.list_devices {
-        print!("{}", standalone::list()?);
+        print!("{}", standalone::list());
         return Ok(());
     }
     let mut start = Start { quality: arguments.quality, ..Start::default() };
@@ -36,7 +36,6 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
     let rate = f64::from(arguments.sample_rate);
     let options = EngineOptions { quality: arguments.quality, ..EngineOptions::new(setup, rate) };
     Engine::new(&options).map_err(|error| Failure::Impossible(anyhow::anyhow!("{name}: {error}")))?;
-    say(name, "playing what arrives on MIDI until Ctrl+C");
     standalone::open(
         start,
         &Devices {
