@@ -34,12 +34,12 @@ pub use render::{BitDepth, Tail};
     about,
     args_conflicts_with_subcommands = true,
     after_help = "\
-Without a command, low-action opens the stand-alone instrument, if it was built with it (cargo feature
-standalone), and plays what arrives on MIDI until Ctrl+C.
+Without a command, low-action opens the stand-alone instrument, if it was built with it
+(cargo feature standalone), and plays what arrives on MIDI until Ctrl+C.
 
 Examples:
-  low-action                                 the electric guitar, played by the first keyboard there is
-  low-action --instrument tanpura --list-devices
+  low-action --instrument tanpura            played by the first keyboard there is
+  low-action --list-devices                  outputs and MIDI inputs by name
   low-action --instrument bass --midi-input \"Keystation 49\" --period-size 128
   low-action render                          the built-in demo, to demo.wav
   low-action render song.mid --instrument classical
