@@ -12,7 +12,7 @@ use std::hint::black_box;
 
 use criterion::{BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use low_action_dsp::{Instrument, Stencil};
-use workloads::{Bare, Linear, OneString, SAMPLES, chord, over_frets, silent, strings_of};
+use workloads::{Bare, Linear, OneString, SAMPLES, Steps, chord, over_frets, silent, strings_of};
 
 /// Runs an instrument for [`SAMPLES`] samples.
 fn play(
@@ -42,8 +42,12 @@ fn step(group: &mut BenchmarkGroup<'_, criterion::measurement::WallTime>, name: 
 fn strings(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("chord");
     group.sample_size(20);
-    for (name, rate) in [("48 kHz", 48e3), ("96 kHz", 96e3)] {
-        let (instrument, hash) = chord(rate);
+    for (name, rate, steps) in [
+        ("48 kHz", 48e3, Steps::Live),
+        ("48 kHz, one step a sample", 48e3, Steps::One),
+        ("96 kHz, one step a sample", 96e3, Steps::One),
+    ] {
+        let (instrument, hash) = chord(rate, steps);
         println!("chord at {name}: its sound has the hash {hash:016x}");
         play(&mut group, name, &instrument);
     }

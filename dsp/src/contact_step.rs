@@ -35,13 +35,14 @@ impl State {
             self.heights_next.copy_from_slice(&drive.heights);
             self.settling = 2;
         }
-        let free_pull = pull(model, products, 0.0);
+        let free_pull = pull(model, products);
         scratch.active.clear();
         self.find_fixed(model, free_pull, scratch);
         self.find_fingers(model, drive, free_pull, resting, scratch);
         let mut created = 0.0;
         let moved = loop {
             let mut largest = 0.0;
+            scratch.tried = 0.0;
             if scratch.active.is_empty() {
                 largest = self.advance(model, free_pull, scratch);
             } else {
@@ -49,7 +50,7 @@ impl State {
                 // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
                 let factor = model.mobility * model.stretch / (1.0 + model.stretch * products.curvature);
                 let scale = self.energy_scale(model, scratch);
-                let mut along = 0.0;
+                let mut products = *products;
                 for round in 0.. {
                     created = scratch.solver.solve(
                         &mut scratch.active,
@@ -59,14 +60,15 @@ impl State {
                         convergence,
                     );
                     let spread = spread(model, &mut scratch.active, &mut scratch.prediction);
-                    along += spread.along;
-                    largest = self.advance(model, pull(model, products, along), scratch);
+                    products.curvature_change += spread.along;
+                    scratch.tried += spread.sum;
+                    largest = self.advance(model, pull(model, &products), scratch);
                     let rounding = f64::EPSILON * model.mobility * spread.sum * spread.sum;
                     let exact = rounding <= ROUNDING * self.energy_scale && created <= scale.credit;
                     if exact || round == REFINEMENTS {
                         break;
                     }
-                    self.recentre(scratch);
+                    products.curvature_change = self.recentre(scratch);
                 }
             }
             let before = scratch.active.len();
@@ -85,14 +87,17 @@ impl State {
         self.finish(model, scratch);
     }
 
-    /// Takes the string as it has come out for the place from which forces are solved for.
+    /// Takes the string as it has come out for the place from which forces are solved for. Returns vᵀ(w − d) as it
+    /// has come out, of which forces that all but cancel leave no digit when it is only added up.
     #[cold]
-    fn recentre(&self, scratch: &mut Scratch) {
+    fn recentre(&self, scratch: &mut Scratch) -> f64 {
         for active in &mut scratch.active {
             active.base = active.force;
             let moved = active.sign * active.reading.of(&scratch.motion);
             active.centre = -(moved + active.rest + active.own_mobility * active.base);
         }
+        let changes = scratch.prediction.iter().zip(&self.motion).map(|(w, d)| w - d);
+        scratch.curvature.iter().zip(changes).map(|(v, change)| v * change).sum()
     }
 
     /// Takes the forces of the first contacts off the prediction again.

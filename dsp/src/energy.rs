@@ -149,10 +149,14 @@ impl Ledger {
             loss += finger.touch.hand_damping * velocity * velocity;
             input -= drive.hands[slot].force * velocity;
         }
-        let mut solver = 0.0;
+        let lost_elsewhere = loss;
+        // What contacts take besides what they store. Loss and solver share it; where a pad asks for far more than it
+        // was given both are large, and their sum would be known less well than their common part.
+        let (mut solver, mut taken) = (0.0, 0.0);
         for active in &scratch.active {
             loss += (active.required - active.lambda) * active.change / two_k;
             solver += (active.force - active.required) * active.change / two_k;
+            taken += (active.force - active.lambda) * active.change / two_k;
             input += active.force * active.raised / two_k;
             if let Some(slot) = active.slot.checked_sub(model.contacts.len())
                 && let Some(old) = &scratch.fingers[slot]
@@ -168,7 +172,8 @@ impl Ledger {
             self.tension = stiffness.tension;
         }
         self.rounding += f64::EPSILON * gross(model, &stiffness, (now, motion_now), state, scratch);
-        let residual = energies.total() - (self.energies.total() - entered) + k * (loss + solver - input);
+        let residual =
+            energies.total() - (self.energies.total() - entered) + k * (lost_elsewhere + taken - input);
         self.energies = energies;
         self.largest = self.largest.max(energies.total());
         self.put_in += k * input;
@@ -226,13 +231,14 @@ fn gross(
     } else {
         0.0
     };
-    let (mut contacts, mut forces, mut fingers) = (0.0, 0.0, 0.0);
+    // Forces that were taken back in part were rounded as large as they were.
+    let forces = scratch.tried;
+    let (mut contacts, mut fingers) = (0.0, 0.0);
     for active in &scratch.active {
         let (before, after) = (active.before.penetration, active.before.penetration + active.change);
         let place = before.abs() + active.change.abs() + active.raised.abs();
         let place = place + active.reading.of(&state.displacement).abs() + active.reading.of(now).abs();
         contacts += (active.law.force(before) + active.law.force(after) + active.force.abs()) * place;
-        forces += active.force.abs();
         // A finger's own motion without contact and its answer to the force may all but cancel.
         let answer = active.own_mobility * active.force.abs();
         fingers += answer * active.force.abs();

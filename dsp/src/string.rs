@@ -26,6 +26,8 @@ pub struct Scratch {
     pub(crate) active: Vec<Active>,
     /// The step in which each contact or finger was last solved for, one more than its index.
     pub(crate) held: Vec<u64>,
+    /// Sum of the sizes of all forces that led to those found, N.
+    pub(crate) tried: f64,
     /// Fingers before the last step.
     pub(crate) fingers: Vec<Option<Finger>>,
 }
@@ -49,6 +51,7 @@ impl Scratch {
             solver: Solver::with_capacity(&spans, model.finger_slots),
             active: Vec::with_capacity(contacts),
             held: vec![0; contacts],
+            tried: 0.0,
             fingers: vec![None; model.finger_slots],
         }
     }
@@ -123,7 +126,8 @@ impl State {
             // Nothing of the last contact may be left in the record.
             scratch.active.clear();
             scratch.fingers.fill(None);
-            let pull = pull(model, &products, 0.0);
+            scratch.tried = 0.0;
+            let pull = pull(model, &products);
             self.advance(model, pull, scratch);
         } else {
             self.contact_step(model, drive, &products, resting, scratch, &mut convergence);
@@ -149,13 +153,13 @@ impl State {
 /// and if it were repeated for ever would reach infinity.
 const MOST_ENERGY: f64 = 1e30;
 
-/// ψ = G(vᵀ(w − d) + 2vᵀu)/(1 + G vᵀv), so that dⁿ⁺¹ = w − ψ v; `along` is what contact forces add to
-/// vᵀw. With a = γv and G = γ²/s this is χγ/s of the rank-one update.
+/// ψ = G(vᵀ(w − d) + 2vᵀu)/(1 + G vᵀv), so that dⁿ⁺¹ = w − ψ v, w with the forces of contacts in
+/// it. With a = γv and G = γ²/s this is χγ/s of the rank-one update.
 #[inline(always)]
-pub(crate) fn pull(model: &Model, products: &Products, along: f64) -> f64 {
+pub(crate) fn pull(model: &Model, products: &Products) -> f64 {
     if model.stretch == 0.0 {
         return 0.0;
     }
-    let sum = (products.curvature_change + along) - 2.0 * products.steepness;
+    let sum = products.curvature_change - 2.0 * products.steepness;
     model.stretch * sum / (1.0 + model.stretch * products.curvature)
 }

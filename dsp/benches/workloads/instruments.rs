@@ -4,14 +4,17 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use low_action_dsp::{EngineSettings, Gesture, Instrument, Quality, Setup, TimedGesture};
 
-/// The default instrument with so many of its strings from the lowest on, `live`.
-fn instrument(strings: usize, rate: f64) -> (Setup, Instrument) {
-    // A sample is a step, for all strings alike.
-    let live = EngineSettings { widest_spacing: f64::INFINITY, ..Quality::Live.settings(rate) };
+/// `live`, but every string takes one step in a sample.
+fn alike(rate: f64) -> EngineSettings {
+    EngineSettings { widest_spacing: f64::INFINITY, ..Quality::Live.settings(rate) }
+}
+
+/// The default instrument with so many of its strings from the lowest on.
+fn instrument(strings: usize, settings: &EngineSettings) -> (Setup, Instrument) {
     let mut setup = Setup::builtin("electric").expect("it is built in");
     setup.string.reverse();
     setup.string.truncate(strings);
-    let instrument = Instrument::new(&setup, &live).expect("it can be built");
+    let instrument = Instrument::new(&setup, settings).expect("it can be built");
     (setup, instrument)
 }
 
@@ -42,24 +45,33 @@ fn begin(setup: &Setup, instrument: &mut Instrument, rate: f64, fret: impl Fn(us
     hasher.finish()
 }
 
+/// How the strings of the chord are computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Steps {
+    /// As `live` has it: light strings take several steps in a sample.
+    Live,
+    /// One step in a sample.
+    One,
+}
+
 /// Six strings fretted and ringing, and the hash of how they began.
-pub fn chord(rate: f64) -> (Instrument, u64) {
-    let (setup, mut instrument) = instrument(6, rate);
+pub fn chord(rate: f64, steps: Steps) -> (Instrument, u64) {
+    let settings = if steps == Steps::Live { Quality::Live.settings(rate) } else { alike(rate) };
+    let (setup, mut instrument) = instrument(6, &settings);
     let hash = begin(&setup, &mut instrument, rate, |string| 3 + string % 3);
     (instrument, hash)
 }
 
 /// So many open strings, all ringing: the lowest again and again, so that they are alike.
 pub fn strings_of(count: usize) -> Instrument {
-    let (mut setup, _) = instrument(1, 48e3);
+    let (mut setup, _) = instrument(1, &alike(48e3));
     setup.string = vec![setup.string[0].clone(); count];
-    let live = EngineSettings { widest_spacing: f64::INFINITY, ..Quality::Live.settings(48e3) };
-    let mut instrument = Instrument::new(&setup, &live).expect("it can be built");
+    let mut instrument = Instrument::new(&setup, &alike(48e3)).expect("it can be built");
     begin(&setup, &mut instrument, 48e3, |_| 0);
     instrument
 }
 
 /// Six strings that nobody plays.
 pub fn silent() -> Instrument {
-    instrument(6, 48e3).1
+    instrument(6, &Quality::Live.settings(48e3)).1
 }

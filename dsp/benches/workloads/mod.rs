@@ -5,7 +5,7 @@ mod instruments;
 mod strings;
 
 pub use bare::{Bare, Linear};
-pub use instruments::{chord, silent, strings_of};
+pub use instruments::{Steps, chord, silent, strings_of};
 pub use strings::{OneString, over_frets};
 
 /// Samples of one measurement: a tenth of a second at 48 kHz.

@@ -32,7 +32,7 @@ fn scene() -> Result<String> {
     let setup = Setup::builtin("electric").context("the default instrument is built in")?;
     let length = setup.neck.scale_length;
     let mut text = String::from(
-        "sample_rate = 48000\nduration = 1\n[solver]\nmax_iterations = 20\ntolerance = 1e-12\n\
+        "sample_rate = 48000\nduration = 1\n[solver]\nmax_iterations = 20\ntolerance = 1e-10\n\
          stencil = \"wide\"\n[output]\nposition = 0.55\n[fretboard]\nstiffness = 1e10\nexponent = 1.5\n\
          board = -0.0018\nfrets = 22\nfret_top = -0.0006\nboard_reference_spacing = 0.005\n",
     );
