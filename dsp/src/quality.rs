@@ -7,7 +7,7 @@ use crate::scene::Stencil;
 use crate::settings::EngineSettings;
 
 /// How much computing a sound may take.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quality {
     /// Least work: every string at the host's rate, the corrected stencil, contacts to 1e-9 m.
     Draft,

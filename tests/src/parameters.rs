@@ -17,13 +17,20 @@ pub fn score() -> Score {
     ]
 }
 
-/// The left channel of the plugin with parameters set before everything else.
-pub fn with(settings: &[(&str, f64)], score: &Score) -> Vec<f32> {
+/// A host that renders offline with parameters set before everything else, and the quality of real time
+/// unless another is.
+pub fn host_with(settings: &[(&str, f64)]) -> Host {
     let mut host = Host::new();
-    let settings = settings.iter().map(|&(id, value)| (0, Action::Parameter(parameter(id), value))).collect();
+    let settings = [("render_quality", 0.0)].iter().chain(settings);
+    let settings = settings.map(|&(id, value)| (0, Action::Parameter(parameter(id), value))).collect();
     // A first activation takes the values in; the second begins with them.
     host.play(RATE, &settings, 64, &[64]);
-    let [left, _] = host.play(RATE, score, LENGTH, &[512]);
+    host
+}
+
+/// The left channel of the plugin with parameters set before everything else.
+pub fn with(settings: &[(&str, f64)], score: &Score) -> Vec<f32> {
+    let [left, _] = host_with(settings).play(RATE, score, LENGTH, &[512]);
     left
 }
 

@@ -11,7 +11,7 @@ use low_action::performance::PlayerEvent;
 use low_action_dsp::Setup;
 use low_action_dsp::setup::Pickup;
 use low_action_tests::host::{Action, Host, Score, parameter};
-use low_action_tests::parameters::{LENGTH, RATE, score, with};
+use low_action_tests::parameters::{LENGTH, RATE, host_with, score, with};
 use nice_plug::prelude::Params;
 
 /// The left channel of an engine.
@@ -266,7 +266,8 @@ fn a_change_counts_from_its_sample() {
         let mut changed = score();
         changed.insert(2, (at, Action::Parameter(parameter(id), value)));
         changed.push((at + 1000, Action::NoteOn { channel: 0, key: 55, velocity: 100 }));
-        let sounds = [64, 512, 8192, 24_000].map(|block| Host::new().play(RATE, &changed, LENGTH, &[block]));
+        let sounds =
+            [64, 512, 8192, 24_000].map(|block| host_with(&[]).play(RATE, &changed, LENGTH, &[block]));
         let [first, ..] = &sounds;
         assert_eq!(first[0][..at as usize], usual[..at as usize], "{id} counts too early");
         assert_ne!(first[0][at as usize..], usual[at as usize..], "{id} never counts");
@@ -297,5 +298,21 @@ fn every_parameter_is_tested_here() {
         let one_of_eight = id.starts_with("string_tuning_");
         let built = BUILT.iter().any(|built| built.id == id) || HANDS.iter().any(|hands| hands.0 == id);
         assert!(one_of_eight || built || tested_elsewhere.contains(&id.as_str()), "{id} is not tested");
+    }
+}
+
+/// Who renders has time: a host that says so gets at least `studio`, without being asked.
+#[test]
+fn offline_means_studio_or_better() {
+    let usual = |quality: f64| {
+        let mut host = Host::new();
+        host.play(RATE, &vec![(0, Action::Parameter(parameter("quality"), quality))], 64, &[64]);
+        let [left, _] = host.play(RATE, &score(), LENGTH, &[512]);
+        left
+    };
+    for (quality, expected) in [(0.0, Quality::Studio), (1.0, Quality::Studio), (3.0, Quality::Reference)] {
+        let expected = engine(&EngineOptions { quality: expected, ..options() });
+        let found = usual(quality);
+        assert!(expected.iter().zip(&found).all(|(a, b)| a.to_bits() == b.to_bits()), "quality {quality}");
     }
 }

@@ -4,7 +4,7 @@
 //! In builds with debug assertions the plugin framework aborts the test as soon as memory is allocated
 //! while processing.
 
-use low_action::engine::{Engine, EngineOptions};
+use low_action::engine::{Engine, EngineOptions, Quality};
 use low_action::performance::PlayerEvent;
 use low_action_dsp::Setup;
 use low_action_tests::host::{Action, Host, Score};
@@ -79,9 +79,10 @@ fn engine_alone(options: &EngineOptions, score: &Score, length: usize) -> [Vec<f
     output
 }
 
-/// What the plugin is expected to build its engine from.
+/// What the plugin is expected to build its engine from when its host renders offline.
 fn options(instrument: &str, sample_rate: f64) -> EngineOptions {
-    EngineOptions::new(Setup::builtin(instrument).expect("a built-in set-up"), sample_rate)
+    let setup = Setup::builtin(instrument).expect("a built-in set-up");
+    EngineOptions { quality: Quality::Studio, ..EngineOptions::new(setup, sample_rate) }
 }
 
 /// Fails at the first sample that is not the same bits.

@@ -81,27 +81,54 @@ impl Enum for QualityChoice {
     }
 }
 
-/// How much computing when the host renders offline; nothing is as much as in real time.
+/// How much computing when the host renders offline.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RenderChoice(pub Option<Quality>);
+pub enum RenderChoice {
+    /// As much as in real time.
+    Same,
+    /// So much.
+    Just(Quality),
+    /// As much as in real time, but no less than for a finished recording.
+    #[default]
+    Better,
+}
+
+impl RenderChoice {
+    /// The quality, given the one of real time.
+    pub fn quality(self, live: Quality) -> Quality {
+        match self {
+            Self::Same => live,
+            Self::Just(quality) => quality,
+            Self::Better => live.max(Quality::Studio),
+        }
+    }
+}
 
 impl Enum for RenderChoice {
     fn variants() -> &'static [&'static str] {
         static TITLES: Words = Words::new();
-        TITLES.get_or_init(|| [&["As live"], QualityChoice::variants()].concat())
+        TITLES.get_or_init(|| [&["As live"], QualityChoice::variants(), &["Studio or better"]].concat())
     }
 
     fn ids() -> Option<&'static [&'static str]> {
         static IDS: Words = Words::new();
-        Some(IDS.get_or_init(|| [&["same"], QualityChoice::ids().unwrap_or_default()].concat()))
+        let qualities = || QualityChoice::ids().unwrap_or_default();
+        Some(IDS.get_or_init(|| [&["same"], qualities(), &["better"]].concat()))
     }
 
     fn to_index(self) -> usize {
-        self.0.map_or(0, |quality| 1 + QualityChoice(quality).to_index())
+        match self {
+            Self::Same => 0,
+            Self::Just(quality) => 1 + QualityChoice(quality).to_index(),
+            Self::Better => 1 + Quality::ALL.len(),
+        }
     }
 
     fn from_index(index: usize) -> Self {
-        Self(index.checked_sub(1).map(|index| QualityChoice::from_index(index).0))
+        match index.checked_sub(1) {
+            None => Self::Same,
+            Some(index) => Quality::ALL.get(index).map_or(Self::Better, |quality| Self::Just(*quality)),
+        }
     }
 }
 
@@ -170,7 +197,7 @@ mod tests {
         assert_consistent::<RenderChoice>();
         assert_eq!(InstrumentChoice::variants()[4], "Buzzing bass");
         assert_eq!(InstrumentChoice::from_index(3).id(), "bass");
-        assert_eq!(RenderChoice::from_index(0).0, None);
-        assert_eq!(RenderChoice::from_index(1).0, Some(Quality::Draft));
+        assert_eq!(RenderChoice::from_index(0), RenderChoice::Same);
+        assert_eq!(RenderChoice::from_index(1), RenderChoice::Just(Quality::Draft));
     }
 }

@@ -27,7 +27,7 @@ impl Order {
     pub fn of(params: &LowActionParams, sample_rate: f32, offline: bool) -> Self {
         let LowActionParams { instrument, setup, strings, .. } = params;
         let live = instrument.quality.value().0;
-        let quality = if offline { instrument.render_quality.value().0.unwrap_or(live) } else { live };
+        let quality = if offline { instrument.render_quality.value().quality(live) } else { live };
         let luthier = Luthier {
             quality,
             iterations: usize::try_from(instrument.iterations.value()).unwrap_or(0),
