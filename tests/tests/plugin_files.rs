@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use clack_extensions::params::{ParamInfoFlags, PluginParams};
 use clack_host::prelude::ClapId;
-use low_action::engine::{Engine, EngineOptions};
+use low_action::engine::{Engine, EngineOptions, Quality};
 use low_action::performance::PlayerEvent;
 use low_action::setups::FOLDER_VARIABLE;
 use low_action_dsp::Setup;
@@ -99,7 +99,7 @@ fn sound(host: &mut Host) -> Vec<f32> {
 fn expected(text: &str, change: impl Fn(&mut Setup)) -> Vec<f32> {
     let mut setup = Setup::from_toml(text).expect("it is a set-up");
     change(&mut setup);
-    let mut engine = Engine::new(&EngineOptions::new(setup, RATE)).expect("it can be built");
+    let mut engine = Engine::new(&offline(setup)).expect("it can be built");
     for (at, action) in score() {
         let Action::NoteOn { channel, key, velocity } = action else { panic!("only notes") };
         engine.event(at as u32, PlayerEvent::NoteOn { channel, key, velocity: f32::from(velocity) / 127.0 });
@@ -128,6 +128,11 @@ fn packed(state: &Value) -> Vec<u8> {
 
 fn unpacked(bytes: &[u8]) -> Value {
     serde_json::from_slice(&bytes[8..]).expect("states are saved as JSON")
+}
+
+/// What an engine is built from for a host that renders offline.
+fn offline(setup: Setup) -> EngineOptions {
+    EngineOptions { quality: Quality::Studio, ..EngineOptions::new(setup, RATE) }
 }
 
 #[test]
@@ -164,7 +169,7 @@ fn eight_strings_can_be_tuned() {
             let [found, _] = host.play(RATE, &low, LENGTH, &[512]);
             let mut setup = Setup::from_toml(EIGHT).expect("it is a set-up");
             setup.string[string].pitch += semitones;
-            let mut engine = Engine::new(&EngineOptions::new(setup, RATE)).expect("it can be built");
+            let mut engine = Engine::new(&offline(setup)).expect("it can be built");
             for (at, action) in low {
                 let Action::NoteOn { channel, key, velocity } = action else { panic!("only notes") };
                 let velocity = f32::from(velocity) / 127.0;

@@ -311,7 +311,7 @@ fn offline_means_studio_or_better() {
         left
     };
     for (quality, expected) in [(0.0, Quality::Studio), (1.0, Quality::Studio), (3.0, Quality::Reference)] {
-        let expected = engine(&EngineOptions { quality: expected, ..options() });
+        let expected = engine(&EngineOptions { quality: expected, ..options() }, &score());
         let found = usual(quality);
         assert!(expected.iter().zip(&found).all(|(a, b)| a.to_bits() == b.to_bits()), "quality {quality}");
     }

@@ -95,6 +95,8 @@ fn render(folder: &Path, clip: &str) -> Result<Sound> {
         .arg(&song)
         .arg("--output")
         .arg(&sound)
+        // What a host that renders offline gets.
+        .args(["--quality", "studio"])
         .args(["--sample-rate", &RATE.to_string(), "--bit-depth", "32f", "--tail", &SECONDS.to_string()])
         .status()?;
     if !status.success() {
