@@ -9,14 +9,16 @@ use crate::settings::EngineSettings;
 /// How much computing a sound may take.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quality {
-    /// Least work: every string at the host's rate, the corrected stencil, contacts to 1e-9 m.
+    /// Least work: every string at the host's rate, contacts to 1e-9 m. Thin strings rattle too long after hard
+    /// plucks.
     Draft,
-    /// For playing: the wide stencil, light strings at a multiple of the host's rate, contacts to 1e-10 m.
+    /// For playing: grids no wider than 6 mm, so that thin strings take two or three steps a sample; contacts to
+    /// 1e-10 m.
     #[default]
     Live,
-    /// For a finished recording: finer grids for all but the heaviest strings.
+    /// For a finished recording: grids no wider than 3 mm.
     Studio,
-    /// For comparison: grids as fine as anybody could hear.
+    /// For comparison: grids of 1.5 mm, or as near to that as a rate of 400 kHz comes.
     Reference,
 }
 
@@ -38,14 +40,26 @@ impl Quality {
         }
     }
 
+    /// What it gives and takes, in a few words for those who choose: bounds on what is measured in
+    /// `docs/trade.md` for a host's rate of 48 kHz.
+    pub fn summary(self) -> &'static str {
+        match self {
+            Self::Draft => "least work, thin strings buzz too long",
+            Self::Live => "within 1 cent, buzz within 50 %",
+            Self::Studio => "3 × the work, buzz within 25 %",
+            Self::Reference => "9 × the work, buzz within 15 %",
+        }
+    }
+
     /// What it means for an instrument at a sample rate in Hz.
     pub fn settings(self, sample_rate: f64) -> EngineSettings {
-        let (widest_spacing, stencil, max_iterations, tolerance) = match self {
-            Self::Draft => (f64::INFINITY, Stencil::Corrected, 8, 1e-9),
-            Self::Live => (6.3e-3, Stencil::Wide, 20, 1e-10),
-            Self::Studio => (3e-3, Stencil::Wide, 50, 1e-14),
-            Self::Reference => (1.5e-3, Stencil::Wide, 200, 1e-16),
+        let (widest_spacing, max_iterations, tolerance) = match self {
+            Self::Draft => (f64::INFINITY, 20, 1e-9),
+            Self::Live => (6e-3, 20, 1e-10),
+            Self::Studio => (3e-3, 50, 1e-14),
+            Self::Reference => (1.5e-3, 200, 1e-16),
         };
+        let stencil = Stencil::Wide;
         EngineSettings { sample_rate, widest_spacing, stencil, max_iterations, tolerance }
     }
 }

@@ -35,8 +35,8 @@ pub struct RenderArgs {
     /// a set-up file; `low-action instruments` lists them.
     #[arg(short, long, value_name = "NAME|FILE", default_value = "electric")]
     pub instrument: String,
-    /// How much computing: draft, live, studio or reference.
-    #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live)]
+    /// How much computing.
+    #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live, help = qualities())]
     pub quality: Quality,
     /// Samples per second, 8000 to 384000.
     #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate)]
@@ -121,8 +121,8 @@ pub struct StandAloneArgs {
     /// them.
     #[arg(short, long, value_name = "NAME|FILE", default_value = "electric")]
     pub instrument: String,
-    /// How much computing: draft, live, studio or reference.
-    #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live)]
+    /// How much computing.
+    #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live, help = qualities())]
     pub quality: Quality,
     /// The keyboard or guitar that plays [default: the first there is].
     #[arg(long, value_name = "NAME")]
@@ -164,4 +164,10 @@ pub struct InstrumentsArgs {
     /// Set-up files to check and copy to the folder, in place of those of the same name.
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub install: Vec<PathBuf>,
+}
+
+/// The help of `--quality`.
+fn qualities() -> String {
+    let said = Quality::ALL.map(|quality| format!("{quality} ({})", quality.summary()));
+    format!("How much computing: {}", said.join(", "))
 }

@@ -63,8 +63,12 @@ pub struct QualityChoice(pub Quality);
 
 impl Enum for QualityChoice {
     fn variants() -> &'static [&'static str] {
+        // Hosts show no other explanation.
         static TITLES: Words = Words::new();
-        titles(&TITLES, Quality::ALL.into_iter().map(Quality::name))
+        let said = Quality::ALL
+            .into_iter()
+            .map(|quality| -> &'static str { format!("{}: {}", quality.name(), quality.summary()).leak() });
+        titles(&TITLES, said)
     }
 
     fn ids() -> Option<&'static [&'static str]> {
