@@ -5,6 +5,8 @@ mod baseline;
 mod cases;
 mod count;
 
+pub use count::callgrind_is_there;
+
 use anyhow::{Context, Result, ensure};
 use clap::Parser;
 

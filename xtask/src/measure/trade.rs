@@ -4,14 +4,18 @@
 //! scenes × settings ─> record (runs one) ─> errors (against the reference) ─> table, picture
 //! ```
 
+mod chord;
 mod errors;
 mod filter;
 mod picture;
+mod qualities;
 mod record;
+mod rival;
 mod scenes;
 mod settings;
 mod spectrum;
 mod table;
+mod worst;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,8 +26,8 @@ use clap::Parser;
 use super::page;
 use errors::{Errors, Reference};
 use filter::LowPass;
-use scenes::{Playing, SCENES};
-use settings::{Axis, Setting};
+use scenes::{Kind, Playing, SCENES};
+use settings::{Axis, Law, Setting};
 
 /// Where the tables stand.
 const PAGE: &str = "docs/trade.md";
@@ -45,6 +49,9 @@ struct Arguments {
     /// Put the tables into docs/trade.md and draw docs/figures/trade.svg.
     #[arg(long)]
     write: bool,
+    /// Play one sample, as callgrind is told to.
+    #[arg(long, hide = true)]
+    sample: Option<String>,
 }
 
 /// What was measured of one scene under one setting.
@@ -55,39 +62,57 @@ struct Outcome {
     errors: Errors,
     /// Deepest penetration, m, and the reference's.
     penetration: [f64; 2],
+    /// Strongest pull of a contact, N.
+    pull: f64,
     /// Energy booked to the solver, as a part of the largest energy.
     booked: f64,
     /// Most iterations in a sample.
     iterations: u32,
     /// Part of the samples with contact that took the fallback.
     fallbacks: f64,
-    /// Nanoseconds per sample and string, if they were taken.
-    time: Option<f64>,
+    /// The sample with most work, by iterations times contacts: that number, string and step.
+    worst: Option<(u32, usize, u64)>,
+    /// Its instructions, if they were counted.
+    instructions: Option<f64>,
+    /// Part of a core that a string takes, if times were taken.
+    load: Option<f64>,
+}
+
+impl Outcome {
+    /// What its scene is good for.
+    fn kind(&self) -> Kind {
+        SCENES[self.scene].kind
+    }
 }
 
 /// Runs the measurement.
 pub fn run(arguments: Vec<String>) -> Result<()> {
     let Some(arguments) = super::parse::<Arguments>(arguments)? else { return Ok(()) };
+    if let Some(place) = &arguments.sample {
+        return worst::child(place);
+    }
     if arguments.quick {
         let committed = page::read(PAGE, "trade")?;
-        let outcomes = measure(&settings::quick())?;
-        let table = table::accuracy(Axis::Grid, &settings::quick(), &outcomes);
-        println!("{table}");
-        table::compare(&table, &committed)?;
+        for axis in [Axis::Quality, Axis::Grid] {
+            let settings = settings::quick(axis);
+            let outcomes = measure(&settings, Kind::is_main)?;
+            let table = table::accuracy(axis, &settings, &outcomes);
+            println!("{table}");
+            table::compare(&table, &committed)?;
+        }
         println!("as in {PAGE}, as nearly as can be asked");
         return Ok(());
     }
-    let mut all: Vec<Setting> = Vec::new();
-    for axis in [Axis::Grid, Axis::Solver, Axis::Exponent] {
-        for setting in settings::settings(axis) {
-            if !all.contains(&setting) {
-                all.push(setting);
-            }
-        }
-    }
-    let mut outcomes = measure(&all)?;
+    let mut outcomes = measure(&settings::all(), |_| true)?;
     time(&mut outcomes)?;
-    let tables = table::all(&outcomes);
+    let chords = chords()?;
+    if super::features::callgrind_is_there() {
+        eprintln!("instructions");
+        worst::count(&mut outcomes)?;
+    } else {
+        eprintln!("valgrind is not there: the instructions of the worst samples are left out");
+    }
+    let tables = qualities::tables(&outcomes, &chords)? + &table::all(&outcomes);
     println!("{tables}");
     if arguments.write {
         let picture = picture::draw(&outcomes)?;
@@ -98,8 +123,9 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     Ok(())
 }
 
-/// Measures all scenes under all settings, on as many threads as there are processors.
-fn measure(settings: &[Setting]) -> Result<Vec<Outcome>> {
+/// Measures scenes of some kinds under all settings that are for them, on as many threads as there are
+/// processors.
+fn measure(settings: &[Setting], kinds: fn(Kind) -> bool) -> Result<Vec<Outcome>> {
     let (next, results) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(SCENES.len());
     std::thread::scope(|scope| {
@@ -108,8 +134,11 @@ fn measure(settings: &[Setting]) -> Result<Vec<Outcome>> {
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(playing) = SCENES.get(index) else { break };
+                    if !kinds(playing.kind) {
+                        continue;
+                    }
                     eprintln!("{} of {}: {}", index + 1, SCENES.len(), playing.name);
-                    let found = observe(index, playing, settings).with_context(|| playing.name.to_owned());
+                    let found = observe(index, playing, settings).with_context(|| playing.name.clone());
                     results.lock().unwrap_or_else(|broken| broken.into_inner()).push(found);
                 }
             });
@@ -130,24 +159,27 @@ fn observe(index: usize, playing: &Playing, settings: &[Setting]) -> Result<Vec<
     let pitch = playing.pitch()?;
     let mut references: Vec<(Setting, Reference)> = Vec::new();
     let mut outcomes = Vec::new();
-    for &setting in settings {
+    for &setting in settings.iter().filter(|setting| setting.plays(playing.kind)) {
         let of = setting.reference();
         if !references.iter().any(|(known, _)| *known == of) {
-            let run = record::record(&playing.scene(&of)?, false)?;
+            let run = record::record(playing, &of, false)?;
             references.push((of, Reference::new(run, &filter)));
         }
         let reference = references.iter().find(|(known, _)| *known == of);
         let (_, reference) = reference.context("the reference has just been made")?;
-        let run = record::record(&playing.scene(&setting)?, true)?;
+        let run = record::record(playing, &setting, true)?;
         outcomes.push(Outcome {
             setting,
             scene: index,
             errors: reference.errors(&run, playing.kind, pitch, &filter),
             penetration: [run.penetration, reference.record().penetration],
-            booked: run.booked,
+            pull: run.pull,
+            booked: run.booked[0] / run.booked[1].max(f64::MIN_POSITIVE),
             iterations: run.iterations,
-            fallbacks: run.fallbacks,
-            time: None,
+            fallbacks: run.contacts[1] as f64 / run.contacts[0].max(1) as f64,
+            worst: run.worst,
+            instructions: None,
+            load: None,
         });
     }
     Ok(outcomes)
@@ -155,16 +187,29 @@ fn observe(index: usize, playing: &Playing, settings: &[Setting]) -> Result<Vec<
 
 /// Rounds in which everything is timed; the fastest counts. In rounds, so that whatever else the machine does
 /// for a while does not fall on one setting alone.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 2;
 
 /// Takes the times, one after another.
 fn time(outcomes: &mut [Outcome]) -> Result<()> {
     for round in 1..=ROUNDS {
         eprintln!("times: {round} of {ROUNDS}");
-        for outcome in &mut *outcomes {
-            let time = record::nanoseconds(&SCENES[outcome.scene].scene(&outcome.setting)?)?;
-            outcome.time = Some(outcome.time.map_or(time, |best| best.min(time)));
+        for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind().is_main()) {
+            if outcome.setting.law == Law::Quadratised && round > 1 {
+                continue;
+            }
+            let load = record::load(&SCENES[outcome.scene], &outcome.setting)?;
+            outcome.load = Some(outcome.load.map_or(load, |best| best.min(load)));
         }
     }
     Ok(())
+}
+
+/// How many times faster than real time a chord is computed, for each quality and host's rate.
+fn chords() -> Result<Vec<(Setting, f64)>> {
+    let settings = settings::settings(Axis::Quality);
+    let best = |setting: Setting| {
+        let tries = (0..ROUNDS).map(|_| chord::speed(&setting)).collect::<Result<Vec<f64>>>()?;
+        Ok((setting, tries.into_iter().fold(0.0, f64::max)))
+    };
+    settings.into_iter().map(best).collect()
 }

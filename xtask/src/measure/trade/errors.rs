@@ -23,6 +23,8 @@ pub struct Errors {
     pub partials: f64,
     /// The largest of the time in which one of the first five partials decays, as a part of it.
     pub decay: f64,
+    /// The time in which the fundamental decays by 60 dB, s, and the reference's.
+    pub t60: [f64; 2],
     /// Σ of differences of the contacts' impulses in 20 ms, as a part of Σ of the impulses.
     pub impulses: f64,
     /// The same of the level of the force on the bridge in 20 ms.
@@ -40,7 +42,7 @@ const STRETCH: f64 = 0.05;
 impl Reference {
     /// Prepares the run of the reference.
     pub fn new(record: Record, filter: &LowPass) -> Reference {
-        let heard = filter.run(&record.bridge, record.rate, 0.0, DURATION, 0.0);
+        let heard = record.heard(filter, 0.0, DURATION, 0.0);
         Reference { record, heard }
     }
 
@@ -51,11 +53,11 @@ impl Reference {
 
     /// How far a run is from it; `pitch` is f₁ and B of a scene of one note.
     pub fn errors(&self, run: &Record, kind: Kind, pitch: (f64, f64), filter: &LowPass) -> Errors {
-        let heard = filter.run(&run.bridge, run.rate, 0.0, DURATION, 0.0);
+        let heard = run.heard(filter, 0.0, DURATION, 0.0);
         let missing = f64::NAN;
-        let (cents, worst, decay) = match kind {
-            Kind::Open | Kind::Pressed => self.ringing(&heard, pitch),
-            _ => (missing, missing, missing),
+        let (cents, worst, decay, t60) = match kind {
+            Kind::Open | Kind::Pressed | Kind::EachOpen | Kind::High => self.ringing(&heard, pitch),
+            _ => (missing, missing, missing, [missing; 2]),
         };
         let touches = self.record.impulses.iter().any(|impulse| *impulse > 0.0);
         Errors {
@@ -63,6 +65,7 @@ impl Reference {
             pitch: cents,
             partials: worst,
             decay,
+            t60,
             impulses: if touches { difference(&run.impulses, &self.record.impulses) } else { missing },
             level: difference(&levels(&heard), &levels(&self.heard)),
             spectrum: log_spectral_distance(&heard[at(PLUCK)..], &self.heard[at(PLUCK)..]),
@@ -80,7 +83,7 @@ impl Reference {
         let mean = reference.iter().sum::<f64>() / reference.len() as f64;
         let power: f64 = reference.iter().map(|value| (value - mean) * (value - mean)).sum();
         let error = |delay: f64| {
-            let heard = filter.run(&run.bridge, run.rate, PLUCK, end, delay);
+            let heard = run.heard(filter, PLUCK, end, delay);
             let squares = heard.iter().zip(reference).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
             squares / power
         };
@@ -94,23 +97,24 @@ impl Reference {
         error(delay).min(middle).sqrt()
     }
 
-    /// Errors of pitch and of partials, cents, and of decay.
-    fn ringing(&self, heard: &[f64], (fundamental, inharmonicity): (f64, f64)) -> (f64, f64, f64) {
+    /// Errors of pitch and of partials, cents, and of decay; the times in which the fundamental decays.
+    fn ringing(&self, heard: &[f64], (fundamental, inharmonicity): (f64, f64)) -> (f64, f64, f64, [f64; 2]) {
         let of = |sound: &[f64]| partials(&sound[at(RINGING)..], fundamental, inharmonicity);
         let (found, expected) = (of(heard), of(&self.heard));
-        let (mut pitch, mut worst, mut decay) = (f64::NAN, 0.0f64, 0.0f64);
+        let (mut pitch, mut worst, mut decay, mut t60) = (f64::NAN, 0.0f64, 0.0f64, [f64::NAN; 2]);
         for partial in &expected {
             let Some(other) = found.iter().find(|other| other.number == partial.number) else { continue };
             let cents = 1200.0 * (other.frequency / partial.frequency).log2().abs();
             if partial.number == 1 {
                 pitch = cents;
+                t60 = [other, partial].map(|partial| 1e3f64.ln() / partial.decay);
             }
             worst = worst.max(cents);
             if partial.number <= 5 && partial.decay > 0.0 {
                 decay = decay.max((partial.decay / other.decay - 1.0).abs());
             }
         }
-        (pitch, worst, decay)
+        (pitch, worst, decay, t60)
     }
 }
 

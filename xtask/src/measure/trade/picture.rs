@@ -1,14 +1,14 @@
 //! The Pareto front: error over cost, and why energy is no measure of it.
 
 use anyhow::Result;
-use low_action_dsp::Stencil;
+use low_action_dsp::{Quality, Stencil};
 use low_action_figures::style::colour;
 use low_action_figures::{Axis as Scale, Layer, Panel, Sheet, Stroke};
 
 use super::Outcome;
-use super::scenes::{Kind, SCENES};
-use super::settings::{Axis, Setting, settings, stencil_name};
-use super::table::{mean_time, of};
+use super::scenes::Kind;
+use super::settings::{Axis, BASE, Setting, quality, settings, stencil_name};
+use super::table::{mean_load, of};
 
 /// The stencils with their lines.
 const STENCILS: [(Stencil, Stroke); 3] = [
@@ -43,13 +43,13 @@ const ERRORS: [Wrong; 4] = [
 
 /// The largest error of a kind of a setting.
 fn largest((_, _, _, kinds, value): &Wrong, setting: &Setting, outcomes: &[Outcome]) -> f64 {
-    let seen = of(setting, outcomes).filter(|outcome| kinds.contains(&SCENES[outcome.scene].kind));
+    let seen = of(setting, outcomes).filter(|outcome| kinds.contains(&outcome.kind()));
     seen.map(value).fold(0.0, f64::max)
 }
 
 /// Cost of a string, % of a core.
 fn cost(setting: &Setting, outcomes: &[Outcome]) -> f64 {
-    1e-7 * mean_time(setting, outcomes) * setting.rate
+    100.0 * mean_load(setting, outcomes)
 }
 
 /// Draws it.
@@ -57,9 +57,10 @@ pub fn draw(outcomes: &[Outcome]) -> Result<String> {
     let mut panels: Vec<Panel> = ERRORS.iter().map(|wrong| front(wrong, outcomes)).collect();
     let below = panels.split_off(2);
     let caption = "Each dot is one sample rate with one stencil; the number is the rate in kHz. Lines join the rates \
-                   of a stencil; the broken line is the front: for each price the smallest error. Cost: the mean over \
+                   of a stencil, all strings at the same rate; red dots are the qualities at a host's 48 kHz, each string \
+                   at its own. The broken line is the front: for each price the smallest error. Cost: the mean over \
                    all scenes on the machine that wrote the tables. Error: that of the worst scene against the reference. \
-                   Below: every row of the first two tables, with the largest part of the energy booked to the solver in any scene.";
+                   Below: every row of the tables of rates and of caps, with the largest part of the energy booked to the solver in any scene.";
     Sheet::new("What accuracy costs", caption)
         .row(1200, panels)
         .row(1200, below)
@@ -73,7 +74,8 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
     let mut panel = Panel::new(*title, x, Scale::log(*label, *low..*high).ticks(6));
     let grid = settings(Axis::Grid);
     let place = |setting: &Setting| (cost(setting, outcomes), largest(wrong, setting, outcomes));
-    let mut best: Vec<(f64, f64)> = grid.iter().map(place).collect();
+    let qualities = Quality::ALL.map(|one| quality(one, BASE.rate));
+    let mut best: Vec<(f64, f64)> = grid.iter().chain(&qualities).map(place).collect();
     best.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut least = f64::INFINITY;
     best.retain(|(_, error)| {
@@ -97,7 +99,13 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
             panel = panel.with_all(words.collect::<Vec<_>>());
         }
     }
-    panel
+    let names = Quality::ALL.iter().zip(&qualities).map(|(one, setting)| {
+        let at = place(setting);
+        Layer::words((at.0 * 1.04, at.1 * (high / low).powf(-0.05)), one.name())
+    });
+    panel = panel.with_all(names.collect::<Vec<_>>());
+    let stroke = Stroke::new(colour::VERMILION);
+    panel.with(Layer::dots("qualities at a host's 48 kHz", stroke, qualities.iter().map(place).collect()))
 }
 
 /// Waveform error over energy booked to the solver: neither tells the other.

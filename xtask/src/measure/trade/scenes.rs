@@ -2,13 +2,15 @@
 //!
 //! Every number is the instrument's own; nothing depends on the sample rate, so that all rates play the same.
 
+use std::sync::LazyLock;
+
 use anyhow::{Context, Result};
 use low_action_dsp::curve::{CountOrList, Curve, OneOrEach};
 use low_action_dsp::scene::{
     FingerSpec, FretPlacement, FretboardSpec, ListeningPoint, OutputSpec, PluckSpec, StringSpec,
 };
 use low_action_dsp::setup::{SetupString, frequency};
-use low_action_dsp::{Scene, Setup};
+use low_action_dsp::{Scene, Setup, Simulation};
 
 use super::settings::Setting;
 
@@ -34,8 +36,8 @@ pub enum Hand {
 
 /// One string of a scene.
 pub struct Part {
-    /// Name of the string.
-    string: &'static str,
+    /// Its place among the strings of the instrument, 0 for the highest.
+    string: usize,
     hand: Hand,
     /// Force of the pluck, N, and how much later than the first string it is plucked, s.
     pluck: (f64, f64),
@@ -54,89 +56,88 @@ pub enum Kind {
     BuzzingHeavy,
     /// Other contact: struck, slid, several strings.
     Mixed,
+    /// One of all open strings.
+    EachOpen,
+    /// One of all strings that strikes frets.
+    EachBuzzing,
+    /// A string stopped high on the neck.
+    High,
+}
+
+impl Kind {
+    /// Whether it is one of the scenes of which all tables are made.
+    pub fn is_main(self) -> bool {
+        !matches!(self, Kind::EachOpen | Kind::EachBuzzing | Kind::High)
+    }
 }
 
 /// One scene.
 pub struct Playing {
     /// What it is called.
-    pub name: &'static str,
+    pub name: String,
     /// What it is good for.
     pub kind: Kind,
     instrument: &'static str,
-    parts: &'static [Part],
+    parts: Vec<Part>,
 }
 
-const fn part(string: &'static str, hand: Hand, force: f64, later: f64) -> Part {
+fn part(string: usize, hand: Hand, force: f64, later: f64) -> Part {
     Part { string, hand, pluck: (force, later) }
 }
 
-/// All scenes, in the order of the tables. How one string bounces is an accident, so that several plucks are
-/// looked at where it buzzes.
-pub const SCENES: &[Playing] = &[
-    Playing {
-        name: "open, light (electric E4)",
-        kind: Kind::Open,
-        instrument: "electric",
-        parts: &[part("E4", Hand::Open, 0.1, 0.0)],
-    },
-    Playing {
-        name: "open, heavy (bass E1)",
-        kind: Kind::Open,
-        instrument: "bass",
-        parts: &[part("E1", Hand::Open, 0.3, 0.0)],
-    },
-    Playing {
-        name: "stopped, light (electric E4, fret 12)",
-        kind: Kind::Pressed,
-        instrument: "electric",
-        parts: &[part("E4", Hand::Stops(12), 0.1, 0.0)],
-    },
-    Playing {
-        name: "stopped, heavy (electric E2, fret 3)",
-        kind: Kind::Pressed,
-        instrument: "electric",
-        parts: &[part("E2", Hand::Stops(3), 0.2, 0.0)],
-    },
-    Playing {
-        name: "buzzing, light (electric E4, 0.8, 1, 1.3 and 1.6 N)",
-        kind: Kind::BuzzingLight,
-        instrument: "electric",
-        parts: &[
-            part("E4", Hand::Open, 0.8, 0.0),
-            part("E4", Hand::Open, 1.0, 0.0),
-            part("E4", Hand::Open, 1.3, 0.0),
-            part("E4", Hand::Open, 1.6, 0.0),
-        ],
-    },
-    Playing {
-        name: "buzzing, heavy (bass E1, 3 and 4 N)",
-        kind: Kind::BuzzingHeavy,
-        instrument: "bass",
-        parts: &[part("E1", Hand::Open, 3.0, 0.0), part("E1", Hand::Open, 4.0, 0.0)],
-    },
-    Playing {
-        name: "tapped (electric G3, fret 9)",
-        kind: Kind::Mixed,
-        instrument: "electric",
-        parts: &[part("G3", Hand::Taps(9), 0.0, 0.0)],
-    },
-    Playing {
-        name: "slid (steel D3, frets 5 to 9)",
-        kind: Kind::Mixed,
-        instrument: "steel",
-        parts: &[part("D3", Hand::Slides(5, 9), 0.4, 0.0)],
-    },
-    Playing {
-        name: "chord (electric E2, A2, D3)",
-        kind: Kind::Mixed,
-        instrument: "electric",
-        parts: &[
-            part("E2", Hand::Open, 0.5, 0.0),
-            part("A2", Hand::Stops(2), 0.5, 0.015),
-            part("D3", Hand::Stops(2), 0.5, 0.03),
-        ],
-    },
-];
+fn playing(name: impl Into<String>, kind: Kind, instrument: &'static str, parts: Vec<Part>) -> Playing {
+    Playing { name: name.into(), kind, instrument, parts }
+}
+
+/// The same open string plucked with several forces. How one string bounces is an accident, so that several
+/// plucks are looked at where it buzzes.
+fn plucked(string: usize, forces: &[f64]) -> Vec<Part> {
+    forces.iter().map(|force| part(string, Hand::Open, *force, 0.0)).collect()
+}
+
+/// Frets high on the neck at which the high string of `electric` is looked at.
+const HIGH: [usize; 3] = [15, 18, 21];
+
+/// All scenes: those of the tables first, in their order, then what only qualities are measured by.
+pub static SCENES: LazyLock<Vec<Playing>> = LazyLock::new(|| {
+    use Hand::{Open, Slides, Stops, Taps};
+    let one = |string, hand, force| vec![part(string, hand, force, 0.0)];
+    let chord = vec![part(5, Open, 0.5, 0.0), part(4, Stops(2), 0.5, 0.015), part(3, Stops(2), 0.5, 0.03)];
+    let mut all = vec![
+        playing("open, light (electric E4)", Kind::Open, "electric", one(0, Open, 0.1)),
+        playing("open, heavy (bass E1)", Kind::Open, "bass", one(3, Open, 0.3)),
+        playing("stopped, light (electric E4, fret 12)", Kind::Pressed, "electric", one(0, Stops(12), 0.1)),
+        playing("stopped, heavy (electric E2, fret 3)", Kind::Pressed, "electric", one(5, Stops(3), 0.2)),
+        playing(
+            "buzzing, light (electric E4, 0.8, 1, 1.3 and 1.6 N)",
+            Kind::BuzzingLight,
+            "electric",
+            plucked(0, &LIGHT),
+        ),
+        playing("buzzing, heavy (bass E1, 3 and 4 N)", Kind::BuzzingHeavy, "bass", plucked(3, &[3.0, 4.0])),
+        playing("tapped (electric G3, fret 9)", Kind::Mixed, "electric", one(2, Taps(9), 0.0)),
+        playing("slid (steel D3, frets 5 to 9)", Kind::Mixed, "steel", one(3, Slides(5, 9), 0.4)),
+        playing("chord (electric E2, A2, D3)", Kind::Mixed, "electric", chord),
+    ];
+    for instrument in Setup::BUILTIN {
+        let count = Setup::builtin(instrument).map_or(0, |setup| setup.string.len());
+        for string in 0..count {
+            let name = format!("open, {instrument}, string {}", string + 1);
+            all.push(playing(name, Kind::EachOpen, instrument, one(string, Open, 0.1)));
+        }
+    }
+    all.extend((0..6).map(|string| {
+        let name = format!("buzzing, electric, string {}", string + 1);
+        playing(name, Kind::EachBuzzing, "electric", plucked(string, &LIGHT))
+    }));
+    all.extend(
+        HIGH.map(|fret| playing(format!("fret {fret}"), Kind::High, "electric", one(0, Stops(fret), 0.1))),
+    );
+    all
+});
+
+/// Forces with which strings of a guitar are plucked until they buzz, N.
+const LIGHT: [f64; 4] = [0.8, 1.0, 1.3, 1.6];
 
 /// Force of a tap while it comes down, N, and how long it lasts, s.
 const TAP: (f64, f64) = (30.0, 0.02);
@@ -148,42 +149,31 @@ const SLIDE: [f64; 2] = [0.25, 0.55];
 const SAME_AT: f64 = 1e-6;
 
 impl Playing {
-    /// The scene as a setting computes it.
-    pub fn scene(&self, setting: &Setting) -> Result<Scene> {
+    /// Its strings as a setting computes them, each a scene of its own at its own rate: strings do not hear
+    /// each other.
+    pub fn scenes(&self, setting: &Setting) -> Result<Vec<Scene>> {
         let setup = Setup::builtin(self.instrument).context("a built-in instrument")?;
-        let (mut string, mut pluck, mut finger) = (Vec::new(), Vec::new(), Vec::new());
-        for (number, part) in (1..).zip(self.parts) {
-            let spec = setup.string.iter().find(|spec| spec.name == part.string);
-            string.push(tuned(&setup, spec.with_context(|| format!("no string `{}`", part.string))?));
-            let (force, later) = part.pluck;
-            if force > 0.0 {
-                pluck.push(PluckSpec {
-                    string: number,
-                    start: PLUCK + later,
-                    duration: setup.player.pluck_duration,
-                    position: setup.neck.scale_length - setup.player.pluck_position,
-                    force,
-                });
-            }
-            finger.extend(hand(&setup, number, part.hand));
-        }
-        Ok(Scene {
-            sample_rate: setting.rate,
-            duration: DURATION,
-            solver: setting.solver(),
-            string,
-            fretboard: Some(fretboard(&setup, setting.exponent)?),
-            pluck,
-            finger,
-            output: OutputSpec { position: ListeningPoint::Bridge },
-        })
+        self.parts.iter().map(|part| part.scene(&setup, setting)).collect()
+    }
+
+    /// Name of its first string.
+    pub fn string(&self) -> Result<String> {
+        let setup = Setup::builtin(self.instrument).context("a built-in instrument")?;
+        let spec = setup.string.get(self.parts[0].string).context("a string")?;
+        Ok(spec.name.clone())
+    }
+
+    /// Spacing of the grid of its first string, m.
+    pub fn spacing(&self, setting: &Setting) -> Result<f64> {
+        let scenes = self.scenes(setting)?;
+        Ok(Simulation::new(&scenes[0])?.string(0).model.grid.spacing)
     }
 
     /// Frequency f₁ of the string as it is stopped, Hz, and its inharmonicity B.
     pub fn pitch(&self) -> Result<(f64, f64)> {
         let setup = Setup::builtin(self.instrument).context("a built-in instrument")?;
         let part = &self.parts[0];
-        let spec = setup.string.iter().find(|spec| spec.name == part.string).context("a string")?;
+        let spec = setup.string.get(part.string).context("a string")?;
         let fret = match part.hand {
             Hand::Stops(fret) | Hand::Taps(fret) => fret,
             _ => 0,
@@ -193,6 +183,30 @@ impl Playing {
         let bending = kappa_squared(spec) * spec.linear_density / string.tension.at(0.0);
         let inharmonicity = bending * (std::f64::consts::PI / length).powi(2);
         Ok((frequency(spec.pitch + fret as f64), inharmonicity))
+    }
+}
+
+impl Part {
+    fn scene(&self, setup: &Setup, setting: &Setting) -> Result<Scene> {
+        let spec = setup.string.get(self.string).context("a string")?;
+        let (force, later) = self.pluck;
+        let pluck = (force > 0.0).then_some(PluckSpec {
+            string: 1,
+            start: PLUCK + later,
+            duration: setup.player.pluck_duration,
+            position: setup.neck.scale_length - setup.player.pluck_position,
+            force,
+        });
+        Ok(Scene {
+            sample_rate: setting.rate * setting.engine().ratio(setup, spec) as f64,
+            duration: DURATION,
+            solver: setting.solver(),
+            string: vec![tuned(setup, spec)],
+            fretboard: Some(fretboard(setup, setting.exponent)?),
+            pluck: pluck.into_iter().collect(),
+            finger: hand(setup, self.hand).into_iter().collect(),
+            output: OutputSpec { position: ListeningPoint::Bridge },
+        })
     }
 }
 
@@ -242,7 +256,7 @@ fn fretboard(setup: &Setup, exponent: Option<f64>) -> Result<FretboardSpec> {
 }
 
 /// The finger of a hand on a string.
-fn hand(setup: &Setup, string: usize, hand: Hand) -> Option<FingerSpec> {
+fn hand(setup: &Setup, hand: Hand) -> Option<FingerSpec> {
     let fretting = &setup.player.fretting;
     let place = |fret: usize| {
         let (crown, before) =
@@ -265,7 +279,7 @@ fn hand(setup: &Setup, string: usize, hand: Hand) -> Option<FingerSpec> {
     };
     let touch = fretting.touch;
     Some(FingerSpec {
-        string,
+        string: 1,
         mass: touch.mass,
         stiffness: touch.stiffness,
         exponent: touch.exponent,

@@ -1,12 +1,16 @@
 //! What is tried: sample rates, stencils, caps, tolerances, exponents of the contact law.
 
-use low_action_dsp::{SolverSettings, Stencil};
+use low_action_dsp::{EngineSettings, Quality, SolverSettings, Stencil};
+
+use super::scenes::Kind;
 
 /// One way to compute a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
-    /// Internal sample rate, Hz.
+    /// Sample rate, Hz.
     pub rate: f64,
+    /// The widest grid of a string, m; one that is wider at the rate is computed at a multiple of it.
+    pub widest: f64,
     /// Difference operator of the strings.
     pub stencil: Stencil,
     /// Newton iterations at most in a sample.
@@ -15,32 +19,80 @@ pub struct Setting {
     pub tolerance: f64,
     /// Exponent of the frets' contact law; without it the instrument's own, 1.5.
     pub exponent: Option<f64>,
+    /// How contacts are computed.
+    pub law: Law,
 }
 
-/// What plugins compute with at a host rate of 48 kHz.
-pub const LIVE: Setting =
-    Setting { rate: 48e3, stencil: Stencil::Wide, cap: 20, tolerance: 1e-12, exponent: None };
+/// How contacts are computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Law {
+    /// Their law is solved for, by Newton's method.
+    Newton,
+    /// Their energy is made a square and no equation is solved, as in [`super::rival`].
+    Quadratised,
+}
+
+/// What settings are varied about: `live` with every string at 48 kHz.
+pub const BASE: Setting = Setting {
+    rate: 48e3,
+    widest: f64::INFINITY,
+    stencil: Stencil::Wide,
+    cap: 20,
+    tolerance: 1e-12,
+    exponent: None,
+    law: Law::Newton,
+};
 
 /// What everything is held against.
-pub const REFERENCE: Setting =
-    Setting { rate: 768e3, stencil: Stencil::Wide, cap: 200, tolerance: 1e-15, exponent: None };
+pub const REFERENCE: Setting = Setting { rate: 768e3, cap: 200, tolerance: 1e-15, ..BASE };
 
-/// The axis along which a setting departs from [`LIVE`].
+/// The axis along which a setting departs from [`BASE`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
+    /// The qualities a player chooses between.
+    Quality,
     /// Sample rate and stencil.
     Grid,
     /// Cap and tolerance.
     Solver,
     /// Exponent of the contact law, at several rates.
     Exponent,
+    /// Newton's method or a quadratised law.
+    Law,
+    /// Rate alone, for one string after the other.
+    String,
+}
+
+impl Axis {
+    /// All of them.
+    pub const ALL: [Axis; 6] =
+        [Axis::Quality, Axis::Grid, Axis::Solver, Axis::Exponent, Axis::Law, Axis::String];
+}
+
+/// Host rates at which qualities are measured, Hz.
+pub const HOSTS: [f64; 3] = [44.1e3, 48e3, 96e3];
+
+/// A quality at a host rate.
+pub fn quality(quality: Quality, rate: f64) -> Setting {
+    let EngineSettings { sample_rate, widest_spacing, stencil, max_iterations, tolerance } =
+        quality.settings(rate);
+    Setting { rate: sample_rate, widest: widest_spacing, stencil, cap: max_iterations, tolerance, ..BASE }
 }
 
 /// All settings of an axis, in the order of its table.
 pub fn settings(axis: Axis) -> Vec<Setting> {
     use Stencil::{Corrected, Paper, Wide};
-    let grid = |rate: f64, stencil: Stencil| Setting { rate, stencil, ..LIVE };
+    let grid = |rate: f64, stencil: Stencil| Setting { rate, stencil, ..BASE };
     match axis {
+        Axis::Quality => {
+            let at = |rate: f64| Quality::ALL.map(|one| quality(one, rate));
+            HOSTS.into_iter().flat_map(at).collect()
+        }
+        Axis::Law => {
+            let of = |law: Law| [48e3, 96e3, 192e3].map(|rate| Setting { rate, law, ..BASE });
+            [Law::Newton, Law::Quadratised].into_iter().flat_map(of).collect()
+        }
+        Axis::String => [48e3, 96e3, 144e3, 192e3].map(|rate| grid(rate, Wide)).to_vec(),
         Axis::Grid => {
             let mut all = vec![grid(44.1e3, Wide)];
             for rate in [48e3, 96e3, 192e3] {
@@ -52,8 +104,8 @@ pub fn settings(axis: Axis) -> Vec<Setting> {
         Axis::Solver => {
             let mut all = Vec::new();
             for rate in [48e3, 96e3] {
-                let caps = [1, 2, 4, 8, 20, 50].map(|cap| Setting { rate, cap, ..LIVE });
-                let tolerances = [1e-6, 1e-9, 1e-15].map(|tolerance| Setting { rate, tolerance, ..LIVE });
+                let caps = [1, 2, 4, 8, 20, 50].map(|cap| Setting { rate, cap, ..BASE });
+                let tolerances = [1e-6, 1e-9, 1e-15].map(|tolerance| Setting { rate, tolerance, ..BASE });
                 all.extend(caps.into_iter().filter(|setting| rate == 48e3 || [2, 8].contains(&setting.cap)));
                 all.extend(tolerances.into_iter().filter(|one| rate == 48e3 || one.tolerance == 1e-9));
             }
@@ -61,18 +113,52 @@ pub fn settings(axis: Axis) -> Vec<Setting> {
         }
         Axis::Exponent => {
             let exponents = [1.0, 2.0, 2.5];
-            let of = |exponent| [48e3, 96e3].map(|rate| Setting { rate, exponent: Some(exponent), ..LIVE });
+            let of = |exponent| [48e3, 96e3].map(|rate| Setting { rate, exponent: Some(exponent), ..BASE });
             exponents.into_iter().flat_map(of).collect()
         }
     }
 }
 
-/// Those that are quick to compute and compared in `--quick`.
-pub fn quick() -> Vec<Setting> {
-    settings(Axis::Grid).into_iter().filter(|setting| setting.rate == 48e3).collect()
+/// All settings, each once.
+pub fn all() -> Vec<Setting> {
+    let mut all: Vec<Setting> = Vec::new();
+    for setting in Axis::ALL.into_iter().flat_map(settings) {
+        if !all.contains(&setting) {
+            all.push(setting);
+        }
+    }
+    all
+}
+
+/// Those of an axis that are quick to compute and compared in `--quick`.
+pub fn quick(axis: Axis) -> Vec<Setting> {
+    settings(axis).into_iter().filter(|setting| setting.rate == 48e3 && setting.widest > 4e-3).collect()
 }
 
 impl Setting {
+    /// Whether it is measured in scenes of a kind.
+    pub fn plays(&self, kind: Kind) -> bool {
+        let among = |axis: Axis| settings(axis).contains(self);
+        match kind {
+            Kind::EachOpen => self.rate < 96e3 && among(Axis::Quality),
+            Kind::EachBuzzing | Kind::High => {
+                among(Axis::String) || self.rate == 48e3 && among(Axis::Quality)
+            }
+            _ => Axis::ALL.into_iter().any(|axis| axis != Axis::String && among(axis)),
+        }
+    }
+
+    /// As an instrument takes it.
+    pub fn engine(&self) -> EngineSettings {
+        EngineSettings {
+            sample_rate: self.rate,
+            widest_spacing: self.widest,
+            stencil: self.stencil,
+            max_iterations: self.cap,
+            tolerance: self.tolerance,
+        }
+    }
+
     /// As a scene says it.
     pub fn solver(&self) -> SolverSettings {
         SolverSettings { max_iterations: self.cap, tolerance: self.tolerance, stencil: self.stencil }
@@ -87,6 +173,14 @@ impl Setting {
     pub fn name(&self, axis: Axis) -> String {
         let rate = format!("{} kHz", self.rate / 1e3);
         match axis {
+            Axis::Quality => {
+                let found = Quality::ALL.into_iter().find(|one| quality(*one, self.rate) == *self);
+                format!("`{}`, {rate}", found.map_or("other", Quality::name))
+            }
+            Axis::Law => {
+                format!("{rate}, {}", if self.law == Law::Newton { "Newton" } else { "quadratised" })
+            }
+            Axis::String => rate,
             Axis::Grid => format!("{rate}, {}", stencil_name(self.stencil)),
             Axis::Solver => format!("{rate}, cap {}, {:e} m", self.cap, self.tolerance),
             Axis::Exponent => format!("{rate}, exponent {}", self.exponent.unwrap_or(1.5)),

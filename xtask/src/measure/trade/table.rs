@@ -1,10 +1,11 @@
 //! The tables of the page, and their comparison with what was committed.
 
 use anyhow::{Context, Result, ensure};
+use low_action_dsp::Quality;
 
 use super::Outcome;
 use super::scenes::{Kind, SCENES};
-use super::settings::{Axis, LIVE, Setting, settings};
+use super::settings::{Axis, BASE, Law, Setting, quality, settings};
 
 /// How a column is compared.
 #[derive(Clone, Copy)]
@@ -66,8 +67,8 @@ const COLUMNS: &[Column] = &[
 impl Column {
     /// Its number for a setting.
     fn value(&self, setting: &Setting, outcomes: &[Outcome]) -> f64 {
-        let these = outcomes.iter().filter(|outcome| outcome.setting == *setting);
-        let kind = |outcome: &&Outcome| self.kinds.contains(&SCENES[outcome.scene].kind);
+        let these = of(setting, outcomes);
+        let kind = |outcome: &&Outcome| self.kinds.contains(&outcome.kind());
         let mut values: Vec<f64> = these.filter(kind).map(self.of).filter(|value| !value.is_nan()).collect();
         values.sort_by(f64::total_cmp);
         let place = if self.median { values.len() / 2 } else { values.len().saturating_sub(1) };
@@ -76,7 +77,7 @@ impl Column {
 }
 
 /// A number with about three digits, always written out so that it can be read again.
-fn plain(value: f64) -> String {
+pub fn plain(value: f64) -> String {
     match value {
         value if value.is_nan() => "–".into(),
         value if value.abs() < 0.995 => format!("{value:.3}"),
@@ -86,7 +87,7 @@ fn plain(value: f64) -> String {
     }
 }
 
-fn head(names: impl IntoIterator<Item = String>) -> String {
+pub fn head(names: impl IntoIterator<Item = String>) -> String {
     let names: Vec<String> = names.into_iter().collect();
     format!("| | {} |\n|---|{}\n", names.join(" | "), "--:|".repeat(names.len()))
 }
@@ -102,41 +103,48 @@ pub fn accuracy(axis: Axis, settings: &[Setting], outcomes: &[Outcome]) -> Strin
     text
 }
 
-/// The mean time of a setting over scenes, ns per sample and string.
-pub fn mean_time(setting: &Setting, outcomes: &[Outcome]) -> f64 {
-    let times: Vec<f64> = of(setting, outcomes).filter_map(|outcome| outcome.time).collect();
-    times.iter().sum::<f64>() / times.len() as f64
+/// The mean part of a core that a string takes under a setting.
+pub fn mean_load(setting: &Setting, outcomes: &[Outcome]) -> f64 {
+    let loads: Vec<f64> = of(setting, outcomes).filter_map(|outcome| outcome.load).collect();
+    loads.iter().sum::<f64>() / loads.len() as f64
 }
 
-/// All outcomes of a setting.
+/// All outcomes of a setting in the scenes of which all tables are made.
 pub fn of<'a>(setting: &Setting, outcomes: &'a [Outcome]) -> impl Iterator<Item = &'a Outcome> {
-    outcomes.iter().filter(move |outcome| outcome.setting == *setting)
+    outcomes.iter().filter(move |outcome| outcome.setting == *setting && outcome.kind().is_main())
 }
 
 /// Cost and energy, a row for each setting.
-fn cost(axis: Axis, outcomes: &[Outcome]) -> String {
+pub fn cost(axis: Axis, outcomes: &[Outcome]) -> String {
     let names = [
-        "ns per string-sample",
-        "dearest scene",
         "of a core, a string, %",
-        "iterations at most",
+        "dearest scene",
+        "ns a sample and string",
+        "worst sample, iterations",
+        "instructions",
         "fallbacks, %",
         "energy booked, at most",
         "deepest, µm",
+        "strongest pull, N",
     ];
     let mut text = head(names.map(str::to_owned));
     for setting in &settings(axis) {
         let most = |value: fn(&Outcome) -> f64| of(setting, outcomes).map(value).fold(0.0f64, f64::max);
-        let time = mean_time(setting, outcomes);
+        let load = mean_load(setting, outcomes);
+        let counted = of(setting, outcomes).find_map(|outcome| outcome.instructions);
+        let booked = most(|outcome| outcome.booked.abs());
         text += &format!(
-            "| {} | {time:.0} | {:.0} | {:.2} | {} | {} | {:.0e} | {} |\n",
+            "| {} | {} | {} | {:.0} | {} | {} | {} | {} | {} | {} |\n",
             setting.name(axis),
-            most(|outcome| outcome.time.unwrap_or(f64::NAN)),
-            1e-7 * time * setting.rate,
+            plain(100.0 * load),
+            plain(100.0 * most(|outcome| outcome.load.unwrap_or(f64::NAN))),
+            1e9 * load / setting.rate,
             most(|outcome| f64::from(outcome.iterations)),
+            counted.map_or("–".into(), |counted| format!("{counted:.0}")),
             plain(100.0 * most(|outcome| outcome.fallbacks)),
-            most(|outcome| outcome.booked.abs()),
+            if setting.law == Law::Newton { format!("{booked:.0e}") } else { "–".into() },
             plain(1e6 * most(|outcome| outcome.penetration[0])),
+            plain(most(|outcome| outcome.pull)),
         );
     }
     text
@@ -145,7 +153,7 @@ fn cost(axis: Axis, outcomes: &[Outcome]) -> String {
 /// Everything of one setting, a row for each scene.
 fn by_scene(setting: &Setting, outcomes: &[Outcome]) -> String {
     let names = [
-        "ns",
+        "of a core, a string, %",
         "iterations at most",
         "energy booked",
         "deepest, µm (reference)",
@@ -171,9 +179,9 @@ fn by_scene(setting: &Setting, outcomes: &[Outcome]) -> String {
             errors.spectrum,
         ];
         text += &format!(
-            "| {} | {:.0} | {} | {:.0e} | {deepest} ({reference}) | {} |\n",
+            "| {} | {} | {} | {:.0e} | {deepest} ({reference}) | {} |\n",
             SCENES[outcome.scene].name,
-            outcome.time.unwrap_or(f64::NAN),
+            plain(100.0 * outcome.load.unwrap_or(f64::NAN)),
             outcome.iterations,
             outcome.booked,
             cells.map(plain).join(" | ")
@@ -182,20 +190,29 @@ fn by_scene(setting: &Setting, outcomes: &[Outcome]) -> String {
     text
 }
 
-/// All tables, under their headings.
+/// Tables of every axis but that of the qualities, under their headings.
 pub fn all(outcomes: &[Outcome]) -> String {
     let mut text = String::new();
     for (axis, title) in [
-        (Axis::Grid, "Sample rate and stencil (cap 20, tolerance 1e-12 m)"),
+        (Axis::Grid, "Sample rate and stencil (cap 20, tolerance 1e-12 m, every string at the rate)"),
         (Axis::Solver, "Cap and tolerance (wide)"),
         (Axis::Exponent, "Exponent of the contact law (wide, cap 20, tolerance 1e-12 m)"),
+        (Axis::Law, "Newton's method or a quadratised law (wide)"),
     ] {
         let errors = accuracy(axis, &settings(axis), outcomes);
         text +=
             &format!("\n### {title}\n\nErrors:\n\n{errors}\nCost and energy:\n\n{}", cost(axis, outcomes));
     }
-    for (rate, what) in [(LIVE.rate, "`live`, scene by scene"), (192e3, "192 kHz, wide, scene by scene")] {
-        text += &format!("\n### {what}\n\n{}", by_scene(&Setting { rate, ..LIVE }, outcomes));
+    let [live, studio] = [Quality::Live, Quality::Studio].map(|one| quality(one, BASE.rate));
+    for (setting, what) in [
+        (live, "`live` at 48 kHz, scene by scene"),
+        (studio, "`studio` at 48 kHz, scene by scene"),
+        (
+            Setting { law: Law::Quadratised, rate: 96e3, ..BASE },
+            "The quadratised law at 96 kHz, scene by scene",
+        ),
+    ] {
+        text += &format!("\n### {what}\n\n{}", by_scene(&setting, outcomes));
     }
     text + "\n"
 }

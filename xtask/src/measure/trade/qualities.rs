@@ -1,0 +1,117 @@
+//! What a player chooses between: the qualities, what they aim at, and the rates of single strings.
+
+use anyhow::Result;
+use low_action_dsp::Quality;
+
+use super::Outcome;
+use super::scenes::{Kind, SCENES};
+use super::settings::{Axis, BASE, Setting, quality, settings};
+use super::table::{accuracy, cost, head, mean_load, plain};
+
+/// Tables of the qualities and of single strings, under their headings.
+pub fn tables(outcomes: &[Outcome], chords: &[(Setting, f64)]) -> Result<String> {
+    let axis = Axis::Quality;
+    let errors = accuracy(axis, &settings(axis), outcomes);
+    let mut text = format!("\n### What qualities reach\n\n{}", aims(outcomes));
+    text += &format!("\n### Qualities\n\nErrors:\n\n{errors}\nCost and energy:\n\n{}", cost(axis, outcomes));
+    text += &format!(
+        "\nSix strings fretted and ringing, with all that an instrument does:\n\n{}",
+        speeds(chords)
+    );
+    text += &format!("\n### Single strings\n\nBuzz, and the spacing of the grid:\n\n{}", buzz(outcomes)?);
+    text += &format!("\nThe high E of `electric` stopped high on the neck:\n\n{}", high(outcomes));
+    Ok(text)
+}
+
+/// The largest of something over scenes of some kinds under a setting.
+fn largest(setting: Setting, kinds: &[Kind], outcomes: &[Outcome], value: fn(&Outcome) -> f64) -> f64 {
+    let these = outcomes.iter().filter(|one| one.setting == setting && kinds.contains(&one.kind()));
+    these.map(value).fold(f64::NAN, f64::max)
+}
+
+/// What was aimed at, found and met, at a host's 48 kHz.
+fn aims(outcomes: &[Outcome]) -> String {
+    const BUZZING: &[Kind] = &[Kind::BuzzingLight, Kind::BuzzingHeavy, Kind::EachBuzzing];
+    let at = |one: Quality| quality(one, BASE.rate);
+    let live = at(Quality::Live);
+    let impulses = |one: &Outcome| 100.0 * one.errors.impulses;
+    let price = mean_load(&live, outcomes) / mean_load(&at(Quality::Draft), outcomes);
+    let over_live = |one: Quality| mean_load(&at(one), outcomes) / mean_load(&live, outcomes);
+    let rows = [
+        (
+            "`live`: partials of every open string, up to 4 kHz, cents",
+            1.0,
+            largest(live, &[Kind::Open, Kind::EachOpen], outcomes, |one| one.errors.partials),
+        ),
+        (
+            "`live`: pitch of stopped strings, cents",
+            1.0,
+            largest(live, &[Kind::Pressed], outcomes, |one| one.errors.pitch),
+        ),
+        ("`live`: forces of pressed strings, %", 3.0, largest(live, &[Kind::Pressed], outcomes, impulses)),
+        ("`live`: buzz, %", 50.0, largest(live, BUZZING, outcomes, impulses)),
+        ("`live`: price over that of `draft`", 2.0, price),
+        ("`studio`: price over that of `live`", 3.5, over_live(Quality::Studio)),
+        ("`studio`: buzz, %", 25.0, largest(at(Quality::Studio), BUZZING, outcomes, impulses)),
+        ("`reference`: price over that of `live`", 10.0, over_live(Quality::Reference)),
+        ("`reference`: buzz, %", 15.0, largest(at(Quality::Reference), BUZZING, outcomes, impulses)),
+    ];
+    let mut text = head(["at most".into(), "found".into(), String::new()]);
+    for (what, aim, found) in rows {
+        let met = if found <= aim { "met" } else { "**missed**" };
+        text += &format!("| {what} | {} | {} | {met} |\n", plain(aim), plain(found));
+    }
+    text
+}
+
+/// How many times faster than real time the chord is.
+fn speeds(chords: &[(Setting, f64)]) -> String {
+    let mut text = head(["× real time".into()]);
+    for (setting, speed) in chords {
+        text += &format!("| {} | {speed:.1} |\n", setting.name(Axis::Quality));
+    }
+    text
+}
+
+/// The columns of single strings: all strings at a rate, then qualities at 48 kHz.
+fn columns() -> Vec<(Setting, String)> {
+    let rates = settings(Axis::String).into_iter().map(|one| (one, one.name(Axis::String)));
+    let qualities = [Quality::Live, Quality::Studio, Quality::Reference];
+    let qualities = qualities.map(|one| (quality(one, BASE.rate), format!("`{}`", one.name())));
+    rates.chain(qualities).collect()
+}
+
+/// Buzz of each string of `electric`, and the spacing of its grid.
+fn buzz(outcomes: &[Outcome]) -> Result<String> {
+    let columns = columns();
+    let mut text = head(columns.iter().map(|(_, name)| name.clone()));
+    for (index, playing) in SCENES.iter().enumerate().filter(|(_, one)| one.kind == Kind::EachBuzzing) {
+        text += &format!("| {}, %", playing.string()?);
+        for (setting, _) in &columns {
+            let found = outcomes.iter().find(|one| one.scene == index && one.setting == *setting);
+            let error = found.map_or(f64::NAN, |one| 100.0 * one.errors.impulses);
+            text += &format!(" | {} ({:.1} mm)", plain(error), 1e3 * playing.spacing(setting)?);
+        }
+        text += " |\n";
+    }
+    Ok(text)
+}
+
+/// Pitch and decay of a string stopped high on the neck.
+fn high(outcomes: &[Outcome]) -> String {
+    let columns = columns();
+    let mut text = head(columns.iter().map(|(_, name)| name.clone()).chain(["reference at 768 kHz".into()]));
+    for (index, playing) in SCENES.iter().enumerate().filter(|(_, one)| one.kind == Kind::High) {
+        let of = |setting: &Setting| {
+            outcomes.iter().find(|one| one.scene == index && one.setting == *setting).map(|one| one.errors)
+        };
+        let cells = columns.iter().map(|(setting, _)| of(setting));
+        let pitch: Vec<String> =
+            cells.clone().map(|one| plain(one.map_or(f64::NAN, |one| one.pitch))).collect();
+        let decay: Vec<String> = cells.map(|one| plain(one.map_or(f64::NAN, |one| one.t60[0]))).collect();
+        let reference = of(&BASE).map_or(f64::NAN, |one| one.t60[1]);
+        text += &format!("| {}, cents off | {} | 0 |\n", playing.name, pitch.join(" | "));
+        text += &format!("| {}, T60, s | {} | {} |\n", playing.name, decay.join(" | "), plain(reference));
+    }
+    text
+}

@@ -1,0 +1,78 @@
+//! Instructions of the sample with most work, which callgrind counts.
+
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+use low_action_dsp::Simulation;
+
+use super::Outcome;
+use super::rival::Rival;
+use super::scenes::SCENES;
+use super::settings::{Law, all};
+
+/// Which sample: setting, scene, string and step.
+type Place = (usize, usize, usize, u64);
+
+/// Counts for each setting the worst sample of all scenes.
+pub fn count(outcomes: &mut [Outcome]) -> Result<()> {
+    for (index, setting) in all().iter().enumerate() {
+        let own =
+            outcomes.iter_mut().filter(|outcome| outcome.setting == *setting && outcome.kind().is_main());
+        let Some(outcome) = own.max_by_key(|outcome| outcome.worst.map(|(size, ..)| size)) else { continue };
+        if let Some((_, string, step)) = outcome.worst {
+            outcome.instructions = Some(instructions((index, outcome.scene, string, step))?);
+        }
+    }
+    Ok(())
+}
+
+/// Has callgrind count one sample, in a process of its own.
+fn instructions((setting, scene, string, step): Place) -> Result<f64> {
+    let out = std::env::temp_dir().join(format!("low-action-{}-{setting}.callgrind", std::process::id()));
+    let program = std::env::current_exe().context("this program has no path")?;
+    let run = Command::new("valgrind")
+        .args(["--tool=callgrind", "--toggle-collect=*the_worst_sample*"])
+        .arg(format!("--callgrind-out-file={}", out.display()))
+        .arg(program)
+        .args(["measure", "trade", "--sample", &format!("{setting},{scene},{string},{step}")])
+        .output()
+        .context("valgrind cannot be run")?;
+    ensure!(run.status.success(), "callgrind failed: {}", String::from_utf8_lossy(&run.stderr));
+    let text = std::fs::read_to_string(&out).with_context(|| format!("cannot read {}", out.display()))?;
+    std::fs::remove_file(&out).ok();
+    let total =
+        text.lines().find_map(|line| line.strip_prefix("totals: ").or(line.strip_prefix("summary: ")));
+    total.and_then(|total| total.trim().parse().ok()).context("callgrind wrote no totals")
+}
+
+/// Plays up to a sample, and the sample.
+pub fn child(place: &str) -> Result<()> {
+    let numbers: Vec<u64> = place.split(',').map(str::parse).collect::<Result<_, _>>()?;
+    let &[setting, scene, string, step] = &numbers[..] else { anyhow::bail!("four numbers") };
+    let setting = all().get(setting as usize).copied().context("no such setting")?;
+    let scene = SCENES.get(scene as usize).context("no such scene")?.scenes(&setting)?;
+    let scene = scene.get(string as usize).context("no such string")?;
+    match setting.law {
+        Law::Newton => {
+            let mut simulation = Simulation::new(scene)?;
+            (0..step).for_each(|_| {
+                simulation.step();
+            });
+            the_worst_sample(|| {
+                simulation.step();
+            });
+        }
+        Law::Quadratised => {
+            let mut rival = Rival::new(scene)?;
+            (0..step).for_each(|_| rival.step());
+            the_worst_sample(|| rival.step());
+        }
+    }
+    Ok(())
+}
+
+/// What callgrind counts.
+#[inline(never)]
+fn the_worst_sample(step: impl FnOnce()) {
+    std::hint::black_box(step)();
+}
