@@ -2,9 +2,11 @@
 
 pub mod command;
 pub mod dense;
+pub mod hands;
 pub mod host;
 pub mod midi;
 pub mod paper;
 pub mod parameters;
 pub mod pitch;
+pub mod session;
 pub mod stage;

@@ -1,8 +1,10 @@
 //! A player with an instrument in hand and nothing between them, so that what hands do, what strings do and
 //! what is heard can be seen together.
 
-use low_action::performance::{InputMode, Performance, PlayedString, PlayerEvent, Style};
+use low_action::performance::{InputMode, Performance, PlayerEvent};
 use low_action_dsp::{Instrument, Quality, Setup, TimedGesture};
+
+use crate::hands::{EXACT, RATE, strings};
 
 /// Samples between two looks of an observer.
 pub const LOOK: u64 = 16;
@@ -28,14 +30,10 @@ pub struct Played {
 impl Stage {
     /// A set-up at 48 kHz, every pluck exactly alike.
     pub fn new(setup: &Setup) -> Self {
-        let rate = 48_000.0;
         let instrument =
-            Instrument::new(setup, &Quality::Live.settings(rate)).expect("the set-up can be built");
-        let strings = (0..instrument.string_count())
-            .map(|index| PlayedString::new(setup, &instrument, index))
-            .collect();
-        let style = Style { variation: 0.0, seed: 0, bend_range: 2.0 };
-        Self { performance: Performance::new(strings, &setup.player, style, rate), instrument, rate }
+            Instrument::new(setup, &Quality::Live.settings(RATE)).expect("the set-up can be built");
+        let performance = Performance::new(strings(setup, &instrument), &setup.player, EXACT, RATE);
+        Self { performance, instrument, rate: RATE }
     }
 
     /// One string of a set-up that comes with the program, so that every note is played on it.

@@ -4,28 +4,16 @@
 use std::sync::LazyLock;
 
 use low_action::controls::Touching;
-use low_action::performance::{Expression, InputMode, Performance, PlayedString, PlayerEvent, Style};
-use low_action_dsp::{FINGERS_PER_STRING, Gesture, Instrument, Quality, Setup, TimedGesture};
+use low_action::performance::{Expression, InputMode, Performance, PlayerEvent, Style};
+use low_action_dsp::{FINGERS_PER_STRING, Gesture, TimedGesture};
+use low_action_tests::hands::{Neck, of_string, play, play_in_blocks};
 use proptest::prelude::*;
 
-const RATE: f64 = 48_000.0;
-
-static NECKS: LazyLock<Vec<(Setup, Vec<PlayedString>)>> = LazyLock::new(|| {
-    let neck = |name: &str| {
-        let setup = Setup::shipped(name).expect("it comes with the program");
-        let instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).expect("builds");
-        let count = instrument.string_count();
-        let strings = (0..count).map(|index| PlayedString::new(&setup, &instrument, index)).collect();
-        (setup, strings)
-    };
-    // One with frets, one without, and one where nothing can be stopped.
-    ["electric", "fretless-bass", "tanpura"].map(neck).into()
-});
+/// One with frets, one without, and one where nothing can be stopped.
+static NECKS: LazyLock<[Neck; 3]> = LazyLock::new(|| ["electric", "fretless-bass", "tanpura"].map(Neck::of));
 
 fn player(neck: usize, input: InputMode, touching: &Touching) -> Performance {
-    let (setup, strings) = &NECKS[neck];
-    let style = Style { variation: 0.5, seed: 1, bend_range: 2.0 };
-    let mut performance = Performance::new(strings.clone(), &setup.player, style, RATE);
+    let mut performance = NECKS[neck].player(Style { variation: 0.5, seed: 1, bend_range: 2.0 });
     performance.set_input(input);
     performance.touch(0, touching, &mut Vec::new());
     performance
@@ -85,39 +73,22 @@ proptest! {
             (time, event)
         }).collect();
         events.push((time, PlayerEvent::AllNotesOff));
-        let end = time + 2 * RATE as u64;
 
-        let mut whole = Vec::new();
         let mut performance = player(neck, input, &touching);
-        for &(time, event) in &events {
-            performance.event(time, event, &mut whole);
-        }
-        performance.advance(end, &mut whole);
+        let whole = play(&mut performance, &events);
         for channel in 0..4 {
             prop_assert!((0..128).all(|key| !performance.sounds(channel, key)));
         }
 
-        let mut performance = player(neck, input, &touching);
-        let mut blocks = Vec::new();
-        let mut waiting = events.iter().peekable();
-        let mut now = 0;
-        while now < end {
-            now = (now + block).min(end);
-            while let Some(&(time, event)) = waiting.next_if(|event| event.0 < now) {
-                performance.event(time, event, &mut blocks);
-            }
-            performance.advance(now, &mut blocks);
-        }
+        let blocks = play_in_blocks(&mut player(neck, input, &touching), &events, block);
 
-        let count = NECKS[neck].1.len();
+        let count = NECKS[neck].strings.len();
         let mut left = vec![[false; FINGERS_PER_STRING]; count];
         for string in 0..count {
-            let of = |gestures: &[TimedGesture]| -> Vec<TimedGesture> {
-                gestures.iter().filter(|g| g.string == string).copied().collect()
-            };
-            prop_assert_eq!(of(&whole), of(&blocks));
-            let length = NECKS[neck].1[string].geometry.length;
-            for TimedGesture { gesture, .. } in of(&whole) {
+            let done = of_string(&whole, string);
+            prop_assert_eq!(&done, &of_string(&blocks, string));
+            let length = NECKS[neck].strings[string].geometry.length;
+            for TimedGesture { gesture, .. } in done {
                 let place = match gesture {
                     Gesture::Place { finger, position, .. } | Gesture::Throw { finger, position, .. } => {
                         left[string][finger] = true;

@@ -5,36 +5,16 @@
 use std::sync::LazyLock;
 
 use low_action::controls::Touching;
-use low_action::performance::{InputMode, Performance, PlayedString, PlayerEvent, Style};
-use low_action_dsp::{Gesture, Instrument, Quality, Setup, TimedGesture};
+use low_action::performance::{InputMode, Performance, PlayerEvent};
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::hands::{EXACT, Neck, RATE, play};
 use low_action_tests::stage::{cc, off, on};
 use proptest::prelude::*;
 
-const RATE: f64 = 48_000.0;
-
-static GUITAR: LazyLock<(Setup, Vec<PlayedString>)> = LazyLock::new(|| {
-    let setup = Setup::builtin("electric").expect("built in");
-    let instrument = Instrument::new(&setup, &Quality::Draft.settings(RATE)).expect("builds");
-    let strings = (0..instrument.string_count()).map(|index| PlayedString::new(&setup, &instrument, index));
-    let strings = strings.collect();
-    (setup, strings)
-});
+static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 
 fn player() -> Performance {
-    let (setup, strings) = &*GUITAR;
-    let style = Style { variation: 0.0, seed: 0, bend_range: 2.0 };
-    Performance::new(strings.clone(), &setup.player, style, RATE)
-}
-
-/// Plays events (samples) and two seconds more.
-fn play(performance: &mut Performance, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
-    let mut gestures = Vec::new();
-    for &(time, event) in events {
-        performance.event(time, event, &mut gestures);
-    }
-    let end = events.last().map_or(0, |event| event.0);
-    performance.advance(end + 2 * RATE as u64, &mut gestures);
-    gestures
+    GUITAR.player(EXACT)
 }
 
 /// (time, string, force) of the plucks, in order of time.

@@ -4,28 +4,20 @@
 
 use std::sync::LazyLock;
 
-use low_action::performance::{Performance, PlayedString, PlayerEvent, Style};
-use low_action_dsp::{FINGERS_PER_STRING, Gesture, Instrument, Quality, Setup, TimedGesture};
+use low_action::performance::{Performance, PlayerEvent, Style};
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::hands::{EXACT, Neck, any_left, of_string, play as play_by, play_in_blocks};
 use proptest::prelude::*;
 
-const RATE: f64 = 48_000.0;
-const EXACT: Style = Style { variation: 0.0, seed: 0, bend_range: 2.0 };
 /// A quarter of a second, samples.
 const WHILE: u64 = 12_000;
 
-/// The electric guitar and its strings, 0 (E4) to 5 (E2); tuning it takes a moment.
-static GUITAR: LazyLock<(Setup, Vec<PlayedString>)> = LazyLock::new(|| {
-    let setup = Setup::builtin("electric").expect("built in");
-    let instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).expect("builds");
-    let strings = (0..instrument.string_count()).map(|index| PlayedString::new(&setup, &instrument, index));
-    let strings = strings.collect();
-    (setup, strings)
-});
+/// The electric guitar, whose strings are 0 (E4) to 5 (E2).
+static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 
 /// A player who has not touched it yet.
 fn player(style: Style) -> Performance {
-    let (setup, strings) = &*GUITAR;
-    Performance::new(strings.clone(), &setup.player, style, RATE)
+    GUITAR.player(style)
 }
 
 fn on(key: u8) -> PlayerEvent {
@@ -45,16 +37,6 @@ fn play(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
     play_by(&mut player(EXACT), events)
 }
 
-fn play_by(performance: &mut Performance, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
-    let mut gestures = Vec::new();
-    for &(time, event) in events {
-        performance.event(time, event, &mut gestures);
-    }
-    let end = events.last().map_or(0, |event| event.0);
-    performance.advance(end + 2 * RATE as u64, &mut gestures);
-    gestures
-}
-
 /// (time, string) of the plucks.
 fn plucks(gestures: &[TimedGesture]) -> Vec<(u64, usize)> {
     let pluck = |g: &&TimedGesture| matches!(g.gesture, Gesture::Pluck { .. });
@@ -65,19 +47,6 @@ fn plucks(gestures: &[TimedGesture]) -> Vec<(u64, usize)> {
 fn dampings(gestures: &[TimedGesture]) -> Vec<(u64, usize)> {
     let damper = |g: &&TimedGesture| matches!(g.gesture, Gesture::Place { finger: 2, .. });
     gestures.iter().filter(damper).map(|g| (g.time, g.string)).collect()
-}
-
-/// The fingers left on each string at the end.
-fn left_on_strings(gestures: &[TimedGesture]) -> Vec<[bool; FINGERS_PER_STRING]> {
-    let mut left = vec![[false; FINGERS_PER_STRING]; 6];
-    for TimedGesture { string, gesture, .. } in gestures {
-        match *gesture {
-            Gesture::Place { finger, .. } => left[*string][finger] = true,
-            Gesture::Lift { finger, .. } => left[*string][finger] = false,
-            _ => {}
-        }
-    }
-    left
 }
 
 #[test]
@@ -105,7 +74,7 @@ fn force_grows_with_velocity() {
             other => panic!("{other:?}"),
         }
     };
-    let hardest = GUITAR.0.player.pluck_force;
+    let hardest = GUITAR.setup.player.pluck_force;
     assert!((force(1.0) - hardest).abs() < 1e-12);
     assert_eq!(force(5.0), force(1.0), "no more than the hardest");
     for step in 1..127 {
@@ -135,7 +104,7 @@ fn a_release_ends_its_own_note_and_no_other() {
 #[test]
 fn after_a_note_every_finger_leaves() {
     let gestures = play(&[(0, on(64)), (0, on(62)), (WHILE, off(64)), (WHILE, off(62))]);
-    assert_eq!(left_on_strings(&gestures), [[false; FINGERS_PER_STRING]; 6]);
+    assert!(!any_left(&gestures));
     assert_eq!(dampings(&gestures).len(), 2);
     // The fretting finger stays down until the string is quiet.
     let lift = gestures.iter().find(|g| matches!(g.gesture, Gesture::Lift { finger: 0, .. }));
@@ -150,7 +119,7 @@ fn a_key_that_comes_again_is_struck_on_its_string() {
     // The finger that is still there presses again; no other lands.
     let landings = gestures.iter().filter(|g| {
         matches!(g.gesture, Gesture::Place { finger: 0 | 1, touch, .. }
-        if touch.stiffness == GUITAR.0.player.fretting.touch.stiffness)
+        if touch.stiffness == GUITAR.setup.player.fretting.touch.stiffness)
     });
     assert_eq!(landings.count(), 1);
 }
@@ -223,7 +192,7 @@ fn the_messages_that_stop_everything_do() {
 
 #[test]
 fn the_wheel_bends_by_tension_and_no_farther_than_the_string_allows() {
-    let max_bend = GUITAR.0.max_bend;
+    let max_bend = GUITAR.setup.max_bend;
     let ratios = |events: &[(u64, PlayerEvent)]| -> Vec<f64> {
         let bend = |g: &TimedGesture| match g.gesture {
             Gesture::Bend { tension_ratio, duration } => {
@@ -263,7 +232,7 @@ fn a_hundred_notes_at_once_take_six_strings_and_leave_none_hanging() {
     assert_eq!(plucks(&gestures).len(), 6);
     assert_eq!(dampings(&gestures).len(), 6);
     assert_eq!(performance.compromises().left_out, 94);
-    assert_eq!(left_on_strings(&gestures), [[false; FINGERS_PER_STRING]; 6]);
+    assert!(!any_left(&gestures));
 }
 
 #[test]
@@ -330,25 +299,11 @@ proptest! {
         events.push((time, PlayerEvent::AllNotesOff));
         let whole = play(&events);
 
-        let mut performance = player(EXACT);
-        let mut blocks = Vec::new();
-        let mut waiting = events.iter().peekable();
-        let mut now = 0;
-        while now < time + 2 * RATE as u64 {
-            now += block;
-            while let Some(&(time, event)) = waiting.next_if(|event| event.0 < now) {
-                performance.event(time, event, &mut blocks);
-            }
-            performance.advance(now, &mut blocks);
-        }
-        // Strings are independent, so only the order within each counts.
+        let blocks = play_in_blocks(&mut player(EXACT), &events, block);
         for string in 0..6 {
-            let of = |gestures: &[TimedGesture]| -> Vec<TimedGesture> {
-                gestures.iter().filter(|g| g.string == string).copied().collect()
-            };
-            prop_assert_eq!(of(&whole), of(&blocks));
+            prop_assert_eq!(of_string(&whole, string), of_string(&blocks, string));
         }
-        prop_assert_eq!(left_on_strings(&whole), vec![[false; FINGERS_PER_STRING]; 6]);
+        prop_assert!(!any_left(&whole));
         for TimedGesture { gesture, .. } in whole {
             if let Gesture::Pluck { position, force, .. } = gesture {
                 prop_assert!(force.is_finite() && force > 0.0 && position > 0.4 && position < 0.66);

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use low_action::engine::{Engine, EngineOptions};
 use low_action::midi_file::{Selection, Song};
-use low_action::performance::{InputMode, Performance, PlayedString, PlayerEvent, Style};
-use low_action_dsp::{FINGERS_PER_STRING, Gesture, Instrument, Quality, Setup, TimedGesture};
+use low_action::performance::{InputMode, PlayerEvent, Style};
+use low_action_dsp::{Quality, Setup, TimedGesture};
+use low_action_tests::hands::{EXACT, Neck, any_left, of_string};
 
 const RATE: u32 = 48_000;
 
@@ -57,13 +58,7 @@ struct Fate {
 
 /// Plays a song with hands alone: every note must sound once it has begun, and nothing may stay.
 fn play(name: &str, song: &Song, setup: &str, input: InputMode) -> Fate {
-    let setup = Setup::shipped(setup).expect("it comes with the program");
-    let instrument =
-        Instrument::new(&setup, &Quality::Draft.settings(f64::from(RATE))).expect("it can be built");
-    let count = instrument.string_count();
-    let strings = (0..count).map(|index| PlayedString::new(&setup, &instrument, index)).collect();
-    let style = Style { variation: 0.25, seed: 0, bend_range: 2.0 };
-    let mut performance = Performance::new(strings, &setup.player, style, f64::from(RATE));
+    let mut performance = Neck::of(setup).player(Style { variation: 0.25, ..EXACT });
     performance.set_input(input);
     let mut gestures: Vec<TimedGesture> = Vec::new();
     let events: Vec<(u64, PlayerEvent)> =
@@ -104,15 +99,7 @@ fn play(name: &str, song: &Song, setup: &str, input: InputMode) -> Fate {
             "{name}: a note of channel {channel} hangs"
         );
     }
-    let mut left = vec![[false; FINGERS_PER_STRING]; count];
-    for TimedGesture { string, gesture, .. } in gestures {
-        match gesture {
-            Gesture::Place { finger, .. } | Gesture::Throw { finger, .. } => left[string][finger] = true,
-            Gesture::Lift { finger, .. } => left[string][finger] = false,
-            _ => {}
-        }
-    }
-    assert_eq!(left, vec![[false; FINGERS_PER_STRING]; count], "{name}: a finger stays");
+    assert!(!any_left(&gestures), "{name}: a finger stays");
     let compromises = performance.compromises();
     Fate { notes, left_out: compromises.left_out, late: compromises.arpeggiated }
 }
@@ -202,13 +189,9 @@ fn every_set_up_has_a_phrase() {
 #[test]
 fn strings_with_their_own_channels_never_cut_one_another() {
     let (_, song) = songs("pieces").into_iter().find(|(name, _)| name == "midi_guitar").expect("it is there");
-    let setup = Setup::builtin("electric").expect("built in");
-    let instrument =
-        Instrument::new(&setup, &Quality::Draft.settings(f64::from(RATE))).expect("it can be built");
+    let neck = Neck::of("electric");
     let gestures_of = |only: Option<u8>| {
-        let strings = (0..6).map(|index| PlayedString::new(&setup, &instrument, index)).collect();
-        let style = Style { variation: 0.0, seed: 0, bend_range: 2.0 };
-        let mut performance = Performance::new(strings, &setup.player, style, f64::from(RATE));
+        let mut performance = neck.player(EXACT);
         performance.set_input(InputMode::Strings { first: 0, from_last: false });
         let mut gestures = Vec::new();
         for event in &song.events {
@@ -228,9 +211,8 @@ fn strings_with_their_own_channels_never_cut_one_another() {
     };
     let all = gestures_of(None);
     for string in 0..6 {
-        let together: Vec<&TimedGesture> = all.iter().filter(|g| g.string == string).collect();
         let alone = gestures_of(Some(string as u8));
         assert!(!alone.is_empty() && alone.iter().all(|g| g.string == string));
-        assert_eq!(together, alone.iter().collect::<Vec<_>>(), "string {string}");
+        assert_eq!(of_string(&all, string), alone, "string {string}");
     }
 }

@@ -13,6 +13,7 @@ use low_action::performance::PlayerEvent;
 use low_action::setups::FOLDER_VARIABLE;
 use low_action_dsp::Setup;
 use low_action_tests::host::{Action, Host, Score, parameter};
+use low_action_tests::session::{packed, unpacked};
 use serde_json::{Value, json};
 
 const RATE: f64 = 48_000.0;
@@ -21,32 +22,25 @@ const LENGTH: usize = 12_000;
 /// An electric guitar two semitones lower.
 const LOWER: &str = "name = \"lower\"\nbased_on = \"electric\"\ntuning = -2.0\n";
 /// One with eight strings, the lowest a B1 and an F♯1 tuned like the E2 before it.
-const EIGHT: &str = r#"
-name = "eight"
-based_on = "electric"
-[[string]]
-[[string]]
-[[string]]
-[[string]]
-[[string]]
-[[string]]
-[[string]]
-name = "B1"
-pitch = 35.0
-linear_density = 1.1e-2
-youngs_modulus = 2e11
-core_radius = 2.3e-4
-loss_0 = 0.5
-loss_1 = 1e-4
-[[string]]
-name = "F1"
-pitch = 30.0
-linear_density = 1.9e-2
-youngs_modulus = 2e11
-core_radius = 2.6e-4
-loss_0 = 0.5
-loss_1 = 1e-4
-"#;
+fn eight() -> String {
+    let below =
+        [("B1", 35, 1.1e-2, 2.3e-4), ("F1", 30, 1.9e-2, 2.6e-4)].map(|(name, pitch, density, radius)| {
+            format!(
+                "[[string]]
+            name = \"{name}\"
+            pitch = {pitch}.0
+            linear_density = {density}
+            youngs_modulus = 2e11
+            core_radius = {radius}
+            loss_0 = 0.5
+            loss_1 = 1e-4
+            "
+            )
+        });
+    let above = "[[string]]\n".repeat(6);
+    format!("name = \"eight\"\nbased_on = \"electric\"\n{above}{}", below.concat())
+}
+
 /// Numbers of the files, which are those of their names in order.
 const BROKEN_FILE: f64 = 1.0;
 const EIGHT_FILE: f64 = 2.0;
@@ -60,7 +54,7 @@ fn folder() -> &'static PathBuf {
         let folder = tempfile::tempdir().expect("there is room").keep();
         for (name, text) in [
             ("lower.toml", LOWER),
-            ("eight.toml", EIGHT),
+            ("eight.toml", &eight()),
             ("broken.toml", "name = \"broken\"\nbased_on = \"electric\"\n[neck]\naction = 9.0\n"),
             ("notes.txt", "no set-up"),
         ] {
@@ -97,10 +91,15 @@ fn sound(host: &mut Host) -> Vec<f32> {
 
 /// What an engine plays that is built from a file's text, with a change of it.
 fn expected(text: &str, change: impl Fn(&mut Setup)) -> Vec<f32> {
+    played(text, change, score())
+}
+
+/// The same of other notes.
+fn played(text: &str, change: impl Fn(&mut Setup), score: Score) -> Vec<f32> {
     let mut setup = Setup::from_toml(text).expect("it is a set-up");
     change(&mut setup);
     let mut engine = Engine::new(&offline(setup)).expect("it can be built");
-    for (at, action) in score() {
+    for (at, action) in score {
         let Action::NoteOn { channel, key, velocity } = action else { panic!("only notes") };
         engine.event(at as u32, PlayerEvent::NoteOn { channel, key, velocity: f32::from(velocity) / 127.0 });
     }
@@ -117,17 +116,6 @@ fn shown(host: &mut Host, value: f64) -> String {
     let id = ClapId::new(parameter("instrument_file"));
     let text = params.value_to_text(&handle, id, value, &mut text).expect("it has a text");
     String::from_utf8_lossy(text).into_owned()
-}
-
-fn packed(state: &Value) -> Vec<u8> {
-    let text = state.to_string();
-    let mut bytes = (text.len() as u64).to_le_bytes().to_vec();
-    bytes.extend(text.bytes());
-    bytes
-}
-
-fn unpacked(bytes: &[u8]) -> Value {
-    serde_json::from_slice(&bytes[8..]).expect("states are saved as JSON")
 }
 
 /// What an engine is built from for a host that renders offline.
@@ -167,17 +155,8 @@ fn eight_strings_can_be_tuned() {
             let mut low = score();
             low.push((3000, Action::NoteOn { channel: 0, key: 31, velocity: 100 }));
             let [found, _] = host.play(RATE, &low, LENGTH, &[512]);
-            let mut setup = Setup::from_toml(EIGHT).expect("it is a set-up");
-            setup.string[string].pitch += semitones;
-            let mut engine = Engine::new(&offline(setup)).expect("it can be built");
-            for (at, action) in low {
-                let Action::NoteOn { channel, key, velocity } = action else { panic!("only notes") };
-                let velocity = f32::from(velocity) / 127.0;
-                engine.event(at as u32, PlayerEvent::NoteOn { channel, key, velocity });
-            }
-            let (mut left, mut right) = (vec![0.0; LENGTH], vec![0.0; LENGTH]);
-            engine.process(&mut left, &mut right);
-            assert!(found == left, "{id} at {end}");
+            let retuned = played(&eight(), |setup| setup.string[string].pitch += semitones, low);
+            assert!(found == retuned, "{id} at {end}");
         }
     }
 }

@@ -10,6 +10,7 @@ use clack_extensions::voice_info::PluginVoiceInfo;
 use low_action::engine::Engine;
 use low_action::params::LowActionParams;
 use low_action_tests::host::{Action, Host, Score, parameter};
+use low_action_tests::session::{packed, unpacked};
 use nice_plug::prelude::Params;
 use serde_json::{Value, json};
 
@@ -39,18 +40,6 @@ fn sound(host: &mut Host) -> Vec<f32> {
     let [left, _] = host.play(RATE, &score(), 12_000, &[512]);
     assert!(left.iter().any(|&sample| sample != 0.0));
     left
-}
-
-/// A saved state, which is the length of a text and the text.
-fn packed(state: &Value) -> Vec<u8> {
-    let text = state.to_string();
-    let mut bytes = (text.len() as u64).to_le_bytes().to_vec();
-    bytes.extend(text.bytes());
-    bytes
-}
-
-fn unpacked(bytes: &[u8]) -> Value {
-    serde_json::from_slice(&bytes[8..]).expect("states are saved as JSON")
 }
 
 #[test]

@@ -202,46 +202,20 @@ fn fast_run() -> Score {
 /// What a guitar with a pickup for each string sends: a channel for every string, the first the highest, short
 /// overlaps, bends on one string while others ring. A canon on Frère Jacques.
 fn midi_guitar() -> Score {
-    const TUNE: [(u8, u32); 32] = [
-        (60, 2),
-        (62, 2),
-        (64, 2),
-        (60, 2),
-        (60, 2),
-        (62, 2),
-        (64, 2),
-        (60, 2),
-        (64, 2),
-        (65, 2),
-        (67, 4),
-        (64, 2),
-        (65, 2),
-        (67, 4),
-        (67, 1),
-        (69, 1),
-        (67, 1),
-        (65, 1),
-        (64, 2),
-        (60, 2),
-        (67, 1),
-        (69, 1),
-        (67, 1),
-        (65, 1),
-        (64, 2),
-        (60, 2),
-        (60, 2),
-        (55, 2),
-        (60, 4),
-        (60, 2),
-        (55, 2),
-        (60, 4),
+    // (key, eighths); every phrase is sung twice.
+    const PHRASES: [&[(u8, u32)]; 4] = [
+        &[(60, 2), (62, 2), (64, 2), (60, 2)],
+        &[(64, 2), (65, 2), (67, 4)],
+        &[(67, 1), (69, 1), (67, 1), (65, 1), (64, 2), (60, 2)],
+        &[(60, 2), (55, 2), (60, 4)],
     ];
     const OPEN: [u8; 6] = [64, 59, 55, 50, 45, 40];
+    let tune = || PHRASES.iter().flat_map(|phrase| phrase.repeat(2));
     let mut score = Score::new(132);
     let mut strings: [Vec<(u8, u8, u32, u32)>; 6] = Default::default();
     for (voice, transposed, delay) in [(0, 4, 0), (1, -8, 16), (2, -20, 32)] {
         let mut now = delay * EIGHTH;
-        for (key, eighths) in TUNE.into_iter().chain(TUNE) {
+        for (key, eighths) in tune().chain(tune()) {
             let key = (i32::from(key) + transposed) as u8;
             // Each voice keeps to two strings: the higher one for what that has.
             let string = 2 * voice + usize::from(key < OPEN[2 * voice]);

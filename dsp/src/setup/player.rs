@@ -1,0 +1,129 @@
+//! The player's part of a set-up: how the hands of this instrument act.
+
+use serde::Deserialize;
+
+use super::on_scale;
+use crate::error::{Error, within};
+use crate::gesture::Touch;
+
+/// How the hands act.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Player {
+    /// Where strings are plucked, m from the saddle.
+    pub pluck_position: f64,
+    /// How long a pluck pushes, s.
+    pub pluck_duration: f64,
+    /// Largest force of a pluck at velocity 127, N.
+    pub pluck_force: f64,
+    /// The finger that stops a string.
+    pub fretting: Fretting,
+    /// The finger or palm that silences a string.
+    pub damper: Damper,
+}
+
+/// A finger that presses a string behind a fret.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(from = "FrettingFile")]
+pub struct Fretting {
+    /// The finger.
+    pub touch: Touch,
+    /// Force at rest on the string, N.
+    pub force: f64,
+    /// Height above the string from which it comes, m.
+    pub hover: f64,
+    /// Time over which its force rises, s.
+    pub landing: f64,
+    /// Where it presses: this fraction of the fret's own space behind the crown, 0.05 to 0.95.
+    pub behind: f64,
+}
+
+/// A finger or palm that rests on a string to silence it.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(from = "DamperFile")]
+pub struct Damper {
+    /// The finger or palm.
+    pub touch: Touch,
+    /// Force at rest on the string, N.
+    pub force: f64,
+    /// Time over which its force rises, s.
+    pub landing: f64,
+    /// The place farthest from the saddle that it touches, m from the saddle.
+    pub position: f64,
+}
+
+impl Player {
+    pub(super) fn check(&self, scale: f64) -> Result<(), Error> {
+        on_scale("player.pluck_position", self.pluck_position, scale)?;
+        within("player.pluck_duration", self.pluck_duration, 1e-4, 0.1, "s")?;
+        within("player.pluck_force", self.pluck_force, 1e-3, 1e3, "N")?;
+        let Fretting { touch, force, hover, landing, behind } = &self.fretting;
+        touch.check("player.fretting")?;
+        within("player.fretting.force", *force, 0.1, 100.0, "N")?;
+        within("player.fretting.hover", *hover, 0.0, 0.1, "m")?;
+        within("player.fretting.landing", *landing, 0.0, 1.0, "s")?;
+        within("player.fretting.behind", *behind, 0.05, 0.95, "of the fret's space")?;
+        let Damper { touch, force, landing, position } = &self.damper;
+        touch.check("player.damper")?;
+        within("player.damper.force", *force, 1e-3, 100.0, "N")?;
+        within("player.damper.landing", *landing, 0.0, 1.0, "s")?;
+        on_scale("player.damper.position", *position, scale)
+    }
+}
+
+// Both fingers have the keys of a touch beside their own. Serde can lay one table into another only where unknown
+// keys are let pass, so both lists are written out.
+
+/// `[player.fretting]` as it stands in the file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FrettingFile {
+    mass: f64,
+    stiffness: f64,
+    exponent: f64,
+    damping: f64,
+    hand_damping: f64,
+    force: f64,
+    hover: f64,
+    landing: f64,
+    behind: f64,
+}
+
+impl From<FrettingFile> for Fretting {
+    fn from(file: FrettingFile) -> Self {
+        let FrettingFile { mass, stiffness, exponent, damping, hand_damping, .. } = file;
+        Fretting {
+            touch: Touch { mass, stiffness, exponent, damping, hand_damping },
+            force: file.force,
+            hover: file.hover,
+            landing: file.landing,
+            behind: file.behind,
+        }
+    }
+}
+
+/// `[player.damper]` as it stands in the file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DamperFile {
+    mass: f64,
+    stiffness: f64,
+    exponent: f64,
+    damping: f64,
+    hand_damping: f64,
+    force: f64,
+    landing: f64,
+    position: f64,
+}
+
+impl From<DamperFile> for Damper {
+    fn from(file: DamperFile) -> Self {
+        let DamperFile { mass, stiffness, exponent, damping, hand_damping, .. } = file;
+        Damper {
+            touch: Touch { mass, stiffness, exponent, damping, hand_damping },
+            force: file.force,
+            landing: file.landing,
+            position: file.position,
+        }
+    }
+}
