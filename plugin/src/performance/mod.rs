@@ -16,6 +16,7 @@ mod control;
 mod event;
 mod fingers;
 mod hand;
+mod moment;
 mod played;
 mod right_hand;
 mod string;
@@ -24,7 +25,6 @@ mod technique;
 mod variation;
 
 use low_action_dsp::setup::Player;
-use low_action_dsp::{Gesture, TimedGesture};
 
 use crate::controls::Touching;
 use channel::Channel;
@@ -32,6 +32,8 @@ use chord::{Late, Struck};
 pub use control::InputMode;
 pub use event::{Expression, PlayerEvent};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
+pub use moment::GestureSink;
+pub(crate) use moment::Moment;
 pub use played::PlayedString;
 use string::StringPlayer;
 pub use technique::VELOCITY_CURVE;
@@ -39,44 +41,6 @@ use variation::Variation;
 
 /// MIDI channels.
 const CHANNELS: usize = 16;
-
-/// Somewhere gestures go: the instrument, or a list in a test.
-pub trait GestureSink {
-    /// Takes a gesture. Those of one string come in order of time, except that a pluck may be
-    /// handed over up to a millisecond ahead of it.
-    fn gesture(&mut self, gesture: TimedGesture);
-}
-
-impl GestureSink for Vec<TimedGesture> {
-    fn gesture(&mut self, gesture: TimedGesture) {
-        self.push(gesture);
-    }
-}
-
-/// A sample at which gestures are made on one string.
-pub(crate) struct Moment<'a, S: GestureSink> {
-    time: u64,
-    string: usize,
-    sample_rate: f64,
-    out: &'a mut S,
-}
-
-impl<S: GestureSink> Moment<'_, S> {
-    /// Makes a gesture now.
-    fn does(&mut self, gesture: Gesture) {
-        self.does_later(0.0, gesture);
-    }
-
-    /// Makes a gesture so many seconds from now.
-    fn does_later(&mut self, seconds: f64, gesture: Gesture) {
-        self.out.gesture(TimedGesture { time: self.after(seconds), string: self.string, gesture });
-    }
-
-    /// The sample so many seconds from now.
-    fn after(&self, seconds: f64) -> u64 {
-        self.time + (seconds * self.sample_rate).round() as u64
-    }
-}
 
 /// What the player could not do as written.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -1,0 +1,41 @@
+//! Gestures on their way to an instrument.
+
+use low_action_dsp::{Gesture, TimedGesture};
+
+/// Somewhere gestures go: the instrument, or a list in a test.
+pub trait GestureSink {
+    /// Takes a gesture. Those of one string come in order of time, except that a pluck may be
+    /// handed over up to a millisecond ahead of it.
+    fn gesture(&mut self, gesture: TimedGesture);
+}
+
+impl GestureSink for Vec<TimedGesture> {
+    fn gesture(&mut self, gesture: TimedGesture) {
+        self.push(gesture);
+    }
+}
+
+/// A sample at which gestures are made on one string.
+pub(crate) struct Moment<'a, S: GestureSink> {
+    pub time: u64,
+    pub string: usize,
+    pub sample_rate: f64,
+    pub out: &'a mut S,
+}
+
+impl<S: GestureSink> Moment<'_, S> {
+    /// Makes a gesture now.
+    pub(crate) fn does(&mut self, gesture: Gesture) {
+        self.does_later(0.0, gesture);
+    }
+
+    /// Makes a gesture so many seconds from now.
+    pub(crate) fn does_later(&mut self, seconds: f64, gesture: Gesture) {
+        self.out.gesture(TimedGesture { time: self.after(seconds), string: self.string, gesture });
+    }
+
+    /// The sample so many seconds from now.
+    pub(crate) fn after(&self, seconds: f64) -> u64 {
+        self.time + (seconds * self.sample_rate).round() as u64
+    }
+}
