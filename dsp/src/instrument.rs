@@ -5,16 +5,19 @@
 //! gestures cut runs at their exact samples, and so the samples are the same however they are asked for.
 
 use crate::decimate::DELAY;
+use crate::drive::Drive;
 use crate::error::Error;
 use crate::gesture::TimedGesture;
 use crate::intonation::finger_place;
 use crate::model::Model;
+use crate::observed::Observed;
 use crate::queue::Queue;
 pub use crate::queue::QueueFull;
 use crate::ramp::Ramp;
 use crate::settings::EngineSettings;
 use crate::setup::{Setup, tension_ratio};
 use crate::state::State;
+use crate::string::Scratch;
 use crate::voice::{RUN, Voice};
 
 /// What a player needs to know of one string.
@@ -115,6 +118,36 @@ impl Instrument {
     /// The state of a string.
     pub fn state(&self, string: usize) -> &State {
         &self.voices[string].state
+    }
+
+    /// What acted on a string in its last step; a string at rest takes none.
+    pub fn drive(&self, string: usize) -> &Drive {
+        &self.voices[string].drive
+    }
+
+    /// The record of a string's last step.
+    pub fn scratch(&self, string: usize) -> &Scratch {
+        &self.voices[string].scratch
+    }
+
+    /// Has what happens to the strings kept from now on, or no longer. The sound is the same bits.
+    pub fn observe(&mut self, looking: bool) {
+        self.voices.iter_mut().for_each(|voice| voice.observed.look(looking, &voice.state));
+    }
+
+    /// What has happened to a string since [`Instrument::observe_anew`], while it is kept.
+    pub fn observed(&self, string: usize) -> &Observed {
+        &self.voices[string].observed
+    }
+
+    /// Forgets what has happened to the strings.
+    pub fn observe_anew(&mut self) {
+        self.voices.iter_mut().for_each(|voice| voice.observed.begin_anew(&voice.state));
+    }
+
+    /// Sample rate of what is heard, Hz.
+    pub fn sample_rate(&self) -> f64 {
+        self.sample_rate
     }
 
     /// Index of the next sample.

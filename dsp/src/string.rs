@@ -84,7 +84,7 @@ impl Scratch {
 
     /// Energy of the string as a linear one without bending at the sample the last step led from, J:
     /// what the step knew anyway.
-    pub(crate) fn string_energy(&self, model: &Model) -> f64 {
+    pub fn string_energy(&self, model: &Model) -> f64 {
         let (k, h) = (model.grid.time_step, model.grid.spacing);
         0.5 * model.string.linear_density * h / (k * k) * self.products.motion
             + 0.5 * self.stiffness.tension / h * self.products.steepness

@@ -9,6 +9,7 @@ use crate::hands::Hands;
 use crate::instrument::StringGeometry;
 use crate::intonation::intonate;
 use crate::model::Model;
+use crate::observed::Observed;
 use crate::pickup::{Listener, PickupMix};
 use crate::ramp::Ramp;
 use crate::settings::EngineSettings;
@@ -21,8 +22,8 @@ use crate::string::Scratch;
 pub(crate) struct Voice {
     pub model: Model,
     pub state: State,
-    scratch: Scratch,
-    drive: Drive,
+    pub scratch: Scratch,
+    pub drive: Drive,
     hands: Hands,
     listener: Listener,
     decimator: Decimator,
@@ -37,6 +38,8 @@ pub(crate) struct Voice {
     settling: Settling,
     /// What the string holds, gets and loses, if anybody wants to know.
     pub ledger: Option<Ledger>,
+    /// What has happened to the string since somebody last looked.
+    pub observed: Observed,
 }
 
 /// Frets and board on their way to where the model has them.
@@ -99,6 +102,7 @@ impl Voice {
             silent: true,
             settling: Settling { from: Vec::with_capacity(model.contacts.len()), part: Ramp::at(1.0) },
             ledger: None,
+            observed: Observed::new(&model),
             model,
         })
     }
@@ -106,6 +110,7 @@ impl Voice {
     /// Begins a gesture.
     pub fn begin(&mut self, gesture: Gesture) {
         self.asleep = false;
+        self.observed.see_gesture(&gesture);
         self.hands.begin(gesture, &self.model, &mut self.state);
     }
 
@@ -129,6 +134,7 @@ impl Voice {
             self.decimator.take(index, value);
         }
         self.decimator.give(&mut self.run[..samples]);
+        self.observed.see_shape(&self.state);
     }
 
     /// Whether it rests, and nothing of it is left to be heard.
@@ -147,7 +153,8 @@ impl Voice {
         } else if !self.drive.heights.is_empty() {
             self.drive.heights.clear();
         }
-        self.state.step(&self.model, &self.drive, &mut self.scratch);
+        let convergence = self.state.step(&self.model, &self.drive, &mut self.scratch);
+        self.observed.see_step(&convergence, &self.scratch);
         if let Some(ledger) = &mut self.ledger {
             ledger.record(&self.model, &self.state, &self.scratch, &self.drive);
         }

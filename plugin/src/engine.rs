@@ -208,6 +208,21 @@ impl Engine {
         self.instrument.string_count()
     }
 
+    /// What is played.
+    pub fn instrument(&self) -> &Instrument {
+        &self.instrument
+    }
+
+    /// Has what happens to the strings kept for pictures from now on, or no longer. The sound is the same bits.
+    pub fn observe(&mut self, looking: bool) {
+        self.instrument.observe(looking);
+    }
+
+    /// Forgets what has happened to the strings.
+    pub fn observe_anew(&mut self) {
+        self.instrument.observe_anew();
+    }
+
     /// Largest size of the sound over the last 50 ms, 1 is full scale; for the end of tails.
     pub fn level(&self) -> f64 {
         self.instrument.level()

@@ -11,7 +11,7 @@ mod clap;
 mod events;
 mod level;
 pub mod meters;
-mod order;
+pub(crate) mod order;
 mod playing;
 pub mod shelf;
 pub mod state;
@@ -21,8 +21,12 @@ use std::sync::Arc;
 
 use nice_plug::prelude::*;
 
+use crate::display::{Health, Writer, display};
+#[cfg(feature = "editor")]
+use crate::editor::Link;
 use crate::engine::Engine;
 use crate::params::LowActionParams;
+use crate::pointer::{Played, pointer};
 pub use clap::clap_entry;
 use level::Output;
 use meters::Meters;
@@ -50,17 +54,46 @@ pub struct LowAction {
     output: Output,
     /// Whether the host's transport ran at the last block.
     transport_ran: bool,
+    /// Takes pictures of the strings while an editor is open.
+    display: Writer,
+    /// What is played in those pictures.
+    played: Played,
+    #[cfg(feature = "editor")]
+    editor: Link,
 }
 
 impl Default for LowAction {
     fn default() -> Self {
+        let (params, meters) = (Arc::new(LowActionParams::default()), Arc::new(Meters::default()));
+        let (display, _reader) = display();
+        let (_pointer, played) = pointer();
         Self {
-            params: Arc::new(LowActionParams::default()),
-            meters: Arc::new(Meters::default()),
+            #[cfg(feature = "editor")]
+            editor: Link::new(params.clone(), meters.clone(), _reader, _pointer),
+            params,
+            meters,
             playing: None,
             output: Output::default(),
             transport_ran: false,
+            display,
+            played,
         }
+    }
+}
+
+impl LowAction {
+    /// Whether an editor is open.
+    fn is_looked_at(&self) -> bool {
+        #[cfg(feature = "editor")]
+        return self.editor.is_open();
+        #[cfg(not(feature = "editor"))]
+        false
+    }
+
+    /// Has the editor, if there is one, show what is new.
+    fn show(&self) {
+        #[cfg(feature = "editor")]
+        self.editor.repaint();
     }
 }
 
@@ -100,12 +133,20 @@ impl Plugin for LowAction {
     // Hosts that send more in one block make the framework allocate.
     const INPUT_EVENT_CAPACITY: usize = 16_384;
 
+    #[cfg(feature = "editor")]
+    type Editor = crate::editor::Window;
+    #[cfg(not(feature = "editor"))]
     type Editor = ();
     type SysExMessage = ();
     type BackgroundTask = ();
 
     fn params(&self) -> Arc<dyn Params> {
         self.params.clone()
+    }
+
+    #[cfg(feature = "editor")]
+    fn editor(&mut self, _: AsyncExecutor<Self>) -> Option<Self::Editor> {
+        self.editor.window()
     }
 
     fn filter_state(state: &mut PluginState) {
@@ -122,6 +163,7 @@ impl Plugin for LowAction {
         let order = Order::of(&self.params, buffers.sample_rate, offline);
         self.output.activate(buffers.sample_rate, self.params.output.bypass.value());
         self.transport_ran = false;
+        self.played.clear();
         if !RATES.contains(&buffers.sample_rate) {
             nice_error!(
                 "nothing sounds at {} Hz: the sample rate must be {} to {} Hz",
@@ -166,6 +208,7 @@ impl Plugin for LowAction {
         let [left, right] = buffer.as_slice() else {
             return ProcessStatus::Error("processing without a stereo output");
         };
+        let looked_at = self.is_looked_at();
         let Some(playing) = &mut self.playing else {
             left.fill(0.0);
             right.fill(0.0);
@@ -177,9 +220,13 @@ impl Plugin for LowAction {
             playing.silence();
         }
         playing.follow(&self.params);
+        while let Some(event) = self.played.next() {
+            playing.touch(event);
+        }
         while let Some(event) = context.next_event() {
             playing.event(event, &self.params);
         }
+        self.display.look(looked_at, playing.engine());
         let mut stems: [&mut [f32]; STRING_OUTPUTS] = std::array::from_fn(|_| Default::default());
         let mut count = 0;
         for (stem, port) in stems.iter_mut().zip(aux.outputs.iter_mut()) {
@@ -193,7 +240,12 @@ impl Plugin for LowAction {
         self.meters.see_output(left, right);
         playing.end_voices(|event| context.try_send_event(event).is_ok());
         playing.stop_clock(started, left.len(), self.params.instrument.relax.value());
-        playing.status()
+        let health = Health { load: self.meters.load(), relaxed: self.meters.relaxed() };
+        let status = playing.status();
+        if self.display.write(playing.engine(), left.len(), health) {
+            self.show();
+        }
+        status
     }
 }
 

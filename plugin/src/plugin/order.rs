@@ -13,7 +13,7 @@ use crate::performance::InputMode;
 
 /// What an engine is built from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Order {
+pub(crate) struct Order {
     pub instrument: InstrumentChoice,
     /// A file of the user's that takes its place, and which edition of it.
     file: (u32, u32),
@@ -74,6 +74,19 @@ impl Order {
         make(Setup::shipped(name).ok_or_else(|| format!("there is no set-up {name}"))?)
     }
 
+    /// The set-up that is asked for, with all that is done to it, for pictures: nothing is built, and nobody is told
+    /// what is wrong with a file.
+    #[cfg(feature = "editor")]
+    pub fn planned(&self, shelf: &Shelf) -> Option<Setup> {
+        let file = match self.file {
+            (shelf::NONE, _) => None,
+            (number, _) => shelf.setup(number).ok(),
+        };
+        let mut setup = file.or_else(|| Setup::shipped(self.instrument.id()))?;
+        self.luthier.work_on(&mut setup);
+        Some(setup)
+    }
+
     /// The same, but as the set-up comes.
     pub fn untouched(&self) -> Self {
         let luthier = Luthier { quality: self.luthier.quality, ..Luthier::default() };
@@ -82,7 +95,7 @@ impl Order {
 }
 
 /// How the parameters have the hands act.
-pub(super) fn touching(params: &LowActionParams) -> Touching {
+pub(crate) fn touching(params: &LowActionParams) -> Touching {
     let LowActionParams { player, control, .. } = params;
     Touching {
         pluck_position: 1e-3 * exact(&player.pluck_position),

@@ -96,6 +96,16 @@ impl Playing {
         events::translate(event, params, &mut self.voices, |offset, event| engine.event(offset, event));
     }
 
+    /// Plays what was done with the editor's strings, at once.
+    pub fn touch(&mut self, event: PlayerEvent) {
+        self.engine.event(0, event);
+    }
+
+    /// What plays, for whoever looks at it.
+    pub fn engine(&mut self) -> &mut Engine {
+        &mut self.engine
+    }
+
     /// Plays a block, and the strings by themselves into as many of `stems` as there are.
     pub fn play(
         &mut self,

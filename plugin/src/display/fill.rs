@@ -1,0 +1,113 @@
+//! How a snapshot is filled from an engine.
+
+use low_action_dsp::model::ContactKind;
+use low_action_dsp::{FINGERS_PER_STRING, Instrument};
+
+use super::Health;
+use super::snapshot::{FingerSeen, FretSeen, POINTS, PluckSeen, Snapshot, StringSeen};
+use crate::engine::Engine;
+
+impl Snapshot {
+    /// Takes the picture; neither allocates nor alters anything of the engine.
+    pub(super) fn fill(&mut self, engine: &Engine, number: u64, health: Health) {
+        let instrument = engine.instrument();
+        (self.number, self.health) = (number, health);
+        self.count = instrument.string_count().min(self.strings.len());
+        for (index, string) in self.strings[..self.count].iter_mut().enumerate() {
+            string.fill(instrument, index);
+        }
+    }
+}
+
+impl StringSeen {
+    fn fill(&mut self, instrument: &Instrument, index: usize) {
+        let (model, observed) = (instrument.model(index), instrument.observed(index));
+        let (drive, scratch) = (instrument.drive(index), instrument.scratch(index));
+        self.length = model.grid.length as f32;
+        spread(instrument.state(index).displacement(), &mut self.displacement);
+        spread(&observed.lowest, &mut self.lowest);
+        spread(&observed.highest, &mut self.highest);
+        self.pluck = observed
+            .pluck
+            .map(|pluck| PluckSeen { position: pluck.position as f32, force: pluck.force as f32 });
+        self.tension = drive.tension as f32;
+        self.energy = scratch.string_energy(model) as f32;
+        self.iterations = observed.iterations as f32 / observed.steps.max(1) as f32;
+        self.see_barrier(instrument, index);
+        self.see_fingers(instrument, index);
+        self.contacts = scratch.forces().filter(|(_, force)| *force > 0.0).count() as u32;
+    }
+
+    /// Frets and board, where they are now, with their forces.
+    fn see_barrier(&mut self, instrument: &Instrument, index: usize) {
+        let (model, state) = (instrument.model(index), instrument.state(index));
+        let frets = &instrument.geometry(index).frets;
+        let hits = &instrument.observed(index).forces;
+        self.board.fill(f32::NAN);
+        self.board_force.fill(0.0);
+        self.fret_count = 0;
+        let heights = model.contacts.iter().zip(state.heights()).zip(hits);
+        for ((contact, &height), &hit) in heights {
+            match contact.kind {
+                ContactKind::Board { node } => {
+                    let part = node as f64 / model.grid.intervals as f64;
+                    let point = (part * (POINTS - 1) as f64).round() as usize;
+                    self.board[point] = height as f32;
+                    self.board_force[point] = self.board_force[point].max(hit as f32);
+                }
+                ContactKind::Fret { index: fret } => {
+                    let Some(seen) = self.frets.get_mut(self.fret_count) else { continue };
+                    self.fret_count += 1;
+                    *seen = FretSeen {
+                        position: frets.get(fret).map_or(0.0, |&place| place as f32),
+                        height: height as f32,
+                        penetration: (height - state.displacement_at(&contact.reading)) as f32,
+                        force: 0.0,
+                        hit: hit as f32,
+                    };
+                }
+            }
+        }
+        for (contact, force) in instrument.scratch(index).forces() {
+            // Contacts and frets are both in order of place.
+            if let Some(ContactKind::Fret { .. }) = model.contacts.get(contact).map(|contact| contact.kind) {
+                let before = model.contacts[..contact].iter();
+                let fret = before.filter(|other| matches!(other.kind, ContactKind::Fret { .. })).count();
+                if let Some(seen) = self.frets.get_mut(fret) {
+                    seen.force = force as f32;
+                }
+            }
+        }
+    }
+
+    fn see_fingers(&mut self, instrument: &Instrument, index: usize) {
+        let contacts = instrument.model(index).contacts.len();
+        let (hands, hits) = (&instrument.drive(index).hands, &instrument.observed(index).forces);
+        let fingers = instrument.state(index).fingers();
+        for slot in 0..FINGERS_PER_STRING {
+            self.fingers[slot] = fingers.get(slot).copied().flatten().map(|finger| FingerSeen {
+                position: finger.position as f32,
+                height: finger.height as f32,
+                force: hits.get(contacts + slot).map_or(0.0, |&force| force as f32),
+                pressed: hands.get(slot).map_or(0.0, |hand| hand.force as f32),
+            });
+        }
+    }
+}
+
+/// Values at the interior points of a grid, read evenly from end to end; 0 at the ends.
+fn spread(interior: &[f64], out: &mut [f32; POINTS]) {
+    let intervals = interior.len() + 1;
+    let at = |node: usize| match node.checked_sub(1) {
+        Some(index) => interior.get(index).copied().unwrap_or(0.0),
+        None => 0.0,
+    };
+    let step = intervals as f64 / (POINTS - 1) as f64;
+    for (point, out) in out.iter_mut().enumerate() {
+        let place = point as f64 * step;
+        let node = place as usize;
+        let part = place - node as f64;
+        let (left, right) = (at(node), at(node + 1));
+        *out = (left + part * (right - left)) as f32;
+    }
+}

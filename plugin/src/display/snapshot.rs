@@ -1,0 +1,151 @@
+//! A still picture of all strings, with what has happened to them since the last one.
+
+use low_action_dsp::FINGERS_PER_STRING;
+
+use super::Health;
+
+/// Points at which a snapshot has each string, evenly from nut to saddle, both included.
+pub const POINTS: usize = 129;
+
+/// The most strings of a set-up.
+const MOST_STRINGS: usize = 32;
+/// The most frets of a set-up.
+const MOST_FRETS: usize = 36;
+
+/// A still picture of all strings.
+#[derive(Debug, Clone)]
+pub struct Snapshot {
+    /// Which one it is, counted from 1; 0 before the first.
+    pub number: u64,
+    /// How the machine copes.
+    pub health: Health,
+    pub(super) strings: Vec<StringSeen>,
+    pub(super) count: usize,
+}
+
+/// One string.
+#[derive(Debug, Clone)]
+pub struct StringSeen {
+    /// From nut to saddle, m.
+    pub length: f32,
+    /// Displacement at the [`POINTS`], m, up is positive.
+    pub displacement: [f32; POINTS],
+    /// The lowest it has been since the last snapshot, m.
+    pub lowest: [f32; POINTS],
+    /// The highest it has been since the last snapshot, m.
+    pub highest: [f32; POINTS],
+    /// Height of the board under the points, m; not a number where there is none.
+    pub board: [f32; POINTS],
+    /// Largest force of the board near each point since the last snapshot, N.
+    pub board_force: [f32; POINTS],
+    /// Fingers near the string, by slot.
+    pub fingers: [Option<FingerSeen>; FINGERS_PER_STRING],
+    /// The last pluck begun since the last snapshot.
+    pub pluck: Option<PluckSeen>,
+    /// Present tension, N.
+    pub tension: f32,
+    /// Energy of its motion and stretching, J.
+    pub energy: f32,
+    /// Newton iterations of a step, on average since the last snapshot.
+    pub iterations: f32,
+    /// Contacts with force in the last step.
+    pub contacts: u32,
+    pub(super) frets: [FretSeen; MOST_FRETS],
+    pub(super) fret_count: usize,
+}
+
+/// A fret under a string.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FretSeen {
+    /// Place, m from the nut.
+    pub position: f32,
+    /// Height of its crown, m.
+    pub height: f32,
+    /// How deep the string is in it, m; negative is the room between them.
+    pub penetration: f32,
+    /// Force in the last step, N.
+    pub force: f32,
+    /// Largest force since the last snapshot, N.
+    pub hit: f32,
+}
+
+/// A finger near a string.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FingerSeen {
+    /// Place, m from the nut.
+    pub position: f32,
+    /// Height of its pad, m.
+    pub height: f32,
+    /// Force between pad and string, the largest since the last snapshot, N.
+    pub force: f32,
+    /// Force with which the hand presses it, N, down is positive.
+    pub pressed: f32,
+}
+
+/// A pluck.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PluckSeen {
+    /// Place, m from the nut.
+    pub position: f32,
+    /// Largest force, N, up is positive.
+    pub force: f32,
+}
+
+impl Default for Snapshot {
+    fn default() -> Self {
+        Self {
+            number: 0,
+            health: Health::default(),
+            strings: vec![StringSeen::default(); MOST_STRINGS],
+            count: 0,
+        }
+    }
+}
+
+impl Snapshot {
+    /// The strings, in the set-up's order.
+    pub fn strings(&self) -> &[StringSeen] {
+        &self.strings[..self.count]
+    }
+}
+
+impl Default for StringSeen {
+    fn default() -> Self {
+        Self {
+            length: 0.0,
+            displacement: [0.0; POINTS],
+            lowest: [0.0; POINTS],
+            highest: [0.0; POINTS],
+            board: [f32::NAN; POINTS],
+            board_force: [0.0; POINTS],
+            fingers: [None; FINGERS_PER_STRING],
+            pluck: None,
+            tension: 0.0,
+            energy: 0.0,
+            iterations: 0.0,
+            contacts: 0,
+            frets: [FretSeen::default(); MOST_FRETS],
+            fret_count: 0,
+        }
+    }
+}
+
+impl StringSeen {
+    /// The frets under it, fret 1 first.
+    pub fn frets(&self) -> &[FretSeen] {
+        &self.frets[..self.fret_count]
+    }
+
+    /// Place of a point, m from the nut.
+    pub fn place(&self, point: usize) -> f32 {
+        self.length * point as f32 / (POINTS - 1) as f32
+    }
+
+    /// Displacement at a place (m from the nut), m.
+    pub fn displacement_at(&self, place: f32) -> f32 {
+        let along = (place / self.length * (POINTS - 1) as f32).clamp(0.0, (POINTS - 1) as f32);
+        let point = (along as usize).min(POINTS - 2);
+        let part = along - point as f32;
+        self.displacement[point] + part * (self.displacement[point + 1] - self.displacement[point])
+    }
+}

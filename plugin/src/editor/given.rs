@@ -1,0 +1,63 @@
+//! What every view is given.
+
+use low_action_dsp::Setup;
+use low_action_dsp::setup::Player;
+use nice_plug::prelude::ParamSetter;
+
+use crate::display::Snapshot;
+use crate::params::LowActionParams;
+use crate::plugin::meters::Meters;
+use crate::plugin::order::{self, Order};
+use crate::pointer::Pointer;
+
+/// What every view is given.
+pub struct Given<'a> {
+    /// Everything that can be set.
+    pub params: &'a LowActionParams,
+    /// Sets it, so that the host knows: begin, set, end.
+    pub setter: ParamSetter<'a>,
+    /// Level, load and lights.
+    pub meters: &'a Meters,
+    /// The strings as they were last seen.
+    pub snapshot: &'a Snapshot,
+    /// Whether that picture is a new one.
+    pub fresh: bool,
+    /// Plays on the strings.
+    pub pointer: &'a Pointer,
+    /// The set-up that the parameters ask for.
+    pub plan: &'a Plan,
+}
+
+/// The set-up that the parameters ask for, whether it sounds already or not.
+#[derive(Debug, Default)]
+pub struct Plan {
+    made: Option<(Order, Setup, Player)>,
+}
+
+impl Plan {
+    /// Follows the parameters; reads the set-up anew only where they ask for another.
+    pub fn follow(&mut self, params: &LowActionParams) {
+        // Neither the rate nor how a host renders changes what is seen.
+        let order = Order::of(params, 0.0, false);
+        let hands = |setup: &Setup| order::touching(params).hands(&setup.player);
+        match &mut self.made {
+            Some((made, setup, player)) if *made == order => *player = hands(setup),
+            made => {
+                if let Some(setup) = order.planned(&params.shelf) {
+                    let player = hands(&setup);
+                    *made = Some((order, setup, player));
+                }
+            }
+        }
+    }
+
+    /// The set-up with all that a luthier has done to it; none before the first look at the parameters.
+    pub fn setup(&self) -> Option<&Setup> {
+        self.made.as_ref().map(|(_, setup, _)| setup)
+    }
+
+    /// The hands as they act now.
+    pub fn player(&self) -> Option<&Player> {
+        self.made.as_ref().map(|(_, _, player)| player)
+    }
+}

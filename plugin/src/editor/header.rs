@@ -1,0 +1,82 @@
+//! The top of the window: what is played, what is wrong, how loud it is.
+
+use egui::{Align2, Rect, Ui, pos2, vec2};
+
+use super::Given;
+use super::theme::{self, GAP, NEAR, TIGHT};
+
+/// What the header remembers.
+#[derive(Debug, Default)]
+pub struct Header {
+    /// Levels as they are shown: they fall slowly.
+    levels: [f32; 2],
+}
+
+/// Lowest level shown, dB under full scale.
+const FLOOR: f32 = -60.0;
+/// How fast the meter falls, dB a second.
+const FALL: f32 = 24.0;
+
+impl Header {
+    /// Draws it.
+    pub fn show(&mut self, ui: &mut Ui, given: &Given) {
+        let area = ui.max_rect();
+        let middle = area.center().y;
+        let painter = ui.painter();
+        let title = painter.text(
+            pos2(area.left(), middle),
+            Align2::LEFT_CENTER,
+            "Low Action",
+            theme::HEADING,
+            theme::TEXT,
+        );
+        let name = given.params.instrument.instrument.to_string();
+        painter.text(
+            pos2(title.right() + GAP, middle + 1.0),
+            Align2::LEFT_CENTER,
+            name,
+            theme::BODY_FONT,
+            theme::SOFT_TEXT,
+        );
+        let meter = Rect::from_min_size(pos2(area.right() - 160.0, middle - 6.0), vec2(160.0, 12.0));
+        self.show_meter(ui, given, meter);
+        show_lights(ui, given, meter.left() - GAP, middle);
+    }
+
+    /// Both channels, one over the other.
+    fn show_meter(&mut self, ui: &Ui, given: &Given, area: Rect) {
+        let seconds = ui.input(|input| input.stable_dt).min(0.1);
+        let painter = ui.painter();
+        for (row, (level, peak)) in self.levels.iter_mut().zip(given.meters.take_peaks()).enumerate() {
+            let now = 20.0 * peak.max(1e-6).log10();
+            *level = now.max(*level - FALL * seconds).max(FLOOR);
+            let height = (area.height() - 2.0) / 2.0;
+            let top = area.top() + row as f32 * (height + 2.0);
+            let bar = Rect::from_min_size(pos2(area.left(), top), vec2(area.width(), height));
+            painter.rect_filled(bar, 1.0, theme::RAISED);
+            let part = 1.0 - *level / FLOOR;
+            let colour = if *level > -0.1 { theme::ALARM } else { theme::CALM };
+            painter.rect_filled(bar.with_max_x(bar.left() + part * bar.width()), 1.0, colour);
+            if *level > FLOOR {
+                ui.ctx().request_repaint();
+            }
+        }
+    }
+}
+
+/// What a player should know of: too little time, a file that is missing.
+fn show_lights(ui: &Ui, given: &Given, right: f32, middle: f32) {
+    let mut right = right;
+    let mut say = |text: &str, colour| {
+        let place = pos2(right - TIGHT, middle);
+        let rect = ui.painter().text(place, Align2::RIGHT_CENTER, text, theme::BODY_FONT, colour);
+        ui.painter().circle_filled(pos2(rect.left() - NEAR, middle), 4.0, colour);
+        right = rect.left() - GAP;
+    };
+    if given.meters.relaxed() {
+        say("over budget: contacts solved less exactly", theme::ALARM);
+    }
+    if let Some(message) = given.params.shelf.message() {
+        say(&message, theme::ALARM);
+    }
+}

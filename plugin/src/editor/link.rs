@@ -1,0 +1,62 @@
+//! Between the plugin and its editor: what the framework wants to know of a window.
+
+use std::sync::Arc;
+
+use nice_plug::editor::dpi::LogicalSize;
+use nice_plug::editor::{ResizeHint, SizeConstraints};
+use nice_plug_egui::{EguiEditor, EguiEditorState, EguiNiceSettings, RepaintNotifier, create_egui_editor};
+
+use super::Editor;
+use crate::display::Reader;
+use crate::params::LowActionParams;
+use crate::plugin::meters::Meters;
+use crate::pointer::Pointer;
+
+/// The editor's window, as the framework has it.
+pub type Window = EguiEditor<Editor>;
+
+/// Usual size of the window, in points.
+pub const SIZE: [f32; 2] = [1120.0, 760.0];
+
+/// Least and largest size, as parts of the usual one.
+const SIZES: [f32; 2] = [0.5, 3.0];
+
+/// The plugin's end of its editor.
+pub struct Link {
+    state: Arc<EguiEditorState>,
+    repaint: RepaintNotifier,
+    /// Until the framework has asked for it.
+    editor: Option<Editor>,
+}
+
+impl Link {
+    /// Makes an editor, whose window is closed.
+    pub fn new(params: Arc<LowActionParams>, meters: Arc<Meters>, reader: Reader, pointer: Pointer) -> Self {
+        Self {
+            state: EguiEditorState::from_size(LogicalSize::new(SIZE[0], SIZE[1]), 1.0),
+            repaint: RepaintNotifier::new(),
+            editor: Some(Editor::new(params, meters, reader, pointer)),
+        }
+    }
+
+    /// Whether the window is open.
+    pub fn is_open(&self) -> bool {
+        self.state.is_open()
+    }
+
+    /// Has an open window drawn anew soon; neither waits nor allocates.
+    pub fn repaint(&self) {
+        self.repaint.request_repaint();
+    }
+
+    /// The window, the first time it is asked for.
+    pub fn window(&mut self) -> Option<Window> {
+        let size = |part: f32| Some(LogicalSize::new(part * SIZE[0], part * SIZE[1]));
+        let hint = ResizeHint {
+            size_constraints: SizeConstraints::logical(size(SIZES[0]), size(SIZES[1])),
+            ..ResizeHint::RESIZABLE
+        };
+        let settings = EguiNiceSettings::new().with_tile("Low Action").with_resize_hint(hint);
+        create_egui_editor(self.state.clone(), self.repaint.clone(), settings, self.editor.take()?)
+    }
+}

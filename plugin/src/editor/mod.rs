@@ -1,0 +1,143 @@
+//! The editor: the strings over the fretboard, played with the mouse, and everything that can be set.
+//!
+//! ```text
+//! header          instrument, messages, meter
+//! strings         all strings over the fretboard, seen from above
+//! side            one string, seen from the side
+//! panels          player | luthier | sound | engine
+//! ```
+//!
+//! Every view is a function of [`Given`]: the parameters, the latest snapshot of the strings, the set-up that the
+//! parameters ask for, and the way back to the audio thread. What a view remembers for itself is a struct of its own
+//! that [`Editor`] keeps.
+
+mod given;
+mod header;
+mod link;
+pub mod panels;
+mod side;
+mod strings;
+pub mod theme;
+
+use std::sync::Arc;
+
+use egui::{Rect, Ui, UiBuilder, pos2};
+use nice_plug::context::gui::GuiContext;
+use nice_plug_egui::NiceEguiApp;
+
+use crate::display::Reader;
+use crate::params::LowActionParams;
+use crate::plugin::meters::Meters;
+use crate::pointer::Pointer;
+pub use given::{Given, Plan};
+pub use link::{Link, SIZE, Window};
+use theme::{GAP, HEADER, PANELS, SIDE};
+
+/// The editor, as long as the plugin lives; its window may be opened and closed many times.
+pub struct Editor {
+    params: Arc<LowActionParams>,
+    meters: Arc<Meters>,
+    reader: Reader,
+    pointer: Pointer,
+    gui: Option<GuiContext>,
+    plan: Plan,
+    header: header::Header,
+    strings: strings::Strings,
+    side: side::Side,
+    panels: panels::Panels,
+}
+
+impl Editor {
+    /// An editor of these parameters, which sees and plays the strings.
+    pub fn new(params: Arc<LowActionParams>, meters: Arc<Meters>, reader: Reader, pointer: Pointer) -> Self {
+        Self {
+            params,
+            meters,
+            reader,
+            pointer,
+            gui: None,
+            plan: Plan::default(),
+            header: header::Header::default(),
+            strings: strings::Strings::default(),
+            side: side::Side::default(),
+            panels: panels::Panels::default(),
+        }
+    }
+
+    /// Colours, fonts and spacings of a new window.
+    pub fn dress(context: &egui::Context) {
+        theme::dress(context);
+    }
+
+    /// Draws everything and takes what the mouse does. `gui` is the way to the host.
+    pub fn show(&mut self, ui: &mut Ui, gui: &GuiContext) {
+        let fresh = self.reader.fetch();
+        self.plan.follow(&self.params);
+        let given = Given {
+            params: &self.params,
+            setter: gui.param_setter(),
+            meters: &self.meters,
+            snapshot: self.reader.latest(),
+            fresh,
+            pointer: &self.pointer,
+            plan: &self.plan,
+        };
+        let Areas { header, strings, side, panels } = Areas::of(ui.max_rect());
+        ui.painter().rect_filled(ui.max_rect(), 0.0, theme::GROUND);
+        place(ui, "header", header, |ui| self.header.show(ui, &given));
+        place(ui, "strings", strings, |ui| self.strings.show(ui, &given));
+        let watched = self.strings.watched();
+        place(ui, "side", side, |ui| self.side.show(ui, &given, watched));
+        place(ui, "panels", panels, |ui| self.panels.show(ui, &given));
+    }
+}
+
+impl NiceEguiApp for Editor {
+    fn build(
+        &mut self,
+        context: egui::Context,
+        gui: GuiContext,
+        _frame: &mut nice_plug_egui::Frame,
+    ) -> Result<(), nice_plug_egui::baseview::HandlerError> {
+        Self::dress(&context);
+        self.gui = Some(gui);
+        Ok(())
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut nice_plug_egui::Frame) {
+        if let Some(gui) = self.gui.clone() {
+            self.show(ui, &gui);
+        }
+    }
+}
+
+/// Where the parts of the window are.
+struct Areas {
+    header: Rect,
+    strings: Rect,
+    side: Rect,
+    panels: Rect,
+}
+
+impl Areas {
+    /// Header and panels have the height they need, the strings what is left.
+    fn of(window: Rect) -> Self {
+        let row = |top: f32, bottom: f32| {
+            Rect::from_min_max(pos2(window.left(), top), pos2(window.right(), bottom))
+                .shrink2(egui::vec2(GAP, 0.0))
+        };
+        let header = row(window.top(), window.top() + HEADER);
+        let panels = row(window.bottom() - PANELS, window.bottom() - GAP);
+        let side = row(panels.top() - GAP - SIDE, panels.top() - GAP);
+        let strings = row(header.bottom(), side.top() - GAP);
+        Self { header, strings, side, panels }
+    }
+}
+
+/// Gives a part of the window to a view.
+fn place(ui: &mut Ui, name: &'static str, area: Rect, view: impl FnOnce(&mut Ui)) {
+    ui.scope_builder(UiBuilder::new().id_salt(name).max_rect(area), |ui| {
+        ui.shrink_clip_rect(area);
+        view(ui);
+    });
+}

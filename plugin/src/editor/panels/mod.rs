@@ -1,0 +1,99 @@
+//! The panels under the strings, one at a time behind tabs.
+
+mod engine;
+mod luthier;
+mod player;
+mod sound;
+
+use egui::{Rect, Sense, Ui, UiBuilder, pos2, vec2};
+
+use super::Given;
+use super::theme::{self, NEAR};
+
+/// Which panel is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Tab {
+    /// How the hands act.
+    #[default]
+    Player,
+    /// What a luthier changes.
+    Luthier,
+    /// What becomes of the sound.
+    Sound,
+    /// How it is computed.
+    Engine,
+}
+
+impl Tab {
+    /// All, in order.
+    pub const ALL: [Self; 4] = [Self::Player, Self::Luthier, Self::Sound, Self::Engine];
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Player => "Player",
+            Self::Luthier => "Luthier",
+            Self::Sound => "Sound",
+            Self::Engine => "Engine",
+        }
+    }
+}
+
+/// What the panels remember.
+#[derive(Debug, Default)]
+pub struct Panels {
+    /// The one that is seen.
+    pub tab: Tab,
+}
+
+/// Height of the row of tabs, points.
+const TABS: f32 = 32.0;
+
+impl Panels {
+    /// Draws the tabs and the panel that is seen.
+    pub fn show(&mut self, ui: &mut Ui, given: &Given) {
+        let area = ui.max_rect();
+        ui.painter().rect_filled(area, theme::ROUND, theme::SURFACE);
+        let tabs = Rect::from_min_size(area.min, vec2(area.width(), TABS));
+        self.show_tabs(ui, tabs);
+        let inside =
+            Rect::from_min_max(pos2(area.left(), tabs.bottom()), area.max).shrink2(vec2(theme::GAP, NEAR));
+        ui.scope_builder(UiBuilder::new().id_salt(self.tab.name()).max_rect(inside), |ui| match self.tab {
+            Tab::Player => player::show(ui, given),
+            Tab::Luthier => luthier::show(ui, given),
+            Tab::Sound => sound::show(ui, given),
+            Tab::Engine => engine::show(ui, given),
+        });
+    }
+
+    fn show_tabs(&mut self, ui: &mut Ui, area: Rect) {
+        let mut left = area.left() + NEAR;
+        for tab in Tab::ALL {
+            let width = 80.0;
+            let place = Rect::from_min_size(pos2(left, area.top()), vec2(width, area.height()));
+            left += width;
+            let response = ui.interact(place, ui.scope_id().with(tab.name()), Sense::click());
+            let chosen = self.tab == tab;
+            response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Tab, true, chosen, tab.name()));
+            if response.clicked() {
+                self.tab = tab;
+            }
+            let colour = match () {
+                () if chosen => theme::ACCENT,
+                () if response.hovered() || response.has_focus() => theme::TEXT,
+                () => theme::SOFT_TEXT,
+            };
+            let painter = ui.painter();
+            painter.text(place.center(), egui::Align2::CENTER_CENTER, tab.name(), theme::BODY_FONT, colour);
+            if chosen || response.has_focus() {
+                let line = Rect::from_min_max(
+                    pos2(place.left() + NEAR, place.bottom() - 2.0),
+                    pos2(place.right() - NEAR, place.bottom()),
+                );
+                painter.rect_filled(line, 1.0, colour);
+            }
+        }
+        let below = egui::Stroke::new(1.0, theme::LINE);
+        ui.painter().hline(area.x_range(), area.bottom(), below);
+    }
+}

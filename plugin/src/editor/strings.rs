@@ -1,0 +1,78 @@
+//! All strings over the fretboard, seen from above: places along the strings to scale, their motion magnified.
+
+mod board;
+mod glow;
+mod motion;
+mod sight;
+mod touch;
+
+use egui::{Align2, Sense, Stroke, Ui, pos2};
+
+use super::Given;
+use super::theme::{self, NEAR, TIGHT};
+use glow::Glow;
+pub(super) use sight::Sight;
+
+/// What the view of the strings remembers.
+#[derive(Debug, Default)]
+pub struct Strings {
+    glow: Glow,
+    /// The string that the side view shows.
+    watched: usize,
+}
+
+impl Strings {
+    /// The string that the side view shows, counted from 0.
+    pub fn watched(&self) -> usize {
+        self.watched
+    }
+
+    /// Draws the strings.
+    pub fn show(&mut self, ui: &mut Ui, given: &Given) {
+        let area = ui.max_rect();
+        let Some(setup) = given.plan.setup() else { return };
+        let sight = Sight::new(area, setup);
+        self.glow.follow(ui, given);
+        let painter = ui.painter_at(area);
+        board::paint(&painter, &sight, setup);
+        self.glow.paint(&painter, &sight, given.snapshot);
+        motion::paint(&painter, &sight, setup, given.snapshot);
+        touch::paint(&painter, &sight, given.snapshot);
+        self.glow.paint_plucks(&painter, &sight);
+        paint_names(ui, &sight, setup);
+        paint_scale(ui, &sight);
+        let response = ui.interact(area, ui.scope_id().with("strings"), Sense::click_and_drag());
+        if let Some(at) = response.hover_pos() {
+            self.watched = sight.nearest(at.y);
+        }
+    }
+}
+
+/// The name of each string, left of the nut.
+fn paint_names(ui: &Ui, sight: &Sight, setup: &low_action_dsp::Setup) {
+    for (index, string) in setup.string.iter().enumerate() {
+        let place = pos2(sight.x(0.0) - 3.0 * TIGHT, sight.y(index));
+        ui.painter().text(place, Align2::RIGHT_CENTER, &string.name, theme::BODY_FONT, theme::SOFT_TEXT);
+    }
+}
+
+/// How far a millimetre of motion goes in the picture.
+fn paint_scale(ui: &Ui, sight: &Sight) {
+    let painter = ui.painter();
+    let (right, bottom) = (sight.area.right() - NEAR, sight.area.bottom() - NEAR);
+    let height = 1e-3 * sight.lift;
+    let x = right - TIGHT;
+    let stroke = Stroke::new(1.0, theme::SOFT_TEXT);
+    painter.vline(x, bottom - height..=bottom, stroke);
+    for y in [bottom - height, bottom] {
+        painter.hline(x - 3.0..=x + 3.0, y, stroke);
+    }
+    let text = format!("1 mm of motion, magnified {:.0} times", sight.magnification());
+    painter.text(
+        pos2(x - NEAR, bottom - 0.5 * height),
+        Align2::RIGHT_CENTER,
+        text,
+        theme::SMALL,
+        theme::SOFT_TEXT,
+    );
+}

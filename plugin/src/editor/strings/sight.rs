@@ -1,0 +1,73 @@
+//! Where things are in the picture of the strings.
+
+use egui::{Rect, pos2};
+use low_action_dsp::Setup;
+
+/// Room left of the nut for the names of the strings, and right of the saddle, points.
+const LEFT: f32 = 48.0;
+const RIGHT: f32 = 32.0;
+/// Room over the first string and under the last, as a part of their distance; under them are numbers, too.
+const OVER: f32 = 0.7;
+const UNDER: f32 = 1.2;
+/// Widest that strings lie apart, points.
+const WIDEST: f32 = 56.0;
+/// How much of the distance between two strings a millimetre of motion takes.
+const LIFT: f32 = 0.22;
+
+/// Where things are.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::editor) struct Sight {
+    /// All of the picture.
+    pub area: Rect,
+    /// Of the nut, points.
+    nut: f32,
+    /// Points a metre along the strings.
+    pub along: f32,
+    /// Points a metre of motion.
+    pub lift: f32,
+    first: f32,
+    /// Between two strings, points.
+    pub spacing: f32,
+    count: usize,
+}
+
+impl Sight {
+    /// A picture of a set-up's strings that fills `area`.
+    pub fn new(area: Rect, setup: &Setup) -> Self {
+        let count = setup.string.len().max(1);
+        let along = (area.width() - LEFT - RIGHT).max(1.0) / setup.neck.scale_length as f32;
+        let spacing = (area.height() / (count as f32 - 1.0 + OVER + UNDER)).min(WIDEST);
+        let height = spacing * (count as f32 - 1.0 + OVER + UNDER);
+        let top = area.center().y - 0.5 * height;
+        let first = (top + OVER * spacing).round();
+        Self { area, nut: area.left() + LEFT, along, lift: 1e3 * LIFT * spacing, first, spacing, count }
+    }
+
+    /// How much farther a string moves in the picture than things along it are drawn.
+    pub fn magnification(&self) -> f32 {
+        self.lift / self.along
+    }
+
+    /// A place (m from the nut) in the picture.
+    pub fn x(&self, place: f32) -> f32 {
+        self.nut + place * self.along
+    }
+
+    /// Where a string rests.
+    pub fn y(&self, string: usize) -> f32 {
+        self.first + string as f32 * self.spacing
+    }
+
+    /// The string nearest to a height.
+    pub fn nearest(&self, y: f32) -> usize {
+        let along = ((y - self.first) / self.spacing).round().max(0.0);
+        (along as usize).min(self.count - 1)
+    }
+
+    /// From over the first string to under the last: what a board is wide.
+    pub fn board(&self, from: f32, to: f32) -> Rect {
+        let margin = 0.5 * self.spacing;
+        let (top, bottom) = (self.first - margin, self.y(self.count - 1) + margin);
+        Rect::from_min_max(pos2(self.x(from), top), pos2(self.x(to), bottom))
+    }
+}

@@ -1,0 +1,154 @@
+//! Promise: looking at the strings costs next to nothing and alters nothing. The sound is the same bits whether or not
+//! anybody looks, a snapshot allocates nothing, and what it shows is what the strings do.
+
+use low_action::display::{Health, POINTS, Reader, Writer, display};
+use low_action::engine::{Engine, EngineOptions};
+use low_action::performance::PlayerEvent;
+use low_action_dsp::Setup;
+use nice_assert_no_alloc::assert_no_alloc;
+
+const RATE: f64 = 48_000.0;
+const BLOCK: usize = 256;
+
+fn engine(setup: &str) -> Engine {
+    let setup = Setup::shipped(setup).expect("it comes with the program");
+    Engine::new(&EngineOptions { variation: 0.0, ..EngineOptions::new(setup, RATE) })
+        .expect("it can be built")
+}
+
+fn on(key: u8, velocity: f32) -> PlayerEvent {
+    PlayerEvent::NoteOn { channel: 0, key, velocity }
+}
+
+/// Plays blocks, with somebody who looks or not; gives the bits of the sound.
+fn play(
+    engine: &mut Engine,
+    blocks: usize,
+    writer: &mut Writer,
+    looked_at: impl Fn(usize) -> bool,
+) -> Vec<u32> {
+    let (mut left, mut right) = ([0.0; BLOCK], [0.0; BLOCK]);
+    let mut bits = Vec::with_capacity(2 * BLOCK * blocks);
+    for block in 0..blocks {
+        for (at, key) in [(0, 40), (20, 47), (40, 52), (60, 59), (61, 40)] {
+            if block == at {
+                engine.event(17, on(key, 1.0));
+            }
+        }
+        assert_no_alloc(|| {
+            writer.look(looked_at(block), engine);
+            engine.process(&mut left, &mut right);
+            writer.write(engine, BLOCK, Health::default());
+        });
+        bits.extend(left.iter().chain(&right).map(|sample| sample.to_bits()));
+    }
+    bits
+}
+
+/// The latest picture after so many blocks of a hard low E.
+fn seen(blocks: usize) -> (Engine, Reader) {
+    let (mut writer, mut reader) = display();
+    let mut engine = engine("electric");
+    play(&mut engine, blocks, &mut writer, |_| true);
+    assert!(reader.fetch(), "there is no picture");
+    (engine, reader)
+}
+
+#[test]
+fn the_sound_is_the_same_bits() {
+    let (mut unseen, _reader) = display();
+    let bits = play(&mut engine("electric"), 120, &mut unseen, |_| false);
+    assert!(bits.iter().any(|bits| f32::from_bits(*bits).abs() > 1e-2), "nothing sounds");
+    let (mut writer, mut reader) = display();
+    assert!(play(&mut engine("electric"), 120, &mut writer, |_| true) == bits, "looked at");
+    assert!(reader.fetch());
+    let (mut writer, _reader) = display();
+    let now_and_then = |block: usize| (block / 7).is_multiple_of(2);
+    assert!(play(&mut engine("electric"), 120, &mut writer, now_and_then) == bits, "now and then");
+}
+
+#[test]
+fn nothing_is_written_while_nobody_looks() {
+    let (mut writer, mut reader) = display();
+    play(&mut engine("electric"), 60, &mut writer, |_| false);
+    assert!(!reader.fetch());
+    assert_eq!(reader.latest().number, 0);
+    assert!(reader.latest().strings().is_empty());
+}
+
+#[test]
+fn sixty_a_second_and_only_the_latest() {
+    let (mut writer, mut reader) = display();
+    let mut engine = engine("electric");
+    let seconds = 2.0;
+    play(&mut engine, (seconds * RATE) as usize / BLOCK, &mut writer, |_| true);
+    assert!(reader.fetch());
+    // Blocks of 256 are three to a sixtieth of a second and a bit: every fourth block has one.
+    let most = 60.0 * seconds;
+    assert!(
+        (0.7 * most..=most + 1.0).contains(&(reader.latest().number as f64)),
+        "{}",
+        reader.latest().number
+    );
+    assert!(!reader.fetch(), "seen twice");
+    play(&mut engine, 8, &mut writer, |_| true);
+    assert!(reader.fetch());
+}
+
+#[test]
+fn strings_are_where_they_are() {
+    // The picture after the fifth block is the second.
+    let (engine, reader) = seen(5);
+    assert_eq!(reader.latest().number, 2);
+    let (instrument, low_e) = (engine.instrument(), 5);
+    let string = &reader.latest().strings()[low_e];
+    let (model, state) = (instrument.model(low_e), instrument.state(low_e));
+    assert_eq!(reader.latest().strings().len(), 6);
+    let largest = string.displacement.iter().fold(0.0_f32, |most, u| most.max(u.abs()));
+    assert!(largest > 1e-4, "it does not move: {largest} m");
+    for point in 0..POINTS {
+        let shown = string.displacement[point];
+        let reading = model.grid.reading(f64::from(string.place(point)));
+        let there = state.displacement_at(&reading) as f32;
+        assert!((shown - there).abs() < 0.02 * largest, "point {point}: {shown} m instead of {there} m");
+        assert!((string.lowest[point]..=string.highest[point]).contains(&shown), "point {point}");
+    }
+    assert_eq!((string.displacement[0], string.displacement[POINTS - 1]), (0.0, 0.0));
+    assert_eq!(string.frets().len(), 22);
+    let resting = &reader.latest().strings()[0];
+    assert!(resting.displacement.iter().all(|u| *u == 0.0) && resting.contacts == 0);
+}
+
+#[test]
+fn fingers_plucks_and_forces_are_seen() {
+    let (mut writer, mut reader) = display();
+    let mut engine = engine("electric");
+    let (mut left, mut right) = ([0.0; BLOCK], [0.0; BLOCK]);
+    // F on the low string: first fret.
+    engine.event(0, on(41, 1.0));
+    let (mut plucked, mut hit, mut iterated) = (None, 0.0_f32, 0.0_f32);
+    for _ in 0..40 {
+        writer.look(true, &mut engine);
+        engine.process(&mut left, &mut right);
+        writer.write(&mut engine, BLOCK, Health { load: 0.25, relaxed: false });
+        if reader.fetch() {
+            let string = &reader.latest().strings()[5];
+            plucked = plucked.or(string.pluck);
+            hit = string.frets().iter().fold(hit, |most, fret| most.max(fret.hit));
+            iterated = iterated.max(string.iterations);
+        }
+    }
+    let string = &reader.latest().strings()[5];
+    let pluck = plucked.expect("a pluck");
+    let from_saddle = string.length - pluck.position;
+    assert!((0.1..0.14).contains(&from_saddle) && pluck.force > 0.7, "{pluck:?}");
+    assert!(hit > 0.5, "no fret was hit: {hit} N");
+    assert!(iterated > 0.5, "{iterated} iterations a step");
+    let finger = string.fingers.iter().flatten().next().expect("a finger");
+    assert!((f64::from(finger.pressed) - 6.0).abs() < 0.01 && finger.force > 1.0, "{finger:?}");
+    assert!(finger.position < string.frets()[0].position);
+    let fret = string.frets()[0];
+    assert!(fret.force > 0.1 && (0.0..1e-5).contains(&fret.penetration), "{fret:?}");
+    assert!(string.tension > 50.0 && string.energy > 1e-8 && string.contacts >= 2);
+    assert_eq!(reader.latest().health.load, 0.25);
+}
