@@ -235,7 +235,12 @@ impl Engine {
 
     /// Whether nothing sounds, moves or is waiting: until the next event all samples are 0.
     pub fn is_silent(&self) -> bool {
-        self.waiting.is_empty() && self.instrument.is_silent()
+        self.waiting.is_empty() && !self.is_behind() && self.instrument.is_silent()
+    }
+
+    /// Whether notes are yet to come, of chords that have more than there are strings.
+    pub fn is_behind(&self) -> bool {
+        self.performance.is_behind()
     }
 
     /// Index of the next sample since construction or reset.

@@ -11,7 +11,7 @@ mod timing;
 
 use midly::{EventIter, MetaMessage, MidiMessage, TrackEventKind};
 
-use crate::performance::{Expression, PlayerEvent};
+use crate::performance::{Expression, PlayerEvent, announces_mpe};
 use chunks::Chunks;
 pub use messages::{MidiFileError, SongWarning};
 pub use timing::SongTime;
@@ -30,6 +30,9 @@ pub struct Selection {
     pub track: Option<usize>,
     /// Only this channel, counted from 1 to 16. Naming the drum channel plays it.
     pub channel: Option<u8>,
+    /// Whether the drum channel is one like any other: a string's, or in MPE a note's. In a song that announces
+    /// MPE it always is.
+    pub tenth: bool,
 }
 
 /// An event at its exact time.
@@ -63,7 +66,7 @@ impl Song {
         {
             return Err(MidiFileError::NoSuchTrack { asked, count: chunks.tracks.len() });
         }
-        let mut reader = Reader { selection, division: chunks.division, song: Song::empty(), drums: 0 };
+        let mut reader = Reader { selection, division: chunks.division, song: Song::empty() };
         let mut start = SongTime::zero(chunks.division);
         if chunks.sequential {
             for (index, data) in chunks.tracks.iter().enumerate() {
@@ -117,7 +120,6 @@ struct Reader {
     selection: Selection,
     division: Division,
     song: Song,
-    drums: usize,
 }
 
 impl Reader {
@@ -153,7 +155,9 @@ impl Reader {
                 }
                 TrackEventKind::Meta(MetaMessage::Tempo(tempo)) => Some(TickKind::Tempo(tempo.as_int())),
                 TrackEventKind::Midi { channel, message } if self.selects(index) => {
-                    self.message(channel.as_int(), message).map(TickKind::Player)
+                    let chosen = |only| only == channel.as_int() + 1;
+                    let event = player_event(channel.as_int(), message);
+                    event.filter(|_| self.selection.channel.is_none_or(chosen)).map(TickKind::Player)
                 }
                 _ => None,
             };
@@ -163,20 +167,6 @@ impl Reader {
             self.song.warnings.push(SongWarning::NoEndOfTrack { track: index + 1 });
         }
         Ok(track)
-    }
-
-    /// Translates a channel message, or leaves it out.
-    fn message(&mut self, channel: u8, message: MidiMessage) -> Option<PlayerEvent> {
-        match self.selection.channel {
-            Some(chosen) if chosen != channel + 1 => return None,
-            None if channel == DRUM_CHANNEL => {
-                let is_note = matches!(message, MidiMessage::NoteOn { vel, .. } if vel.as_int() > 0);
-                self.drums += usize::from(is_note);
-                return None;
-            }
-            _ => {}
-        }
-        player_event(channel, message)
     }
 
     /// Puts tracks that play together on the song's clock, from `start`; returns where they end.
@@ -198,14 +188,21 @@ impl Reader {
     }
 
     fn finish(mut self) -> Song {
-        if self.drums > 0 {
-            self.song.warnings.push(SongWarning::DrumsSkipped { notes: self.drums });
+        let Self { selection, song: Song { events, warnings }, .. } = &mut self;
+        let plays_tenth = selection.channel.is_some() || selection.tenth;
+        if !plays_tenth && !announces_mpe(events.iter().map(|event| event.event)) {
+            let notes = count_notes(events);
+            events.retain(|event| event.event.channel() != Some(DRUM_CHANNEL));
+            let notes = notes - count_notes(events);
+            warnings.extend((notes > 0).then_some(SongWarning::DrumsSkipped { notes }));
         }
-        if !self.song.events.iter().any(|event| matches!(event.event, PlayerEvent::NoteOn { .. })) {
-            self.song.warnings.push(SongWarning::NoNotes);
-        }
+        warnings.extend((count_notes(events) == 0).then_some(SongWarning::NoNotes));
         self.song
     }
+}
+
+fn count_notes(events: &[SongEvent]) -> usize {
+    events.iter().filter(|event| matches!(event.event, PlayerEvent::NoteOn { .. })).count()
 }
 
 /// A channel message in the player's words, if the player cares for it.

@@ -245,8 +245,77 @@ fn what_plays_differently_from_the_page_is_said_once() {
     let chord: Vec<[u8; 3]> = (14..114).map(|key| [0x90, key, 60]).collect();
     let chord: Vec<(u8, &[u8])> = chord.iter().map(|event| (0, &event[..])).collect();
     fs::write(room.path("hundred.mid"), midi(&chord)).unwrap();
-    let said = room.renders(&["hundred.mid", "--tail", "0.2"]);
-    assert!(said.contains("94 notes were left out"), "{said}");
+    let said = room.renders(&["hundred.mid", "--quality", "draft", "--tail", "0.2"]);
+    assert!(said.contains("94 notes were played a moment late") && !said.contains("left out"), "{said}");
+    // The last of them are heard, too.
+    let seconds = f64::from(WavReader::open(room.path("hundred.wav")).unwrap().duration()) / 48_000.0;
+    assert!((94.0 * 0.07 + 0.2..7.0).contains(&seconds), "{seconds} s");
+}
+
+/// The samples of a string's own sound, the first string first.
+fn stem(room: &Room, number: usize) -> Vec<i32> {
+    let name = ["1-E4", "2-B3", "3-G3", "4-D3", "5-A2", "6-E2"][number - 1];
+    let mut reader = WavReader::open(room.path(&format!("stems/{name}.wav"))).unwrap();
+    reader.samples().map(Result::unwrap).collect()
+}
+
+#[test]
+fn each_channel_of_a_guitar_is_a_string_and_cuts_no_other() {
+    let room = Room::new();
+    fs::write(room.path("canon.mid"), include_bytes!("../../docs/pieces/midi_guitar.mid")).unwrap();
+    let fast = ["--quality", "draft", "--sample-rate", "8000", "--variation", "0", "--tail", "none"];
+    let render = |options: &[&str]| {
+        let arguments = ["canon.mid", "-o", "out.wav", "--stems", "stems", "--input", "strings"];
+        room.renders(&[&arguments[..], &fast, options].concat())
+    };
+    let said = render(&[]);
+    assert!(!said.contains("warning"), "{said}");
+    let together: Vec<Vec<i32>> = (1..=6).map(|number| stem(&room, number)).collect();
+    assert!(together.iter().all(|sound| sound.iter().any(|&sample| sample != 0)));
+    for (channel, number) in [("1", 1), ("4", 4)] {
+        render(&["--channel", channel]);
+        let alone = stem(&room, number);
+        assert!(alone.len() > 100_000 && together[number - 1][..alone.len()] == alone, "string {number}");
+        let others = (1..=6).filter(|&other| other != number);
+        assert!(others.into_iter().all(|other| stem(&room, other).iter().all(|&sample| sample == 0)));
+    }
+}
+
+#[test]
+fn channels_and_wheels_mean_what_is_said() {
+    let room = Room::new();
+    let write = |name: &str, events: &[(u8, &[u8])]| fs::write(room.path(name), midi(events)).unwrap();
+    let render = |song: &str, options: &[&str]| {
+        let said = room.renders(
+            &[&[song, "-o", "out.wav", "--stems", "stems", "--variation", "0", "--tail", "0.2"], options]
+                .concat(),
+        );
+        (said, (1..=6).map(|number| stem(&room, number)).collect::<Vec<_>>())
+    };
+    let heard = |stems: &[Vec<i32>]| -> Vec<usize> {
+        (1..=6).filter(|&number| stems[number - 1].iter().any(|&sample| sample != 0)).collect()
+    };
+    // E4 on channel 10, which is the second of strings from 9 on; and one that has none.
+    write("e4.mid", &[(0, &[0x99, 64, 90]), (0, &[0x90, 64, 90]), (48, &[0x89, 64, 0])]);
+    assert_eq!(heard(&render("e4.mid", &[]).1), [1], "percussion");
+    let guitar = ["--input", "strings", "--first-channel", "9"];
+    let (said, stems) = render("e4.mid", &guitar);
+    assert_eq!(heard(&stems), [2]);
+    assert!(said.contains("1 note was left out") && said.contains("their channel has none"), "{said}");
+    assert_eq!(heard(&render("e4.mid", &[&guitar[..], &["--string-order", "last_first"]].concat()).1), [5]);
+    // Half a turn of two semitones is a whole turn of one; what the song says counts, or is passed over.
+    let bent: [(u8, &[u8]); 3] = [(0, &[0x90, 64, 90]), (0, &[0xE0, 0, 0]), (48, &[0x80, 64, 0])];
+    let half: [(u8, &[u8]); 3] = [(0, &[0x90, 64, 90]), (0, &[0xE0, 0, 32]), (48, &[0x80, 64, 0])];
+    let announced: [(u8, &[u8]); 3] = [(0, &[0xB0, 101, 0]), (0, &[0xB0, 100, 0]), (0, &[0xB0, 6, 3])];
+    write("bent.mid", &bent);
+    write("half.mid", &half);
+    write("announced.mid", &[&announced[..], &bent].concat());
+    let semitone = render("half.mid", &[]).1;
+    assert!(semitone == render("bent.mid", &["--bend-range", "1"]).1);
+    assert!(semitone != render("bent.mid", &[]).1);
+    let range = ["--bend-range", "1"];
+    assert!(semitone != render("announced.mid", &range).1);
+    assert!(semitone == render("announced.mid", &[&range[..], &["--ignore-rpn"]].concat()).1);
 }
 
 #[test]
@@ -281,6 +350,10 @@ fn wrong_usage_is_code_2() {
         (&["render", "song.mid", "--max-length", "0"], "above 0"),
         (&["render", "song.mid", "--variation", "2"], "0 to 1"),
         (&["render", "song.mid", "--instrument", "banjo"], "electric, classical, steel, bass"),
+        (&["render", "song.mid", "--input", "guitar"], "auto, keyboard, strings, mpe"),
+        (&["render", "song.mid", "--first-channel", "0"], "1..=16"),
+        (&["render", "song.mid", "--string-order", "up"], "first_first, last_first"),
+        (&["render", "song.mid", "--bend-range", "97"], "0 to 96 semitones"),
         (&["render", "song.mid", "more.mid"], "more.mid"),
         (&["render", "song.mid", "--seed", "-1"], "--seed"),
         (&["render", "--bogus"], "--bogus"),

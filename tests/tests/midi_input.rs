@@ -7,7 +7,7 @@ use low_action_tests::midi::{END, file, tempo, track};
 use proptest::prelude::*;
 
 const RATE: u32 = 48_000;
-const ALL: Selection = Selection { track: None, channel: None };
+const ALL: Selection = Selection { track: None, channel: None, tenth: false };
 
 fn read(bytes: &[u8]) -> Song {
     Song::from_midi(bytes, ALL).expect("the file is good")
@@ -124,6 +124,14 @@ fn drums_are_left_out_with_one_warning() {
     let drums = Song::from_midi(&bytes, Selection { channel: Some(10), ..ALL }).expect("good");
     assert_eq!(note_ons(&drums).len(), 2, "asking for the channel plays it");
     assert!(drums.warnings.is_empty());
+
+    // Where channels are strings or notes of MPE it is one like the others.
+    let strings = Song::from_midi(&bytes, Selection { tenth: true, ..ALL }).expect("good");
+    assert_eq!((note_ons(&strings).len(), strings.warnings.len()), (3, 0));
+    let announced =
+        [(0, &[0xB0, 101, 0][..]), (0, &[0xB0, 100, 6]), (0, &[0xB0, 6, 15]), (5, &[0x99, 38, 100])];
+    let mpe = read(&file(0, 96, &[track(&announced)]));
+    assert_eq!((note_ons(&mpe).len(), mpe.warnings.len()), (1, 0));
 }
 
 #[test]
@@ -135,17 +143,19 @@ fn tracks_and_channels_can_be_chosen() {
     ];
     let bytes = file(1, 96, &tracks);
     let chosen = |track, channel| {
-        Song::from_midi(&bytes, Selection { track, channel }).map(|song| note_ons(&song)).expect("good")
+        Song::from_midi(&bytes, Selection { track, channel, ..ALL })
+            .map(|song| note_ons(&song))
+            .expect("good")
     };
     assert_eq!(chosen(Some(2), None), [(48_000, 50), (48_000, 51)], "the tempo of track 1 still counts");
     assert_eq!(chosen(None, Some(3)), [(48_000, 51)]);
     assert_eq!(chosen(Some(1), Some(2)), []);
     for asked in [0, 3] {
-        let error = Song::from_midi(&bytes, Selection { track: Some(asked), channel: None });
+        let error = Song::from_midi(&bytes, Selection { track: Some(asked), ..ALL });
         assert_eq!(error, Err(MidiFileError::NoSuchTrack { asked, count: 2 }));
     }
     // Of sequences, only the chosen one takes time.
-    let second = Song::from_midi(&file(2, 96, &tracks), Selection { track: Some(2), channel: None });
+    let second = Song::from_midi(&file(2, 96, &tracks), Selection { track: Some(2), ..ALL });
     assert_eq!(note_ons(&second.expect("good"))[0], (24_000, 50), "and no other's tempo counts");
 }
 
@@ -209,9 +219,7 @@ fn the_longest_times_neither_overflow_nor_hang() {
 
 /// Reads the bytes in every way; whatever comes out must make sense.
 fn survives(bytes: &[u8]) {
-    for selection in
-        [ALL, Selection { track: Some(1), channel: None }, Selection { track: None, channel: Some(1) }]
-    {
+    for selection in [ALL, Selection { track: Some(1), ..ALL }, Selection { channel: Some(1), ..ALL }] {
         match Song::from_midi(bytes, selection) {
             Ok(song) => {
                 assert!(song.duration() >= 0.0);

@@ -224,14 +224,15 @@ fn the_wheel_bends_by_tension_and_no_farther_than_the_string_allows() {
 }
 
 #[test]
-fn a_hundred_notes_at_once_take_six_strings_and_leave_none_hanging() {
+fn a_hundred_notes_at_once_are_all_heard_and_none_hangs() {
     let mut performance = player(EXACT);
     let mut events: Vec<(u64, PlayerEvent)> = (14..114).map(|key| (0, on(key))).collect();
-    events.extend((14..114).map(|key| (WHILE, off(key))));
+    // Keys are held until the last of them has come, 94 times 70 ms later.
+    events.extend((14..114).map(|key| (40 * WHILE, off(key))));
     let gestures = play_by(&mut performance, &events);
-    assert_eq!(plucks(&gestures).len(), 6);
+    assert_eq!(plucks(&gestures).len(), 100);
     assert_eq!(dampings(&gestures).len(), 6);
-    assert_eq!(performance.compromises().left_out, 94);
+    assert_eq!((performance.compromises().arpeggiated, performance.compromises().left_out), (94, 0));
     assert!(!any_left(&gestures));
 }
 

@@ -195,14 +195,7 @@ fn strings_with_their_own_channels_never_cut_one_another() {
         performance.set_input(InputMode::Strings { first: 0, from_last: false });
         let mut gestures = Vec::new();
         for event in &song.events {
-            let channel = match event.event {
-                PlayerEvent::NoteOn { channel, .. }
-                | PlayerEvent::NoteOff { channel, .. }
-                | PlayerEvent::PitchBend { channel, .. }
-                | PlayerEvent::Controller { channel, .. } => channel,
-                other => panic!("{other:?}"),
-            };
-            if only.is_none_or(|only| only == channel) {
+            if only.is_none() || event.event.channel() == only {
                 performance.event(event.time.sample(RATE), event.event, &mut gestures);
             }
         }

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::render::{self, BitDepth, Tail};
-use crate::engine::Quality;
+use crate::engine::{EngineOptions, Quality};
+use crate::params::{InputChoice, StringOrder};
 
 /// Arguments of `low-action render`.
 #[derive(Debug, Clone, Args)]
@@ -19,9 +20,11 @@ Examples:
   low-action render - -o take.wav < song.mid   from standard input
   low-action render song.mid --instrument my-guitar.toml --quality studio --bit-depth 32f
   low-action render song.mid --track 2 --tail 5 --stems strings/
+  low-action render take.mid --input strings --bend-range 12    from a MIDI guitar
 
 Notes go to the string and fret nearest to the hand; those no string can give move by octaves.
-Channel 10 is percussion and left out unless asked for with --channel 10.
+Channel 10 is percussion and left out unless asked for with --channel 10. Where channels are strings, or notes
+of MPE, it is one like the others.
 
 Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept)."
 )]
@@ -54,6 +57,24 @@ pub struct RenderArgs {
     /// Play only this channel, 1 to 16.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
     pub channel: Option<u8>,
+    /// What channels mean: auto (MPE if the song announces it, or else keyboard), keyboard (string and fret are
+    /// chosen for each note), strings (each channel is a string, as guitar controllers send), mpe (each note has a
+    /// channel, channel 1 acts on all).
+    #[arg(long, value_name = "MODE", default_value = "auto", value_parser = render::parse_choice::<InputChoice>())]
+    pub input: InputChoice,
+    /// The first channel that is a string, 1 to 16, with --input strings; the next string has the next channel.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=16))]
+    pub first_channel: u8,
+    /// Whether that is the set-up's first string, the highest on guitars, or its last.
+    #[arg(long, value_name = "ORDER", default_value = "first_first", value_parser = render::parse_choice::<StringOrder>())]
+    pub string_order: StringOrder,
+    /// How far a full turn of the pitch wheel bends, 0 to 96 semitones, unless the song says so itself; in MPE it
+    /// is 48.
+    #[arg(long, value_name = "SEMITONES", default_value_t = EngineOptions::BEND_RANGE, value_parser = render::parse_bend)]
+    pub bend_range: f64,
+    /// Pass over what the song says of the bend range (registered parameter 0).
+    #[arg(long)]
+    pub ignore_rpn: bool,
     /// Longest music accepted, minutes.
     #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes)]
     pub max_length: f64,
@@ -61,7 +82,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "DIR")]
     pub stems: Option<PathBuf>,
     /// Size of the small differences between one pluck and the next, 0 (none) to 1.
-    #[arg(long, value_name = "AMOUNT", default_value_t = crate::engine::EngineOptions::VARIATION, value_parser = render::parse_variation)]
+    #[arg(long, value_name = "AMOUNT", default_value_t = EngineOptions::VARIATION, value_parser = render::parse_variation)]
     pub variation: f64,
     /// Which sequence of those differences.
     #[arg(long, value_name = "N", default_value_t = 0)]

@@ -13,13 +13,15 @@ use anyhow::{Context, Result, anyhow, bail};
 
 pub use super::wav::BitDepth;
 use super::{Failure, Outcome, RenderArgs, instrument, say};
+use crate::controls::Touching;
 use crate::demo;
 use crate::engine::{Engine, EngineOptions};
 use crate::midi_file::{LARGEST_FILE, Selection, Song};
+use crate::params::InputChoice;
 use crate::performance::Compromises;
 use files::Files;
 pub use options::Tail;
-pub(super) use options::{parse_minutes, parse_rate, parse_variation};
+pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
 use playing::{Playing, Rendered};
 
 /// Renders a song.
@@ -34,9 +36,13 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         quality: arguments.quality,
         variation: arguments.variation,
         seed: arguments.seed,
+        bend_range: arguments.bend_range,
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
-    let engine = Engine::new(&options).with_context(|| arguments.instrument.clone())?;
+    let mut engine = Engine::new(&options).with_context(|| arguments.instrument.clone())?;
+    engine.set_input(arguments.input.mode(arguments.first_channel, arguments.string_order));
+    let touching = Touching::new(arguments.variation, arguments.bend_range);
+    engine.touch(&Touching { ignore_rpn: arguments.ignore_rpn, ..touching });
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
     let output = output_path(arguments)?;
     let files = Files::begin(arguments, &output, &names)?;
@@ -48,7 +54,11 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
 
 /// Reads the song from wherever it is.
 fn read_song(arguments: &RenderArgs) -> Result<Song> {
-    let selection = Selection { track: arguments.track.map(usize::from), channel: arguments.channel };
+    let selection = Selection {
+        track: arguments.track.map(usize::from),
+        channel: arguments.channel,
+        tenth: matches!(arguments.input, InputChoice::Strings | InputChoice::Mpe),
+    };
     let Some(path) = &arguments.song else {
         return Song::from_midi(demo::MIDI, selection).context("the built-in demo");
     };
@@ -125,7 +135,7 @@ fn refuse_overwriting(song: Option<&Path>, output: &Path) -> Result<()> {
 /// Tells what came of it.
 fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f64) -> Outcome {
     let Rendered { mix, stems, compromises, lost_events, seconds } = rendered;
-    let Compromises { moved_by_octaves, arpeggiated, left_out } = compromises;
+    let Compromises { moved_by_octaves, arpeggiated, left_out, without_string } = compromises;
     let warn_of = |count: u64, what: &str| {
         if count > 0 {
             say("warning", &format!("{count} {} {what}", if count == 1 { "note was" } else { "notes were" }));
@@ -134,6 +144,7 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     warn_of(*moved_by_octaves, "moved by octaves: no string gives them as written");
     warn_of(*arpeggiated, "played a moment late: more began at once than there were strings for");
     warn_of(*left_out, "left out: more began at once than anybody could play");
+    warn_of(*without_string, "left out: no string gives them in any octave, or their channel has none");
     if *lost_events > 0 {
         say("warning", &format!("{lost_events} events were lost: too many at once"));
     }

@@ -81,7 +81,7 @@ impl fmt::Display for SongWarning {
             Self::DrumsSkipped { notes } => {
                 write!(
                     out,
-                    "channel 10 is percussion: {notes} of its notes left out (--channel 10 plays them)"
+                    "channel 10 is percussion: {notes} of its notes left out (--channel 10 plays them alone)"
                 )
             }
             Self::NoEndOfTrack { track } => {

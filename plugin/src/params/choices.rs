@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use nice_plug::prelude::Enum;
 
 use crate::engine::Quality;
+use crate::performance::InputMode;
 use crate::setups::SHIPPED;
 
 /// Words that live as long as the program.
@@ -155,6 +156,21 @@ pub enum InputChoice {
     #[id = "mpe"]
     #[name = "MPE"]
     Mpe,
+}
+
+impl InputChoice {
+    /// What channels mean then; where each is a string, the first of them is `first_channel`, 1 to 16.
+    pub fn mode(self, first_channel: u8, order: StringOrder) -> InputMode {
+        match self {
+            Self::Auto => InputMode::Auto,
+            Self::Keyboard => InputMode::Keyboard,
+            Self::Strings => InputMode::Strings {
+                first: first_channel.saturating_sub(1),
+                from_last: order == StringOrder::LastFirst,
+            },
+            Self::Mpe => InputMode::Mpe,
+        }
+    }
 }
 
 /// Which string has the first channel, where each channel is a string.

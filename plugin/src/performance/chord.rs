@@ -1,9 +1,9 @@
 //! Notes that begin together, and notes that take over from one another.
 //!
-//! **Chords** are placed as a whole (`hand`). Of a chord that does not fit on the strings, up to twelve notes, a
-//! note that found none is moved to the nearest octave that a free string gives, the string nearest to the
-//! hand. If no string is left it comes a moment later, one after another, and takes the string of a note that
-//! has been heard. Of more than twelve at one instant the rest is left out, and counted.
+//! **Chords** are placed as a whole (`hand`). Of a chord that does not fit on the strings, a note that found none
+//! is moved to the nearest octave that a free string gives, the string nearest to the hand. If no string is left
+//! it comes a moment later, one after another, and takes the string of a note that has been heard. As many wait
+//! as there are keys; what comes on top of that is left out, and counted.
 //!
 //! **Strums**: the right hand goes over the strings at one speed, towards the high ones or back, and reaches
 //! the first at once.
@@ -74,7 +74,8 @@ impl Performance {
                 let (manner, articulation) = (own.manner, own.articulation);
                 self.chord.push(Struck { wanted, velocity, manner, articulation });
             }
-            _ => self.compromises.left_out += 1,
+            Some(_) => self.compromises.left_out += 1,
+            None => self.compromises.without_string += 1,
         }
     }
 
@@ -155,34 +156,38 @@ impl Performance {
 
     /// Finds other ways for notes of the chord that have no string: another octave, or another time.
     fn find_other_ways(&mut self) {
+        for placement in self.placements.iter().flatten() {
+            self.uses[placement.string] = Use::Untouchable;
+        }
         let mut late = 0;
         for index in 0..self.chord.len() {
             if self.placements[index].is_some() {
                 continue;
             }
-            if self.chord.len() > LARGEST_ARPEGGIO || self.late.len() == LARGEST_CHORD {
-                self.compromises.left_out += 1;
-            } else if let Some(placement) = self.revoiced(index) {
+            if let Some(placement) = self.revoiced(index) {
+                self.uses[placement.string] = Use::Untouchable;
                 self.placements[index] = Some(placement);
                 self.compromises.moved_by_octaves += 1;
-            } else {
+            } else if self.late.len() < LARGEST_CHORD {
                 late += 1;
                 let time = self.now + (f64::from(late) * ARPEGGIO * self.sample_rate).round() as u64;
                 self.late.push(Late { time, struck: self.chord[index], released: false });
                 self.compromises.arpeggiated += 1;
+            } else {
+                self.compromises.left_out += 1;
             }
         }
     }
 
     /// The nearest octave of a note that a free string gives, on the one nearest to the hand.
     fn revoiced(&mut self, index: usize) -> Option<Placement> {
+        if self.uses.iter().all(|&string| string != Use::Free) {
+            return None;
+        }
         let wanted = self.chord[index].wanted;
         octaves(wanted.pitch).find_map(|pitch| {
             let moved = Wanted { pitch, ..wanted };
-            let free = |string: &usize| {
-                self.uses[*string] == Use::Free
-                    && self.placements.iter().flatten().all(|placement| placement.string != *string)
-            };
+            let free = |string: &usize| self.uses[*string] == Use::Free;
             let placed = |string: usize| Some(Placement { string, fret: self.hand.fret(&moved, string)? });
             let found = (0..self.strings.len())
                 .filter(free)

@@ -3,7 +3,7 @@
 use super::channel::{Channel, Request, pressure_factor};
 use super::chord::Struck;
 use super::technique::BRIGHTNESS_REACH;
-use super::{Expression, GestureSink, Performance};
+use super::{Expression, GestureSink, Performance, PlayerEvent, seven_bits};
 
 /// What the channels of notes mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -29,6 +29,18 @@ pub enum InputMode {
 const MPE_RANGES: (f64, f64) = (48.0, 2.0);
 /// The channel that acts on all in MPE.
 const MANAGER: u8 = 0;
+
+/// Whether MPE is announced by any of these events, which are in order of time.
+pub(crate) fn announces_mpe(mut events: impl Iterator<Item = PlayerEvent>) -> bool {
+    let mut manager = Channel::new(0.0);
+    events.any(|event| match event {
+        PlayerEvent::Controller { channel: MANAGER, number, value } => {
+            manager.set_controller(number, seven_bits(value));
+            manager.members.is_some_and(|members| members > 0)
+        }
+        _ => false,
+    })
+}
 
 impl Performance {
     /// Whether channel 0 acts on the notes of all.

@@ -60,6 +60,21 @@ pub enum PlayerEvent {
     AllNotesOff,
 }
 
+impl PlayerEvent {
+    /// The channel it belongs to, 0 to 15, unless it is for all.
+    pub fn channel(&self) -> Option<u8> {
+        match *self {
+            Self::NoteOn { channel, .. }
+            | Self::NoteOff { channel, .. }
+            | Self::Controller { channel, .. }
+            | Self::PitchBend { channel, .. }
+            | Self::ChannelPressure { channel, .. }
+            | Self::Note { channel, .. } => Some(channel),
+            Self::AllNotesOff => None,
+        }
+    }
+}
+
 /// What a note can have for itself. What concerns its pluck counts if it comes at the note's own sample,
 /// before or after it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,7 +11,7 @@
 //! younger note counts half a fret farther. A note is never taken away at the very instant it
 //! begins: of more simultaneous notes than can have a string each, the outer ones stay (the highest,
 //! the lowest, the second highest, and so on, each unless it would need a string of those before)
-//! and the rest are left out.
+//! and the rest find none.
 //!
 //! Everything is a function of the hand's place and the strings' use, so the same notes always
 //! fall on the same strings.
@@ -26,7 +26,7 @@ use search::Search;
 
 /// Frets under the hand without reaching: one for each finger.
 const SPAN: usize = 4;
-/// Most notes considered at one instant; of more, the last to arrive are left out.
+/// Most notes considered at one instant, one for each key; of more, the last to arrive are left out.
 pub(crate) const LARGEST_CHORD: usize = 128;
 
 /// What a string is doing when notes begin.

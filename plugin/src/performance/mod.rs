@@ -12,6 +12,7 @@ mod articulation;
 mod bend;
 mod channel;
 mod chord;
+mod compromises;
 mod control;
 mod event;
 mod fingers;
@@ -29,7 +30,9 @@ use low_action_dsp::setup::Player;
 use crate::controls::Touching;
 use channel::Channel;
 use chord::{Late, Struck};
+pub use compromises::Compromises;
 pub use control::InputMode;
+pub(crate) use control::announces_mpe;
 pub use event::{Expression, PlayerEvent};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
 pub use moment::GestureSink;
@@ -41,17 +44,6 @@ use variation::Variation;
 
 /// MIDI channels.
 const CHANNELS: usize = 16;
-
-/// What the player could not do as written.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Compromises {
-    /// Notes moved by octaves because no string, or none that was left, gives them.
-    pub moved_by_octaves: u64,
-    /// Notes that came a moment late because strings did not suffice for all of their instant.
-    pub arpeggiated: u64,
-    /// Notes left out because more began at one instant than anybody could play.
-    pub left_out: u64,
-}
 
 /// How a performance is played.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -237,6 +229,11 @@ impl Performance {
     /// Whether a string sounds a key of a channel, held or kept by a pedal.
     pub fn sounds(&self, channel: u8, key: u8) -> bool {
         self.strings.iter().any(|string| string.sounds(channel, key))
+    }
+
+    /// Whether notes are yet to come that wait for strings.
+    pub fn is_behind(&self) -> bool {
+        !self.late.is_empty()
     }
 
     /// What could not be played as written so far.

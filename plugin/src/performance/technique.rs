@@ -172,8 +172,6 @@ pub(crate) const BAR_SHARE: f64 = 0.5;
 
 /// How long the rest of a chord waits that has more notes than strings, s from note to note.
 pub(crate) const ARPEGGIO: f64 = 0.07;
-/// Most notes at one instant that are spread in time if strings do not suffice: more than ten fingers play.
-pub(crate) const LARGEST_ARPEGGIO: usize = 12;
 /// Where a hand mutes an open string, as a part of its length from the nut: away from the nodes of low
 /// partials.
 pub(crate) const MUTED_OPEN: f64 = 0.29;

@@ -6,9 +6,7 @@ use nice_plug::prelude::*;
 use super::shelf::{self, Shelf};
 use crate::controls::{Luthier, Touching};
 use crate::engine::EngineOptions;
-use crate::params::{
-    ControlParams, InputChoice, InstrumentChoice, LegatoChoice, LowActionParams, StringOrder, exact,
-};
+use crate::params::{ControlParams, InstrumentChoice, LegatoChoice, LowActionParams, exact};
 use crate::performance::InputMode;
 
 /// What an engine is built from.
@@ -120,15 +118,8 @@ pub(crate) fn touching(params: &LowActionParams) -> Touching {
 /// What the parameters have channels mean.
 pub(super) fn input(params: &LowActionParams) -> InputMode {
     let ControlParams { input_mode, first_channel, string_order, .. } = &params.control;
-    match input_mode.value() {
-        InputChoice::Auto => InputMode::Auto,
-        InputChoice::Keyboard => InputMode::Keyboard,
-        InputChoice::Strings => InputMode::Strings {
-            first: u8::try_from(first_channel.value() - 1).unwrap_or(0),
-            from_last: string_order.value() == StringOrder::LastFirst,
-        },
-        InputChoice::Mpe => InputMode::Mpe,
-    }
+    let first_channel = u8::try_from(first_channel.value()).unwrap_or(1);
+    input_mode.value().mode(first_channel, string_order.value())
 }
 
 /// Pages of eight knobs, the most played ones first.

@@ -3,6 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use nice_plug::prelude::Enum;
+
 /// Longest tail that `auto` waits for, s; open strings of a guitar are down 60 dB after 10 to 20 s.
 const LONGEST_TAIL: f64 = 30.0;
 
@@ -63,6 +66,22 @@ pub(in crate::cli) fn parse_minutes(text: &str) -> Result<f64, String> {
         Ok(minutes) if minutes > 0.0 && minutes <= 1e6 => Ok(minutes),
         _ => Err("must be above 0 and at most 1000000 minutes".into()),
     }
+}
+
+/// Reads `--bend-range`.
+pub(in crate::cli) fn parse_bend(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(semitones) if (0.0..=96.0).contains(&semitones) => Ok(semitones),
+        _ => Err("must be 0 to 96 semitones".into()),
+    }
+}
+
+/// Reads a choice by the identifier that it has as a parameter of the plugin.
+pub(in crate::cli) fn parse_choice<T: Enum + Clone + Send + Sync + 'static>()
+-> impl TypedValueParser<Value = T> {
+    let ids = T::ids().unwrap_or_default();
+    let place = move |id: String| ids.iter().position(|known| *known == id).unwrap_or(0);
+    PossibleValuesParser::new(ids).map(move |id| T::from_index(place(id)))
 }
 
 /// Reads `--variation`.

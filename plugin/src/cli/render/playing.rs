@@ -54,17 +54,24 @@ impl Playing<'_> {
             peak = peak.max(self.engine.level());
             bar.set_position(self.engine.now() / u64::from(rate));
         }
-        let end = self.engine.now();
-        let last = end + (self.arguments.tail.longest() * f64::from(rate)).round() as u64;
-        let earliest = end + (SHORTEST_TAIL * f64::from(rate)).round() as u64;
-        while self.engine.now() < last {
-            let now = self.engine.now();
+        let samples = |seconds: f64| (seconds * f64::from(rate)).round() as u64;
+        let tail = self.arguments.tail;
+        let mut end = self.engine.now();
+        loop {
             peak = peak.max(self.engine.level());
+            if self.engine.is_behind() {
+                // Notes of the last chord that wait for strings belong to the song, not to its tail.
+                self.block(&mut buffers, BLOCK)?;
+                end = self.engine.now();
+                continue;
+            }
+            let since = self.engine.now() - end;
             let quiet = self.engine.level() <= (QUIET * peak).max(INAUDIBLE);
-            if self.arguments.tail == Tail::Auto && now >= earliest && quiet {
+            let left = samples(tail.longest()) - since;
+            if left == 0 || (tail == Tail::Auto && since >= samples(SHORTEST_TAIL) && quiet) {
                 break;
             }
-            self.block(&mut buffers, (last - now).min(BLOCK as u64) as usize)?;
+            self.block(&mut buffers, left.min(BLOCK as u64) as usize)?;
         }
         // What happened last is still to be heard.
         self.block(&mut buffers, Engine::LATENCY as usize)?;

@@ -1,0 +1,14 @@
+//! Notes that are not played as they are written.
+
+/// What the player could not do as written.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Compromises {
+    /// Notes moved by octaves because no string, or none that was left, gives them.
+    pub moved_by_octaves: u64,
+    /// Notes that came a moment late because strings did not suffice for all of their instant.
+    pub arpeggiated: u64,
+    /// Notes left out because more than 128 began at one instant, or waited for strings.
+    pub left_out: u64,
+    /// Notes left out because no string gives them in any octave, or their channel has no string.
+    pub without_string: u64,
+}
