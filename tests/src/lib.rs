@@ -2,6 +2,7 @@
 
 pub mod command;
 pub mod dense;
+pub mod desk;
 pub mod hands;
 pub mod host;
 pub mod midi;

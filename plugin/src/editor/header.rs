@@ -6,7 +6,7 @@ use super::Given;
 use super::theme::{self, GAP, NEAR, TIGHT};
 
 /// What the header remembers.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Header {
     /// Levels as they are shown: they fall slowly.
     levels: [f32; 2],
@@ -16,6 +16,12 @@ pub struct Header {
 const FLOOR: f32 = -60.0;
 /// How fast the meter falls, dB a second.
 const FALL: f32 = 24.0;
+
+impl Default for Header {
+    fn default() -> Self {
+        Self { levels: [FLOOR; 2] }
+    }
+}
 
 impl Header {
     /// Draws it.

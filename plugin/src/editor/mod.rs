@@ -12,6 +12,7 @@
 //! that [`Editor`] keeps.
 
 mod given;
+mod handle;
 mod header;
 mod link;
 pub mod panels;
@@ -31,6 +32,7 @@ use crate::plugin::meters::Meters;
 use crate::pointer::Pointer;
 pub use given::{Given, Plan};
 pub use link::{Link, SIZE, Window};
+pub use strings::Sight;
 use theme::{GAP, HEADER, PANELS, SIDE};
 
 /// The editor, as long as the plugin lives; its window may be opened and closed many times.
@@ -82,13 +84,19 @@ impl Editor {
             pointer: &self.pointer,
             plan: &self.plan,
         };
-        let Areas { header, strings, side, panels } = Areas::of(ui.max_rect());
-        ui.painter().rect_filled(ui.max_rect(), 0.0, theme::GROUND);
+        let window = ui.ctx().content_rect();
+        let Areas { header, strings, side, panels } = Areas::of(window);
+        ui.set_clip_rect(window);
+        ui.painter().rect_filled(window, 0.0, theme::GROUND);
         place(ui, "header", header, |ui| self.header.show(ui, &given));
         place(ui, "strings", strings, |ui| self.strings.show(ui, &given));
         let watched = self.strings.watched();
-        place(ui, "side", side, |ui| self.side.show(ui, &given, watched));
-        place(ui, "panels", panels, |ui| self.panels.show(ui, &given));
+        if let Some(side) = side {
+            place(ui, "side", side, |ui| self.side.show(ui, &given, watched));
+        }
+        if let Some(panels) = panels {
+            place(ui, "panels", panels, |ui| self.panels.show(ui, &given));
+        }
     }
 }
 
@@ -115,22 +123,33 @@ impl NiceEguiApp for Editor {
 struct Areas {
     header: Rect,
     strings: Rect,
-    side: Rect,
-    panels: Rect,
+    side: Option<Rect>,
+    panels: Option<Rect>,
 }
 
+/// Height that a window must have for the panels to be seen, and for the side view, points.
+const FOR_PANELS: f32 = 600.0;
+const FOR_SIDE: f32 = 400.0;
+
 impl Areas {
-    /// Header and panels have the height they need, the strings what is left.
+    /// Header, panels and side view have the height they need, if there is room for them, and the strings what is left.
     fn of(window: Rect) -> Self {
         let row = |top: f32, bottom: f32| {
-            Rect::from_min_max(pos2(window.left(), top), pos2(window.right(), bottom))
-                .shrink2(egui::vec2(GAP, 0.0))
+            let rect = Rect::from_min_max(pos2(window.left(), top), pos2(window.right(), bottom));
+            rect.shrink2(egui::vec2(GAP, 0.0))
         };
         let header = row(window.top(), window.top() + HEADER);
-        let panels = row(window.bottom() - PANELS, window.bottom() - GAP);
-        let side = row(panels.top() - GAP - SIDE, panels.top() - GAP);
-        let strings = row(header.bottom(), side.top() - GAP);
-        Self { header, strings, side, panels }
+        let mut bottom = window.bottom() - GAP;
+        let mut take = |height: f32, least: f32| {
+            (window.height() >= least).then(|| {
+                let taken = row(bottom - height, bottom);
+                bottom = taken.top() - GAP;
+                taken
+            })
+        };
+        let panels = take(PANELS, FOR_PANELS);
+        let side = take(SIDE, FOR_SIDE);
+        Self { header, strings: row(header.bottom(), bottom), side, panels }
     }
 }
 

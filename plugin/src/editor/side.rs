@@ -4,6 +4,7 @@ use egui::{Align2, Mesh, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 use low_action_dsp::Setup;
 
 use super::Given;
+use super::handle::Handle;
 use super::theme::{self, GAP, NEAR, TIGHT};
 use crate::display::{POINTS, StringSeen};
 
@@ -52,6 +53,10 @@ impl Side {
             paint_string(&painter, &sight, seen);
         } else {
             painter.line_segment([sight.at(0.0, 0.0), sight.at(scale, 0.0)], Stroke::new(1.5, theme::PLAIN));
+        }
+        show_handles(ui, given, &sight, setup);
+        if let Some(seen) = seen {
+            show_contact(ui, &sight, seen);
         }
         let name = setup.string.get(string).map_or("", |string| &string.name);
         painter.text(
@@ -127,4 +132,74 @@ fn paint_string(painter: &Painter, sight: &Sight, seen: &StringSeen) {
         let tip = Rect::from_min_max(pos2(pad.x - 7.0, pad.y - 22.0), pos2(pad.x + 7.0, pad.y));
         painter.rect_filled(tip, 7.0, theme::faint(theme::FINGER, 0.85));
     }
+}
+
+/// What can be moved up and down: the board under fret 12, and its dip in the middle.
+fn show_handles(ui: &mut Ui, given: &Given, sight: &Sight, setup: &Setup) {
+    let neck = &setup.neck;
+    let action = &given.params.setup.action;
+    // A point down is so many metres; the action is a factor of the set-up's own.
+    let metres = 1.0 / sight.lift;
+    let own = neck.action as f32 / action.value().max(1e-3);
+    let handle = Handle {
+        param: action,
+        name: "Action",
+        hint: "Height of the strings over fret 12. Lower plays easily and buzzes, higher rings clean and loud.",
+        growth: vec2(0.0, metres / own.max(1e-5)),
+    };
+    let text = format!("action {:.2} mm", 1e3 * neck.action);
+    show_handle(ui, given, sight, setup, &handle, neck.equal_place(12.0), text);
+    let handle = Handle {
+        param: &given.params.setup.relief,
+        name: "Relief",
+        hint: "How far the neck bows away from the strings: room for the middle of their swing.",
+        growth: vec2(0.0, 1e3 * metres),
+    };
+    let text = format!("relief {:.2} mm", 1e3 * neck.relief);
+    show_handle(ui, given, sight, setup, &handle, neck.equal_place(5.5), text);
+}
+
+fn show_handle(
+    ui: &mut Ui,
+    given: &Given,
+    sight: &Sight,
+    setup: &Setup,
+    handle: &Handle,
+    place: f64,
+    text: String,
+) {
+    let board = (setup.neck.crown_height(place) - setup.neck.fret_height) as f32;
+    let at = sight.at(place as f32, board) + vec2(0.0, 14.0);
+    let at = pos2(at.x, at.y.min(sight.area.bottom() - 12.0));
+    let area = Rect::from_center_size(at, vec2(24.0, 20.0));
+    let response = handle.show(ui, given, area).on_hover_and_drag_cursor(egui::CursorIcon::ResizeVertical);
+    let taken = response.dragged() || response.hovered() || response.has_focus();
+    let colour = if taken { theme::ACCENT } else { theme::SOFT_TEXT };
+    let painter = ui.painter();
+    for side in [-1.0, 1.0] {
+        let tip = at + vec2(0.0, side * 7.0);
+        let base = at + vec2(0.0, side * 2.0);
+        let corners = vec![tip, base + vec2(5.0, 0.0), base - vec2(5.0, 0.0)];
+        painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+    }
+    painter.text(at + vec2(12.0, 0.0), Align2::LEFT_CENTER, text, theme::SMALL, colour);
+}
+
+/// How near the mouse must be to a fret to read it, points.
+const NEAR_FRET: f32 = 10.0;
+
+/// Depth and force of the contact under the mouse.
+fn show_contact(ui: &mut Ui, sight: &Sight, seen: &StringSeen) {
+    let response = ui.interact(sight.area, ui.scope_id().with("contacts"), egui::Sense::hover());
+    let Some(at) = response.hover_pos() else { return };
+    let away = |fret: &crate::display::FretSeen| (sight.at(fret.position, 0.0).x - at.x).abs();
+    let nearest = seen.frets().iter().enumerate().min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)));
+    let Some((index, fret)) = nearest.filter(|(_, fret)| away(fret) < NEAR_FRET) else { return };
+    let depth = if fret.penetration > 0.0 {
+        format!("pressed in by {:.2} µm", 1e6 * fret.penetration)
+    } else {
+        format!("{:.2} mm free", -1e3 * fret.penetration)
+    };
+    let text = format!("Fret {}: {depth}\n{:.2} N now, {:.2} N at most", index + 1, fret.force, fret.hit);
+    response.on_hover_text_at_pointer(text);
 }

@@ -2,7 +2,9 @@
 
 mod board;
 mod glow;
+mod handles;
 mod motion;
+mod play;
 mod sight;
 mod touch;
 
@@ -11,12 +13,14 @@ use egui::{Align2, Sense, Stroke, Ui, pos2};
 use super::Given;
 use super::theme::{self, NEAR, TIGHT};
 use glow::Glow;
-pub(super) use sight::Sight;
+use play::Play;
+pub use sight::Sight;
 
 /// What the view of the strings remembers.
 #[derive(Debug, Default)]
 pub struct Strings {
     glow: Glow,
+    play: Play,
     /// The string that the side view shows.
     watched: usize,
 }
@@ -42,14 +46,20 @@ impl Strings {
         paint_names(ui, &sight, setup);
         paint_scale(ui, &sight);
         let response = ui.interact(area, ui.scope_id().with("strings"), Sense::click_and_drag());
-        if let Some(at) = response.hover_pos() {
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Strings"));
+        if let Some(at) = response.hover_pos().filter(|_| !self.play.is_busy()) {
             self.watched = sight.nearest(at.y);
         }
+        self.play.follow(ui, &response, &sight, setup, given);
+        handles::show(ui, given, &sight, setup);
     }
 }
 
 /// The name of each string, left of the nut.
 fn paint_names(ui: &Ui, sight: &Sight, setup: &low_action_dsp::Setup) {
+    if sight.spacing < theme::SMALL.size {
+        return;
+    }
     for (index, string) in setup.string.iter().enumerate() {
         let place = pos2(sight.x(0.0) - 3.0 * TIGHT, sight.y(index));
         ui.painter().text(place, Align2::RIGHT_CENTER, &string.name, theme::BODY_FONT, theme::SOFT_TEXT);

@@ -14,7 +14,7 @@ pub const HEADER: f32 = 48.0;
 /// Height of the side view, points.
 pub const SIDE: f32 = 148.0;
 /// Height of the panels, points.
-pub const PANELS: f32 = 224.0;
+pub const PANELS: f32 = 208.0;
 /// Radius of corners, points.
 pub const ROUND: f32 = 6.0;
 

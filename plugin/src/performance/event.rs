@@ -56,6 +56,13 @@ pub enum PlayerEvent {
         /// What.
         expression: Expression,
     },
+    /// Somebody who sees a string does something to it, without a key: no channel's pedals or wheel count.
+    Touched {
+        /// Which string, 0 for the first of the set-up; others are ignored.
+        string: u8,
+        /// What is done.
+        deed: StringDeed,
+    },
     /// Everything stops, on every channel, whatever the pedals say.
     AllNotesOff,
 }
@@ -70,9 +77,30 @@ impl PlayerEvent {
             | Self::PitchBend { channel, .. }
             | Self::ChannelPressure { channel, .. }
             | Self::Note { channel, .. } => Some(channel),
-            Self::AllNotesOff => None,
+            Self::Touched { .. } | Self::AllNotesOff => None,
         }
     }
+}
+
+/// What can be done to a string in sight. Places are m from the nut; what is not on the string counts as near its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StringDeed {
+    /// It is plucked.
+    Pluck {
+        /// Where.
+        position: f32,
+        /// How hard, N, up is positive; up to 50 either way.
+        force: f32,
+    },
+    /// A finger comes down on it, or slides there if it is down.
+    Press {
+        /// Where.
+        position: f32,
+    },
+    /// The finger leaves.
+    Lift,
+    /// It is silenced.
+    Damp,
 }
 
 /// What a note can have for itself. What concerns its pluck counts if it comes at the note's own sample,

@@ -5,6 +5,7 @@
 
 mod leaving;
 mod legato;
+mod sighted;
 mod touches;
 
 use low_action_dsp::setup::{Fretting, Player};
@@ -26,6 +27,8 @@ struct Finger {
     eased: bool,
     /// Whether it is a bar.
     bar: bool,
+    /// Where it presses, m from the nut, if not where its fret has it.
+    free: Option<f64>,
 }
 
 /// The fingers near one string.
@@ -194,7 +197,9 @@ impl Fingers {
         self.lay_capo(at);
         self.home = fret;
         let bar = stop == Stop::Bar;
-        let stays = |finger: &Finger| finger.fret == fret && finger.bar == bar && stop != Stop::Mute;
+        let stays = |finger: &Finger| {
+            finger.fret == fret && finger.bar == bar && finger.free.is_none() && stop != Stop::Mute
+        };
         if self.fretting.is_some_and(|finger| stays(&finger)) {
             return self.press_again(at);
         }
@@ -232,7 +237,7 @@ impl Fingers {
     fn take_slot(&mut self, fret: usize, touch: Touch, bar: bool) -> FingerSlot {
         let slot = self.next_slot;
         self.next_slot = (slot + 1) % FRETTING_SLOTS;
-        self.fretting = Some(Finger { slot, fret, touch, eased: false, bar });
+        self.fretting = Some(Finger { slot, fret, touch, eased: false, bar, free: None });
         slot
     }
 
@@ -260,7 +265,12 @@ impl Fingers {
     /// Length that sounds: from the fretting finger, or the capo, or the nut, to the saddle, m.
     fn sounding_length(&self) -> f64 {
         let capo = self.geometry.finger_position(self.capo[1]);
-        self.geometry.length - self.fretting.map_or(capo, |finger| self.place(finger.fret, finger.bar))
+        self.geometry.length - self.fretting.map_or(capo, |finger| self.pressed(&finger))
+    }
+
+    /// Where a finger presses, m from the nut.
+    fn pressed(&self, finger: &Finger) -> f64 {
+        finger.free.unwrap_or_else(|| self.place(finger.fret, finger.bar))
     }
 
     /// Where a finger stops a fret, or a bar lies over it, m from the nut.

@@ -33,7 +33,7 @@ use chord::{Late, Struck};
 pub use compromises::Compromises;
 pub use control::InputMode;
 pub(crate) use control::announces_mpe;
-pub use event::{Expression, PlayerEvent};
+pub use event::{Expression, PlayerEvent, StringDeed};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
 pub use moment::GestureSink;
 pub(crate) use moment::Moment;
@@ -148,6 +148,12 @@ impl Performance {
                 self.control(channel, |channel| channel.set_pressure(pressure), out);
             }
             PlayerEvent::Note { channel, key, expression } => self.express(channel, key, expression, out),
+            PlayerEvent::Touched { string, deed } => {
+                self.begin_chord(out);
+                if let Some(string) = self.strings.get_mut(usize::from(string)) {
+                    string.undergo(time, deed, out);
+                }
+            }
             PlayerEvent::AllNotesOff => {
                 self.begin_chord(out);
                 self.late.clear();

@@ -11,6 +11,7 @@ mod ending;
 mod keys;
 mod legato;
 mod note;
+mod sighted;
 
 use low_action_dsp::setup::Player;
 
@@ -42,6 +43,8 @@ pub(crate) struct StringPlayer {
     deeds: Deeds,
     /// Strokes a second of a tremolo, 0 for none.
     tremolo: f64,
+    /// Whether it sounds without a note, by somebody who sees it.
+    touched: bool,
 }
 
 /// Most keys that are remembered under the one that sounds.
@@ -61,6 +64,7 @@ impl StringPlayer {
             under: [None; UNDER],
             deeds: Deeds::default(),
             tremolo: 0.0,
+            touched: false,
         }
     }
 
@@ -74,6 +78,7 @@ impl StringPlayer {
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
         self.tremolo = 0.0;
+        self.touched = false;
     }
 
     /// What the string is doing, for the choice of strings.
@@ -145,6 +150,7 @@ impl StringPlayer {
         self.bend.begin(start.channel);
         self.plucked_at = Some(time);
         self.ending = None;
+        self.touched = false;
     }
 
     /// Bends the string as its new note has it.
@@ -203,6 +209,7 @@ impl StringPlayer {
         (self.bend, self.note, self.ending) = (old.bend, old.note, old.ending);
         self.plucked_at = old.plucked_at;
         (self.under, self.deeds, self.tremolo) = (old.under, old.deeds, old.tremolo);
+        self.touched = old.touched;
     }
 
     /// The hands act differently on the note that sounds, and on those to come.

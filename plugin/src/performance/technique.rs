@@ -104,6 +104,13 @@ pub(crate) const HAMMER_REACH: usize = 5;
 /// Farthest a slide goes, frets; what lies beyond is plucked anew.
 pub(crate) const SLIDE_REACH: usize = 12;
 
+/// How hard a finger comes down where somebody points, 0 to 1, and how fast it slides after them, s: from one picture
+/// of a screen to the next.
+pub(crate) const POINTED: f64 = 0.6;
+pub(crate) const POINTING: f64 = 0.016;
+/// Hardest pluck of somebody who points, N.
+pub(crate) const HARDEST_POINTED: f64 = 50.0;
+
 /// How long a light finger stays at a node, s, and how it leaves.
 pub(crate) const AT_NODE: f64 = 0.12;
 /// How light: the damping of its pad as a multiple of a match with the string.

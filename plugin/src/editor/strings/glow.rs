@@ -78,7 +78,7 @@ impl Glow {
 
     /// Paints the flashes.
     pub fn paint(&self, painter: &Painter, sight: &Sight, snapshot: &Snapshot) {
-        let radius = 0.55 * sight.spacing;
+        let radius = 0.5 * sight.spacing;
         for (index, string) in snapshot.strings().iter().enumerate() {
             let y = sight.y(index);
             let (Some(frets), Some(board)) = (self.frets.get(index), self.board.get(index)) else { continue };

@@ -6,9 +6,9 @@ use low_action_dsp::Setup;
 /// Room left of the nut for the names of the strings, and right of the saddle, points.
 const LEFT: f32 = 48.0;
 const RIGHT: f32 = 32.0;
-/// Room over the first string and under the last, as a part of their distance; under them are numbers, too.
-const OVER: f32 = 0.7;
-const UNDER: f32 = 1.2;
+/// Room over the board for handles and under it for numbers, points.
+const OVER: f32 = 32.0;
+const UNDER: f32 = 24.0;
 /// Widest that strings lie apart, points.
 const WIDEST: f32 = 56.0;
 /// How much of the distance between two strings a millimetre of motion takes.
@@ -16,7 +16,7 @@ const LIFT: f32 = 0.22;
 
 /// Where things are.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::editor) struct Sight {
+pub struct Sight {
     /// All of the picture.
     pub area: Rect,
     /// Of the nut, points.
@@ -36,10 +36,10 @@ impl Sight {
     pub fn new(area: Rect, setup: &Setup) -> Self {
         let count = setup.string.len().max(1);
         let along = (area.width() - LEFT - RIGHT).max(1.0) / setup.neck.scale_length as f32;
-        let spacing = (area.height() / (count as f32 - 1.0 + OVER + UNDER)).min(WIDEST);
-        let height = spacing * (count as f32 - 1.0 + OVER + UNDER);
-        let top = area.center().y - 0.5 * height;
-        let first = (top + OVER * spacing).round();
+        // The board goes on for half a spacing beyond the outer strings.
+        let spacing = ((area.height() - OVER - UNDER).max(1.0) / count as f32).min(WIDEST);
+        let left_over = (area.height() - OVER - UNDER - spacing * count as f32).max(0.0);
+        let first = (area.top() + OVER + 0.5 * (left_over + spacing)).round();
         Self { area, nut: area.left() + LEFT, along, lift: 1e3 * LIFT * spacing, first, spacing, count }
     }
 
@@ -51,6 +51,11 @@ impl Sight {
     /// A place (m from the nut) in the picture.
     pub fn x(&self, place: f32) -> f32 {
         self.nut + place * self.along
+    }
+
+    /// The place (m from the nut) of a point of the picture.
+    pub fn place(&self, x: f32) -> f32 {
+        (x - self.nut) / self.along
     }
 
     /// Where a string rests.

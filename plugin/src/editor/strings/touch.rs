@@ -22,7 +22,7 @@ pub(super) fn paint(painter: &Painter, sight: &Sight, snapshot: &Snapshot) {
 
 fn paint_finger(painter: &Painter, sight: &Sight, finger: &FingerSeen, y: f32) {
     let strength = (finger.force.max(0.0) / FIRM).sqrt().min(1.0);
-    let width = (TIP * sight.along).clamp(8.0, 0.6 * sight.spacing);
+    let width = (TIP * sight.along).max(8.0).min(0.6 * sight.spacing);
     let height = 0.36 * sight.spacing;
     let middle = pos2(sight.x(finger.position), y);
     let tip = Rect::from_center_size(middle, vec2(width, height));

@@ -70,18 +70,29 @@ impl Fingers {
         }
         let (part, duration) = PULL_OFF;
         let force = part * strength * self.hands.pluck_force;
-        at.does(Gesture::Pluck { position: self.place(old.fret, old.bar), force, duration });
+        at.does(Gesture::Pluck { position: self.pressed(&old), force, duration });
         at.does(lifting(old.slot, old.touch, QUICK_LIFT));
     }
 
     /// Throws a finger at the string behind a fret.
     fn come_down(&mut self, fret: usize, speed: f64, at: &mut Moment<impl GestureSink>) {
+        self.come_down_at(fret, self.geometry.finger_position(fret), speed, at);
+    }
+
+    /// Throws a finger at the string at a place, m from the nut, where it stops a fret.
+    pub(super) fn come_down_at(
+        &mut self,
+        fret: usize,
+        position: f64,
+        speed: f64,
+        at: &mut Moment<impl GestureSink>,
+    ) {
         let force = self.force();
         let mut touch = self.hands.fretting.touch;
         touch.hand_damping = touch.hand_damping.min(force / (HAMMER_GRIP * speed));
         (self.home, self.glided) = (fret, 0.0);
         let finger = self.take_slot(fret, touch, false);
-        let (position, clearance) = (self.geometry.finger_position(fret), self.hands.fretting.hover);
+        let clearance = self.hands.fretting.hover;
         at.does(Gesture::Throw { finger, touch, position, clearance, speed });
         at.does(Gesture::Press { finger, force, duration: HAMMER_LANDING });
     }
@@ -104,7 +115,7 @@ impl Fingers {
         let fret = (self.home as i32 + frets).clamp(first.min(last), last);
         if fret as usize != at_fret {
             if let Some(finger) = &mut self.fretting {
-                finger.fret = fret as usize;
+                (finger.fret, finger.free) = (fret as usize, None);
             }
             let position = self.place(fret as usize, bar);
             at.does(Gesture::Slide { finger: slot, position, duration });

@@ -22,6 +22,7 @@ impl StringPlayer {
     /// The note is over: it is damped now, or once it has been heard.
     pub(super) fn end(&mut self, time: u64) {
         self.under = [None; UNDER];
+        self.touched = false;
         let heard = self.note.take().map_or(0, |note| note.since + self.samples(SHORTEST_NOTE));
         self.ending = Some((time.max(heard), Ending::Damp));
     }

@@ -67,7 +67,8 @@ impl StringPlayer {
 
     /// Ends the string's note, whoever holds it; `None` means any channel's.
     pub(crate) fn silence(&mut self, time: u64, channel: Option<u8>) {
-        if self.note.is_some_and(|note| channel.is_none_or(|channel| note.channel == channel)) {
+        let touched = self.touched && channel.is_none();
+        if touched || self.note.is_some_and(|note| channel.is_none_or(|channel| note.channel == channel)) {
             self.end(time);
         }
     }

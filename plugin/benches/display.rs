@@ -1,0 +1,40 @@
+//! How long a snapshot of the strings takes, which the audio thread makes sixty times a second while an editor is
+//! open: under 50 µs is the promise, one part in three hundred of a sixtieth of a second.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use low_action::display::{Health, display};
+use low_action::engine::{Engine, EngineOptions};
+use low_action::performance::PlayerEvent;
+use low_action_dsp::Setup;
+
+/// Hz.
+const RATE: f64 = 48_000.0;
+/// As many samples as lie between two snapshots.
+const BLOCK: usize = 800;
+
+fn snapshot(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("snapshot");
+    for (name, keys) in [("electric", [40, 47, 52, 56, 59, 64]), ("tanpura", [38, 45, 50, 57, 45, 50])] {
+        let setup = Setup::shipped(name).expect("it comes with the program");
+        let mut engine = Engine::new(&EngineOptions::new(setup, RATE)).expect("it can be built");
+        let (mut writer, mut reader) = display();
+        let (mut left, mut right) = ([0.0; BLOCK], [0.0; BLOCK]);
+        for key in keys {
+            engine.event(0, PlayerEvent::NoteOn { channel: 0, key, velocity: 1.0 });
+        }
+        for _ in 0..10 {
+            writer.look(true, &mut engine);
+            engine.process(&mut left, &mut right);
+        }
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| {
+                assert!(writer.write(&mut engine, BLOCK, Health::default()));
+                reader.fetch()
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, snapshot);
+criterion_main!(benches);

@@ -1,0 +1,186 @@
+//! Playing with the mouse.
+//!
+//! Dragged across strings it plucks each where it crosses it, the harder the faster. Pressed on a string over the board
+//! it is a finger: it slides along while it is held and leaves when it is let go, or stays if Shift was down, so that
+//! the other strings can be stopped too and all be strummed. The other button silences a string, Escape all.
+
+use egui::{Align2, Key, PointerButton, Pos2, Response, Stroke, Ui, pos2, vec2};
+use low_action_dsp::Setup;
+
+use super::Sight;
+use crate::editor::{Given, theme};
+use crate::performance::{PlayerEvent, StringDeed};
+
+/// How near to a string the mouse is on it, as a part of the distance between strings.
+const ON_STRING: f32 = 0.3;
+/// Speed across the strings, strings a second, at which a pluck is as hard as the hardest note's.
+const FAST: f32 = 45.0;
+/// Force of the softest pluck, of the hardest, and of a click, as parts of the hardest note's.
+const SOFTEST: f32 = 0.06;
+const HARDEST: f32 = 2.0;
+const CLICK: f32 = 0.5;
+/// The least time between two pictures that a speed is taken from, s.
+const LEAST_TIME: f32 = 1.0 / 240.0;
+
+/// What the mouse is doing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+enum Doing {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// Plucks what it crosses; where it was.
+    Strumming(Pos2),
+    /// Is a finger on a string, at a place (m from the nut), and stays there afterwards or not.
+    Pressing { string: usize, place: f32, stays: bool },
+}
+
+/// What the mouse is doing, and which strings it has left a finger on.
+#[derive(Debug, Default)]
+pub(super) struct Play {
+    doing: Doing,
+    left: Vec<Option<f32>>,
+}
+
+impl Play {
+    /// Whether the mouse is playing.
+    pub fn is_busy(&self) -> bool {
+        self.doing != Doing::Nothing
+    }
+
+    /// Takes what the mouse has done since the last picture.
+    pub fn follow(&mut self, ui: &Ui, response: &Response, sight: &Sight, setup: &Setup, given: &Given) {
+        self.left.resize(setup.string.len(), None);
+        let (pressed, held, shift, seconds) = ui.input(|input| {
+            let pointer = &input.pointer;
+            (pointer.primary_pressed(), pointer.primary_down(), input.modifiers.shift, input.stable_dt)
+        });
+        let at = response.interact_pointer_pos().or(response.hover_pos());
+        if pressed
+            && response.is_pointer_button_down_on()
+            && let Some(at) = at
+        {
+            self.begin(at, shift, sight, setup, given);
+        } else if let Some(at) = at.filter(|_| held) {
+            self.go_on(at, seconds, sight, given);
+        }
+        if !held {
+            self.end(given);
+        }
+        if response.clicked_by(PointerButton::Secondary)
+            && let Some(at) = at
+        {
+            self.deed(given, sight.nearest(at.y), StringDeed::Damp);
+        }
+        if ui.input(|input| input.key_pressed(Key::Escape)) {
+            self.left.fill(None);
+            given.pointer.play(PlayerEvent::AllNotesOff);
+        }
+        if let Some(at) = response.hover_pos() {
+            hint(ui, at, sight, setup);
+        }
+    }
+
+    fn begin(&mut self, at: Pos2, shift: bool, sight: &Sight, setup: &Setup, given: &Given) {
+        let string = sight.nearest(at.y);
+        let place = sight.place(at.x);
+        if !on_string(at, sight) {
+            self.doing = Doing::Strumming(at);
+        } else if over_board(place, setup) {
+            if let Some(Some(_)) = self.left.get(string).filter(|_| !shift) {
+                // A finger that was left there goes with the mouse.
+                self.left[string] = None;
+            }
+            self.doing = Doing::Pressing { string, place, stays: shift };
+            self.deed(given, string, StringDeed::Press { position: place });
+        } else {
+            self.doing = Doing::Strumming(at);
+            self.pluck(given, string, place, CLICK);
+        }
+    }
+
+    fn go_on(&mut self, at: Pos2, seconds: f32, sight: &Sight, given: &Given) {
+        match &mut self.doing {
+            Doing::Nothing => {}
+            Doing::Strumming(before) => {
+                let from = std::mem::replace(before, at);
+                let speed = (at.y - from.y).abs() / sight.spacing / seconds.max(LEAST_TIME);
+                let force = (speed / FAST).clamp(SOFTEST, HARDEST);
+                // In the order in which they are crossed.
+                let count = self.left.len();
+                let down = at.y > from.y;
+                for step in 0..count {
+                    let string = if down { step } else { count - 1 - step };
+                    let y = sight.y(string);
+                    if (from.y < y) != (at.y < y) {
+                        let part = (y - from.y) / (at.y - from.y);
+                        let place = sight.place(from.x + part * (at.x - from.x));
+                        self.pluck(given, string, place, force);
+                    }
+                }
+            }
+            Doing::Pressing { string, place, .. } => {
+                let (string, new) = (*string, sight.place(at.x));
+                if *place != new {
+                    *place = new;
+                    self.deed(given, string, StringDeed::Press { position: new });
+                }
+            }
+        }
+    }
+
+    fn end(&mut self, given: &Given) {
+        if let Doing::Pressing { string, place, stays } = std::mem::take(&mut self.doing) {
+            if stays {
+                self.left[string] = Some(place);
+            } else {
+                self.deed(given, string, StringDeed::Lift);
+            }
+        }
+    }
+
+    /// Plucks with a part of the hardest note's force.
+    fn pluck(&self, given: &Given, string: usize, position: f32, part: f32) {
+        let Some(player) = given.plan.player() else { return };
+        let force = part * player.pluck_force as f32;
+        self.deed(given, string, StringDeed::Pluck { position, force });
+    }
+
+    fn deed(&self, given: &Given, string: usize, deed: StringDeed) {
+        if let Ok(string) = u8::try_from(string) {
+            given.pointer.play(PlayerEvent::Touched { string, deed });
+        }
+    }
+}
+
+fn on_string(at: Pos2, sight: &Sight) -> bool {
+    (at.y - sight.y(sight.nearest(at.y))).abs() < ON_STRING * sight.spacing
+}
+
+fn over_board(place: f32, setup: &Setup) -> bool {
+    (0.0..setup.neck.board_end() as f32).contains(&place)
+}
+
+/// Says beside the mouse what it would do there.
+fn hint(ui: &Ui, at: Pos2, sight: &Sight, setup: &Setup) {
+    let place = sight.place(at.x);
+    let scale = setup.neck.scale_length as f32;
+    if !(0.0..scale).contains(&place) {
+        return;
+    }
+    let string = &setup.string[sight.nearest(at.y)];
+    let stops = on_string(at, sight) && over_board(place, setup);
+    let text = if stops {
+        let fret = setup.neck.equal_places().partition_point(|fret| (*fret as f32) < place) + 1;
+        format!("{}, fret {}", string.name, fret.min(setup.neck.frets))
+    } else {
+        format!("{:.0} mm from the saddle", 1e3 * (scale - place))
+    };
+    let painter = ui.painter();
+    let colour = if stops { theme::FINGER } else { theme::PLUCK };
+    painter.circle_stroke(pos2(at.x, at.y), 4.0, Stroke::new(1.0, colour));
+    let place = at + vec2(10.0, -10.0);
+    let galley = painter.layout_no_wrap(text, theme::SMALL, theme::TEXT);
+    let rect = Align2::LEFT_BOTTOM.anchor_size(place, galley.size());
+    painter.rect_filled(rect.expand2(vec2(6.0, 3.0)), 4.0, theme::faint(theme::GROUND, 0.85));
+    painter.galley(rect.min, galley, theme::TEXT);
+}

@@ -1,0 +1,48 @@
+//! A finger that goes where somebody points: between frets, on them, along the string.
+
+use low_action_dsp::Gesture;
+
+use super::{Fingers, lifting};
+use crate::performance::technique::*;
+use crate::performance::{GestureSink, Moment};
+
+impl Fingers {
+    /// Whatever keeps the string from sounding leaves, a finger that has eased off too.
+    pub(crate) fn let_ring(&mut self, at: &mut Moment<impl GestureSink>) {
+        self.make_way(at);
+        if let Some(old) = self.fretting.take_if(|finger| finger.eased) {
+            at.does(lifting(old.slot, old.touch, QUICK_LIFT));
+        }
+    }
+
+    /// A finger comes down at a place, m from the nut, so fast that the string sounds by it; one that came so before
+    /// slides there.
+    pub(crate) fn press_at(&mut self, position: f64, at: &mut Moment<impl GestureSink>) {
+        let fret = self.stopped_at(position);
+        if let Some(finger) = self.fretting.as_mut().filter(|finger| finger.free.is_some() && !finger.eased) {
+            (finger.fret, finger.free) = (fret, Some(position));
+            return at.does(Gesture::Slide { finger: finger.slot, position, duration: POINTING });
+        }
+        self.make_way(at);
+        for old in [self.anchor.take(), self.fretting.take()].into_iter().flatten() {
+            at.does(lifting(old.slot, old.touch, QUICK_LIFT));
+        }
+        self.come_down_at(fret, position, HAMMER_SPEED.0 + HAMMER_SPEED.1 * POINTED, at);
+        if let Some(finger) = &mut self.fretting {
+            finger.free = Some(position);
+        }
+    }
+
+    /// The finger that came so leaves.
+    pub(crate) fn lift_from(&mut self, at: &mut Moment<impl GestureSink>) {
+        if let Some(finger) = self.fretting.take_if(|finger| finger.free.is_some()) {
+            at.does(lifting(finger.slot, finger.touch, QUICK_LIFT));
+        }
+    }
+
+    /// The fret that a finger at a place (m from the nut) stops.
+    fn stopped_at(&self, position: f64) -> usize {
+        let behind = self.geometry.frets.partition_point(|fret| *fret < position);
+        (behind + 1).min(self.geometry.frets.len())
+    }
+}

@@ -1,0 +1,49 @@
+//! What somebody who sees the string does to it: plucks where they point, a finger where they hold.
+
+use low_action_dsp::Gesture;
+
+use super::{Deeds, StringPlayer, UNDER};
+use crate::performance::technique::HARDEST_POINTED;
+use crate::performance::{GestureSink, StringDeed};
+
+impl StringPlayer {
+    /// Something is done to the string.
+    pub(crate) fn undergo(&mut self, time: u64, deed: StringDeed, out: &mut impl GestureSink) {
+        let length = self.fingers.geometry().length;
+        // What is no number counts as the middle.
+        let on_string =
+            |place: f32| if place.is_nan() { 0.5 * length } else { f64::from(place).clamp(0.0, length) };
+        match deed {
+            StringDeed::Pluck { position, force } => {
+                let force = if force.is_nan() { 0.0 } else { f64::from(force) };
+                self.take_in_hand();
+                let duration = self.fingers.pluck_duration();
+                let mut at = self.moment(time, out);
+                self.fingers.let_ring(&mut at);
+                at.does(Gesture::Pluck {
+                    position: on_string(position),
+                    force: force.clamp(-HARDEST_POINTED, HARDEST_POINTED),
+                    duration,
+                });
+            }
+            StringDeed::Press { position } => {
+                self.take_in_hand();
+                // The note that sounded is no more.
+                (self.note, self.under, self.deeds) = (None, [None; UNDER], Deeds::default());
+                let mut at = self.moment(time, out);
+                self.fingers.press_at(on_string(position), &mut at);
+            }
+            StringDeed::Lift => {
+                let mut at = self.moment(time, out);
+                self.fingers.lift_from(&mut at);
+            }
+            StringDeed::Damp => self.silence(time, None),
+        }
+    }
+
+    /// The string sounds on without a note of its own, and an ending that was under way is called off.
+    fn take_in_hand(&mut self) {
+        self.ending = None;
+        self.touched = true;
+    }
+}

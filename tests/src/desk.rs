@@ -1,0 +1,154 @@
+//! The editor without a window or a host: what a hand does with the mouse goes in, what the host is told, what the
+//! strings play and what is seen come out.
+
+mod recorder;
+
+use std::sync::Arc;
+
+use egui::{Event, Modifiers, PointerButton, Pos2, pos2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use low_action::display::{Health, Writer, display};
+use low_action::editor::{Editor, SIZE, Sight};
+use low_action::engine::{Engine, EngineOptions};
+use low_action::params::LowActionParams;
+use low_action::performance::PlayerEvent;
+use low_action::plugin::meters::Meters;
+use low_action::pointer::{Played, pointer};
+use low_action_dsp::Setup;
+use nice_plug::context::gui::GuiContext;
+
+pub use recorder::{Recorder, Told};
+
+/// Of the sound, Hz.
+pub const RATE: f64 = 48_000.0;
+/// Pictures a second.
+pub const PICTURES: f64 = 60.0;
+
+/// An editor, an engine that plays what is done in it, and a host that writes down what it is told.
+pub struct Desk {
+    /// The editor.
+    pub harness: Harness<'static, Editor>,
+    /// The host.
+    pub host: Arc<Recorder>,
+    /// What it sets.
+    pub params: Arc<LowActionParams>,
+    /// Lights and needles.
+    pub meters: Arc<Meters>,
+    /// What plays.
+    pub engine: Engine,
+    /// All that was played with the mouse.
+    pub played: Vec<PlayerEvent>,
+    /// The left channel of all that has sounded.
+    pub sound: Vec<f32>,
+    queue: Played,
+    writer: Writer,
+}
+
+impl Default for Desk {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Desk {
+    /// The electric guitar at the usual size, one pixel a point.
+    pub fn new() -> Self {
+        Self::sized(1.0, 1.0)
+    }
+
+    /// The same in a window of so many times the usual size, with so many pixels a point.
+    pub fn sized(times: f32, pixels: f32) -> Self {
+        let builder = Harness::builder();
+        Self::built(builder.with_size(times * vec2(SIZE[0], SIZE[1])).with_pixels_per_point(pixels))
+    }
+
+    fn built(builder: egui_kittest::HarnessBuilder<Editor>) -> Self {
+        let (params, meters) = (Arc::new(LowActionParams::default()), Arc::new(Meters::default()));
+        let (writer, reader) = display();
+        let (sender, queue) = pointer();
+        let host = Arc::new(Recorder::new(params.clone()));
+        let gui = GuiContext::new(host.clone());
+        let editor = Editor::new(params.clone(), meters.clone(), reader, sender);
+        let setup = Setup::builtin("electric").expect("it is built in");
+        let options = EngineOptions { variation: 0.0, ..EngineOptions::new(setup, RATE) };
+        let engine = Engine::new(&options).expect("it can be built");
+        let harness = builder
+            .with_step_dt(1.0 / PICTURES as f32)
+            .with_context_setup(Editor::dress)
+            .build_ui_state(move |ui, editor: &mut Editor| editor.show(ui, &gui), editor);
+        let (played, sound) = (Vec::new(), Vec::new());
+        Self { harness, host, params, meters, engine, played, sound, queue, writer }
+    }
+
+    /// Time passes, picture by picture.
+    pub fn wait(&mut self, seconds: f64) {
+        for _ in 0..(seconds * PICTURES).round() as usize {
+            self.picture();
+        }
+    }
+
+    /// One picture, and the sound from it to the next.
+    pub fn picture(&mut self) {
+        self.harness.step();
+        while let Some(event) = self.queue.next() {
+            self.played.push(event);
+            self.engine.event(0, event);
+        }
+        let samples = (RATE / PICTURES) as usize;
+        let (mut left, mut right) = (vec![0.0; samples], vec![0.0; samples]);
+        self.writer.look(true, &mut self.engine);
+        self.engine.process(&mut left, &mut right);
+        self.writer.write(&mut self.engine, samples, Health::default());
+        self.sound.extend(left);
+    }
+
+    /// The mouse goes somewhere.
+    pub fn point(&mut self, at: Pos2) {
+        self.harness.event(Event::PointerMoved(at));
+        self.picture();
+    }
+
+    /// Its button goes down or up there.
+    pub fn press(&mut self, at: Pos2, pressed: bool, modifiers: Modifiers) {
+        let button = PointerButton::Primary;
+        self.harness.event_modifiers(Event::PointerButton { pos: at, button, pressed, modifiers }, modifiers);
+        self.picture();
+    }
+
+    /// The button goes down at the first place and up at the last, and the mouse takes so long from one to the next, s.
+    pub fn drag(&mut self, way: &[Pos2], seconds: f64) {
+        self.point(way[0]);
+        self.press(way[0], true, Modifiers::NONE);
+        for ends in way.windows(2) {
+            let steps = (seconds * PICTURES).round().max(1.0) as usize;
+            for step in 1..=steps {
+                self.point(ends[0] + (ends[1] - ends[0]) * (step as f32 / steps as f32));
+            }
+        }
+        self.press(way[way.len() - 1], false, Modifiers::NONE);
+    }
+
+    /// Plays so that something is seen.
+    pub fn play(&mut self, event: PlayerEvent) {
+        self.engine.event(0, event);
+    }
+
+    /// Where things are in the picture of the strings.
+    pub fn sight(&self) -> Sight {
+        let area = self.harness.get_by_label("Strings").rect();
+        Sight::new(area, &Setup::builtin("electric").expect("it is built in"))
+    }
+
+    /// A point of the picture of the strings: so far from the nut, m, and on a string counted from 0; between two at
+    /// fractions.
+    pub fn at(&self, place: f32, string: f32) -> Pos2 {
+        let sight = self.sight();
+        pos2(sight.x(place), sight.y(0) + string * sight.spacing)
+    }
+
+    /// The middle of something that has a name.
+    pub fn named(&self, name: &str) -> Pos2 {
+        self.harness.get_by_label(name).rect().center()
+    }
+}

@@ -1,0 +1,110 @@
+//! Promise: pluck, pickup, action and relief are taken hold of in the picture itself. The host is told where each gesture
+//! begins and ends, what is set is where the mouse is, and nothing leaves its range.
+
+use egui::{Event, Key, Modifiers, Pos2, vec2};
+use low_action_tests::desk::{Desk, Told};
+use nice_plug::prelude::Param;
+
+/// Whether a host was told of one whole gesture on a parameter.
+fn is_gesture(told: &[Told], id: &str) -> bool {
+    let inside = &told[1..told.len() - 1];
+    told.first() == Some(&Told::Begin(id.into()))
+        && told.last() == Some(&Told::End(id.into()))
+        && !inside.is_empty()
+        && inside.iter().all(|told| matches!(told, Told::Set(set, _) if set == id))
+}
+
+/// Drags something with a name by so much.
+fn drag(desk: &mut Desk, name: &str, way: egui::Vec2) -> Vec<Told> {
+    desk.wait(0.1);
+    let from = desk.named(name);
+    desk.host.take();
+    desk.drag(&[from, from + way], 0.2);
+    desk.host.take()
+}
+
+#[test]
+fn marks_along_the_strings_follow_the_mouse() {
+    let mut desk = Desk::new();
+    for (name, id) in [("Pluck position", "pluck_position"), ("Pickup position", "pickup_position")] {
+        desk.wait(0.1);
+        let (sight, from) = (desk.sight(), desk.named(name));
+        let told = drag(&mut desk, name, vec2(-60.0, 3.0));
+        assert!(is_gesture(&told, id), "{told:?}");
+        desk.wait(0.1);
+        let moved = desk.named(name).x - from.x;
+        assert!((moved + 60.0).abs() < 2.0, "{name} went {moved} points");
+        let param = if id == "pluck_position" {
+            &desk.params.player.pluck_position
+        } else {
+            &desk.params.setup.pickup_position
+        };
+        let expected = 60e3 / sight.along;
+        assert!((param.value() - expected).abs() < 1.0, "{} mm instead of {expected} mm", param.value());
+    }
+}
+
+#[test]
+fn action_and_relief_are_moved_in_the_side_view() {
+    let mut desk = Desk::new();
+    let told = drag(&mut desk, "Action", vec2(0.0, 20.0));
+    assert!(is_gesture(&told, "action"), "{told:?}");
+    assert!((1.3..2.0).contains(&desk.params.setup.action.value()), "{}", desk.params.setup.action.value());
+    let told = drag(&mut desk, "Relief", vec2(0.0, 20.0));
+    assert!(is_gesture(&told, "relief"), "{told:?}");
+    assert!((0.5..1.5).contains(&desk.params.setup.relief.value()), "{}", desk.params.setup.relief.value());
+    drag(&mut desk, "Action", vec2(0.0, -15.0));
+    assert!(desk.params.setup.action.value() < 1.4);
+}
+
+#[test]
+fn nothing_leaves_its_range() {
+    let mut desk = Desk::new();
+    let told = drag(&mut desk, "Pluck position", vec2(-900.0, 0.0));
+    let inside = |told: &Told| !matches!(told, Told::Set(_, value) if !(0.0..=1.0).contains(value));
+    assert!(told.iter().all(inside), "{told:?}");
+    assert_eq!(desk.params.player.pluck_position.value(), 200.0);
+}
+
+#[test]
+fn shift_is_finer_and_a_double_click_brings_back() {
+    let mut desk = Desk::new();
+    drag(&mut desk, "Pickup position", vec2(-100.0, 0.0));
+    let coarse = desk.params.setup.pickup_position.value();
+    desk.wait(0.1);
+    let from = desk.named("Pickup position");
+    let shifted = |desk: &mut Desk, at: Pos2| {
+        desk.harness.event_modifiers(Event::PointerMoved(at), Modifiers::SHIFT);
+        desk.picture();
+    };
+    desk.point(from);
+    desk.press(from, true, Modifiers::SHIFT);
+    for step in 1..=10 {
+        shifted(&mut desk, from + vec2(-10.0 * step as f32, 0.0));
+    }
+    desk.press(from + vec2(-100.0, 0.0), false, Modifiers::SHIFT);
+    let fine = desk.params.setup.pickup_position.value() - coarse;
+    assert!((0.05..0.2).contains(&(fine / coarse)), "{coarse} mm and {fine} mm");
+    desk.wait(1.0);
+    desk.host.take();
+    let at = desk.named("Pickup position");
+    for _ in 0..2 {
+        desk.drag(&[at], 0.0);
+    }
+    assert_eq!(desk.params.setup.pickup_position.value(), 0.0);
+    assert!(is_gesture(&desk.host.take(), "pickup_position"));
+}
+
+#[test]
+fn the_keyboard_moves_them_too() {
+    let mut desk = Desk::new();
+    desk.wait(0.1);
+    let at = desk.named("Action");
+    desk.drag(&[at], 0.0);
+    desk.host.take();
+    let before = desk.params.setup.action.unmodulated_plain_value();
+    desk.harness.key_press(Key::ArrowRight);
+    desk.wait(0.05);
+    assert!(desk.params.setup.action.value() > before);
+    assert!(is_gesture(&desk.host.take(), "action"));
+}

@@ -1,0 +1,137 @@
+//! Promise: strings are played with the mouse. Dragged across them it plucks each where it crosses it, the harder the
+//! faster; held on one it is a finger; the strings sound by it.
+
+use egui::{Event, Key, Modifiers, PointerButton};
+use low_action::performance::{PlayerEvent, StringDeed};
+use low_action_tests::desk::Desk;
+
+/// A place beyond the board, m from the nut, and one between frets 4 and 5.
+const BEYOND: f32 = 0.56;
+const FIFTH: f32 = 0.155;
+
+/// All plucks: string, place (m) and force (N).
+fn plucks(desk: &Desk) -> Vec<(u8, f32, f32)> {
+    let pluck = |event: &PlayerEvent| match *event {
+        PlayerEvent::Touched { string, deed: StringDeed::Pluck { position, force } } => {
+            Some((string, position, force))
+        }
+        _ => None,
+    };
+    desk.played.iter().filter_map(pluck).collect()
+}
+
+fn deeds(desk: &Desk, of: u8) -> Vec<StringDeed> {
+    let deed = |event: &PlayerEvent| match *event {
+        PlayerEvent::Touched { string, deed } if string == of => Some(deed),
+        _ => None,
+    };
+    desk.played.iter().filter_map(deed).collect()
+}
+
+/// A strum from over the first string to under the last, or back, in so many seconds.
+fn strummed(down: bool, seconds: f64) -> Desk {
+    let mut desk = Desk::new();
+    desk.picture();
+    let (mut from, mut to) = (desk.at(BEYOND, -0.5), desk.at(BEYOND + 0.02, 5.5));
+    if !down {
+        (from, to) = (to, from);
+    }
+    desk.drag(&[from, to], seconds);
+    desk
+}
+
+fn loudest(sound: &[f32]) -> f32 {
+    sound.iter().fold(0.0, |most, sample| most.max(sample.abs()))
+}
+
+#[test]
+fn a_strum_plucks_every_string_where_it_is_crossed() {
+    for down in [true, false] {
+        let mut desk = strummed(down, 0.2);
+        desk.wait(0.3);
+        let mut strings: Vec<u8> = plucks(&desk).iter().map(|pluck| pluck.0).collect();
+        if !down {
+            strings.reverse();
+        }
+        assert_eq!(strings, [0, 1, 2, 3, 4, 5]);
+        for (string, place, _) in plucks(&desk) {
+            let crossed = BEYOND + 0.02 * (f32::from(string) + 0.5) / 6.0;
+            assert!((place - crossed).abs() < 1e-3, "string {string} at {place} m instead of {crossed} m");
+        }
+        assert!(loudest(&desk.sound) > 0.05, "nothing sounds");
+    }
+}
+
+#[test]
+fn faster_is_harder() {
+    let force = |seconds| {
+        let plucks = plucks(&strummed(true, seconds));
+        plucks.iter().map(|pluck| pluck.2).sum::<f32>() / plucks.len() as f32
+    };
+    let (slow, fast) = (force(0.6), force(0.1));
+    assert!((5.0..7.0).contains(&(fast / slow)), "{slow} N and {fast} N");
+    // Sixty strings a second are a little harder than the hardest note.
+    assert!((0.8..1.6).contains(&fast), "{fast} N");
+}
+
+#[test]
+fn a_click_beyond_the_board_plucks() {
+    let mut desk = Desk::new();
+    desk.picture();
+    let at = desk.at(BEYOND, 4.0);
+    desk.drag(&[at], 0.0);
+    desk.wait(0.2);
+    let [(4, place, force)] = plucks(&desk)[..] else { panic!("{:?}", desk.played) };
+    assert!((place - BEYOND).abs() < 1e-3 && (0.3..0.5).contains(&force), "{place} m, {force} N");
+    assert!(loudest(&desk.sound) > 0.01);
+}
+
+#[test]
+fn a_finger_comes_slides_and_leaves() {
+    let mut desk = Desk::new();
+    desk.picture();
+    let (from, to) = (desk.at(FIFTH, 2.1), desk.at(FIFTH + 0.05, 2.0));
+    desk.drag(&[from, to], 0.2);
+    let deeds = deeds(&desk, 2);
+    let (StringDeed::Press { position: first }, Some(StringDeed::Lift)) = (deeds[0], deeds.last()) else {
+        panic!("{deeds:?}")
+    };
+    let StringDeed::Press { position: last } = deeds[deeds.len() - 2] else { panic!("{deeds:?}") };
+    assert!((first - FIFTH).abs() < 1e-3 && (last - FIFTH - 0.05).abs() < 1e-3, "{first} m to {last} m");
+    assert!(deeds.len() > 8, "it slides in {} steps", deeds.len());
+    assert_eq!(desk.played.len(), deeds.len(), "another string was touched");
+    assert!(plucks(&desk).is_empty());
+    assert!(loudest(&desk.sound) > 1e-3, "a finger that comes down is heard");
+}
+
+#[test]
+fn with_shift_the_finger_stays() {
+    let mut desk = Desk::new();
+    desk.picture();
+    let at = desk.at(FIFTH, 3.0);
+    desk.point(at);
+    desk.press(at, true, Modifiers::SHIFT);
+    desk.press(at, false, Modifiers::SHIFT);
+    desk.wait(0.1);
+    assert_eq!(deeds(&desk, 3).len(), 1, "{:?}", desk.played);
+    // It is taken up again and leaves.
+    desk.drag(&[at], 0.0);
+    assert_eq!(deeds(&desk, 3).last(), Some(&StringDeed::Lift));
+}
+
+#[test]
+fn strings_are_silenced() {
+    let mut desk = Desk::new();
+    desk.picture();
+    let at = desk.at(BEYOND, 1.0);
+    desk.point(at);
+    for pressed in [true, false] {
+        let (button, modifiers) = (PointerButton::Secondary, Modifiers::NONE);
+        desk.harness.event(Event::PointerButton { pos: at, button, pressed, modifiers });
+        desk.picture();
+    }
+    assert_eq!(desk.played, [PlayerEvent::Touched { string: 1, deed: StringDeed::Damp }]);
+    desk.harness.key_press(Key::Escape);
+    desk.wait(0.05);
+    assert_eq!(desk.played.last(), Some(&PlayerEvent::AllNotesOff));
+}

@@ -1,0 +1,56 @@
+//! Promise: the editor looks as it should. Pictures of it, drawn by software, are those in `snapshots`.
+//!
+//! `UPDATE_SNAPSHOTS=1 cargo test -p low-action-tests --features pictures --test editor_pictures` draws them anew.
+#![cfg(feature = "pictures")]
+
+use egui_kittest::wgpu::WgpuTestRenderer;
+use low_action::performance::PlayerEvent;
+use low_action_tests::desk::Desk;
+
+/// Whether pictures can be drawn here. Where the whole project is checked they must be.
+fn can_draw() -> bool {
+    let can = std::panic::catch_unwind(WgpuTestRenderer::new).is_ok();
+    assert!(can || std::env::var("CI").as_deref() != Ok("true"), "there is no Vulkan driver");
+    if !can {
+        eprintln!("passed over: there is no Vulkan driver");
+    }
+    can
+}
+
+fn chord(desk: &mut Desk) {
+    for key in [40, 47, 52, 56, 59, 64] {
+        desk.play(PlayerEvent::NoteOn { channel: 0, key, velocity: 1.0 });
+    }
+    desk.wait(0.1);
+}
+
+/// A picture of the editor in a window of so many times the usual size, with so many pixels a point, after something
+/// has happened to it.
+fn picture(name: &str, times: f32, pixels: f32, happen: impl FnOnce(&mut Desk)) {
+    if can_draw() {
+        let mut desk = Desk::sized(times, pixels);
+        desk.wait(0.05);
+        happen(&mut desk);
+        desk.harness.snapshot(name);
+    }
+}
+
+#[test]
+fn at_rest() {
+    picture("rest", 1.0, 1.0, |_| {});
+}
+
+#[test]
+fn a_chord() {
+    picture("chord", 1.0, 1.0, chord);
+}
+
+#[test]
+fn a_chord_finely() {
+    picture("chord_fine", 1.0, 2.0, chord);
+}
+
+#[test]
+fn a_small_window() {
+    picture("small", 0.5, 1.0, chord);
+}

@@ -1,0 +1,128 @@
+//! Promise: what somebody does to a string they see is what happens: a pluck where they point, a finger that stops the
+//! string where they hold it, slides after them and leaves; notes and endings go on as ever, and nonsense does no harm.
+
+use low_action::performance::{PlayerEvent, StringDeed};
+use low_action_dsp::Gesture;
+use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{Stage, hertz, off, on, peak};
+
+const RATE: f64 = 48_000.0;
+
+fn at(seconds: f64) -> usize {
+    (seconds * RATE) as usize
+}
+
+fn touched(deed: StringDeed) -> PlayerEvent {
+    PlayerEvent::Touched { string: 0, deed }
+}
+
+fn pluck(position: f32, force: f32) -> PlayerEvent {
+    touched(StringDeed::Pluck { position, force })
+}
+
+fn press(position: f64) -> PlayerEvent {
+    touched(StringDeed::Press { position: position as f32 })
+}
+
+/// The string D3 of the electric guitar, and a place to pluck it.
+fn string() -> (Stage, f32) {
+    let stage = Stage::alone("electric", 3);
+    let place = stage.instrument.geometry(0).length as f32 - 0.12;
+    (stage, place)
+}
+
+/// How far a sound is above a key, cents.
+fn above(sound: &[f32], key: f64) -> f64 {
+    cents(frequency_near(sound, RATE, hertz(key)), hertz(key))
+}
+
+#[test]
+fn a_pluck_falls_where_it_is_pointed() {
+    let (mut stage, _) = string();
+    let played = stage.play(&[(0.1, pluck(0.4, 0.7))], 1.0);
+    let plucks: Vec<_> =
+        played.gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).collect();
+    let [only] = plucks[..] else { panic!("{plucks:?}") };
+    assert_eq!(only.time, 4800);
+    let Gesture::Pluck { position, force, .. } = only.gesture else { unreachable!("they are all plucks") };
+    assert!((position - 0.4).abs() < 1e-6 && (force - 0.7).abs() < 1e-6);
+    assert!(above(&played.strings[0][at(0.3)..], 50.0).abs() < 5.0, "the open string");
+}
+
+#[test]
+fn a_finger_stops_the_string_slides_and_leaves() {
+    let (mut stage, place) = string();
+    let geometry = stage.instrument.geometry(0).clone();
+    let (fifth, seventh) = (geometry.finger_position(5), geometry.finger_position(7));
+    let mut events = vec![(0.0, press(fifth)), (0.1, pluck(place, 0.8))];
+    // A slide as a mouse makes one.
+    events
+        .extend((0..30).map(|n| {
+            (1.0 + 0.01 * f64::from(n), press(fifth + (seventh - fifth) * f64::from(n + 1) / 30.0))
+        }));
+    events.push((2.2, touched(StringDeed::Lift)));
+    let played = stage.play(&events, 3.4);
+    let sound = &played.strings[0];
+    for (from, to, key) in [(0.3, 1.0, 55.0), (1.5, 2.2, 57.0), (2.5, 3.4, 50.0)] {
+        let off = above(&sound[at(from)..at(to)], key);
+        assert!(off.abs() < 8.0, "{off} cents from key {key}");
+    }
+    let placed = played.gestures.iter().filter(|g| matches!(g.gesture, Gesture::Throw { .. })).count();
+    assert_eq!(placed, 1, "one finger did it all");
+}
+
+#[test]
+fn it_can_be_silenced_and_plays_on() {
+    let (mut stage, place) = string();
+    for silencing in [touched(StringDeed::Damp), PlayerEvent::AllNotesOff] {
+        let played = stage.play(&[(0.0, pluck(place, 0.8)), (0.5, silencing), (2.5, pluck(place, 0.8))], 3.0);
+        let sound = &played.strings[0];
+        let (before, after) = (peak(&sound[at(0.4)..at(0.5)]), peak(&sound[at(1.5)..at(1.6)]));
+        assert!(after < 0.01 * before, "{before} before, {after} after");
+        assert!(peak(&sound[at(2.6)..at(2.7)]) > 0.5 * before, "it does not sound again");
+    }
+}
+
+#[test]
+fn a_note_takes_the_string_back() {
+    let (mut stage, place) = string();
+    let finger = stage.instrument.geometry(0).finger_position(9);
+    let played = stage.play(
+        &[
+            (0.0, press(finger)),
+            (0.05, pluck(place, 0.5)),
+            (0.4, on(52, 90)),
+            (1.2, off(52)),
+            (1.3, pluck(place, 0.5)),
+        ],
+        3.0,
+    );
+    let sound = &played.strings[0];
+    let off = above(&sound[at(0.6)..at(1.2)], 52.0);
+    assert!(off.abs() < 8.0, "{off} cents from its key");
+    // Plucked while the note was being damped: the dampers and the note's finger leave, and it rings open.
+    assert!(above(&sound[at(1.8)..], 50.0).abs() < 5.0);
+    assert!(peak(&sound[at(2.8)..]) > 0.02);
+}
+
+#[test]
+fn nonsense_does_no_harm() {
+    let (mut stage, place) = string();
+    let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 1e30, 0.0];
+    let mut events = Vec::new();
+    for (index, &a) in odd.iter().enumerate() {
+        for (step, &b) in odd.iter().enumerate() {
+            let time = 0.02 * (6 * index + step) as f64;
+            events.push((time, pluck(a, b)));
+            events.push((time, touched(StringDeed::Press { position: b })));
+            events.push((time + 0.01, PlayerEvent::Touched { string: 200, deed: StringDeed::Damp }));
+        }
+    }
+    events.push((0.8, touched(StringDeed::Lift)));
+    events.push((0.81, touched(StringDeed::Lift)));
+    events.push((1.0, PlayerEvent::AllNotesOff));
+    events.push((3.0, pluck(place, 0.8)));
+    let sound = &stage.play(&events, 4.0).strings[0];
+    assert!(sound.iter().all(|sample| sample.is_finite()));
+    assert!(above(&sound[at(3.2)..], 50.0).abs() < 5.0);
+}
