@@ -1,6 +1,6 @@
 //! What the editor sees of the strings: still pictures, one way, some sixty a second.
 //!
-//! [`display`] makes a pair. The [`Writer`] belongs to the audio thread, which fills a [`Snapshot`] now and then
+//! [`display()`] makes a pair. The [`Writer`] belongs to the audio thread, which fills a [`Snapshot`] now and then
 //! while somebody looks; the [`Reader`] belongs to the editor, which looks at the latest. The snapshots are made
 //! once and go round through two bounded queues without locks: nothing is allocated, nobody waits, and nothing the
 //! audio thread does depends on whether anybody looks.

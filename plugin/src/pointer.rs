@@ -1,6 +1,6 @@
 //! What is played in the editor's picture of the strings, on its way to the audio thread.
 //!
-//! [`pointer`] makes a pair: the [`Pointer`] belongs to the editor, [`Played`] to the audio thread, which plays what
+//! [`pointer()`] makes a pair: the [`Pointer`] belongs to the editor, [`Played`] to the audio thread, which plays what
 //! it finds there at the start of the next block. The queue between them is bounded and without locks.
 
 use std::sync::Arc;
