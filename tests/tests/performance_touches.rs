@@ -71,6 +71,42 @@ fn a_harmonic_sounds_at_its_key_on_a_string_that_lets_it_be_heard() {
 }
 
 #[test]
+fn a_stopped_harmonic_is_no_louder_after_another_note() {
+    for fret in [2, 3, 9] {
+        let mut stage = Stage::alone("electric", 0);
+        let harmonic = |start, stage: &mut Stage, before: &[(f64, PlayerEvent)]| {
+            let events = [before, &[(start, cc(23, 1)), (start, on(64 + 12 + fret, 90))]].concat();
+            decibels(peak(&stage.play(&events, start + 0.3).strings[0][at(start)..]))
+        };
+        let alone = harmonic(0.5, &mut stage, &[]);
+        // A finger that still presses behind another fret must leave by itself.
+        let after = harmonic(0.5, &mut stage, &[(0.0, on(64 + fret - 1, 40))]);
+        assert!((after - alone).abs() < 3.0, "fret {fret}: {after} dB after a note, {alone} dB alone");
+    }
+}
+
+#[test]
+fn what_has_touched_a_string_lightly_is_off_it_at_the_next_note() {
+    let level = |events: &[(f64, PlayerEvent)], start: f64| {
+        let sound = &Stage::alone("electric", 2).play(events, start + 0.3).strings[0];
+        decibels(amplitude(&sound[at(start + 0.1)..], RATE, hertz(55.0)))
+    };
+    let plain = level(&[(0.0, on(55, 90))], 0.0);
+    // A palm that is lifted as the note begins, or just before.
+    for wait in [0.0, 0.02] {
+        let events = [(0.0, cc(20, 127)), (0.0, on(55, 90)), (1.0 - wait, cc(20, 0)), (1.0, on(55, 90))];
+        let lifted = level(&events, 1.0);
+        assert!((lifted - plain).abs() < 1.5, "{lifted} dB, {plain} dB without a palm");
+    }
+    // The finger of a harmonic, which leaves its node after 0.12 s.
+    for wait in [0.1, 0.13, 0.16] {
+        let events = [(0.0, cc(23, 1)), (0.0, on(67, 30)), (wait, cc(23, 0)), (wait, on(55, 90))];
+        let after = level(&events, wait);
+        assert!((after - plain).abs() < 1.5, "{after} dB {wait} s after a harmonic, {plain} dB alone");
+    }
+}
+
+#[test]
 fn the_palm_shortens_notes_tenfold() {
     for (setup, string, open) in STRINGS {
         let mut stage = Stage::alone(setup, string);

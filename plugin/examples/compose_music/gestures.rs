@@ -51,7 +51,7 @@ fn hammer_and_pull() -> Score {
         now += 6 * QUARTER;
         // Down to the open string.
         track.note(55, 80, now, 3 * QUARTER);
-        track.note(58, 100, now + QUARTER, EIGHTH);
+        track.note(58, 100, now + QUARTER, EIGHTH + 30);
         track.note(57, 100, now + QUARTER + EIGHTH, EIGHTH);
     })
 }

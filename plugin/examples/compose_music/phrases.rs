@@ -21,7 +21,7 @@ pub fn all() -> Vec<(&'static str, Score)> {
         ("school-guitar", line(90, &[48, 52, 55, 60, 64, 67, 72, 76], 80, EIGHTH, 4 * EIGHTH)),
         ("flatwound-jazz", line(150, &[57, 60, 64, 67, 66, 62, 59, 55, 60, 64, 67, 71], 76, EIGHTH, 0)),
         ("tanpura", drone()),
-        ("sitar", line(100, &[52, 56, 57, 59, 64, 59, 57, 56], 100, EIGHTH, 2 * EIGHTH)),
+        ("sitar", line(100, &[52, 56, 57, 59, 64, 59, 57, 56], 100, EIGHTH, 0)),
         ("lap-steel", glided()),
         ("baritone", line(84, &[35, 42, 47, 50, 54, 50, 47, 42], 100, EIGHTH, 3 * EIGHTH)),
         ("drop-d", chugged()),
@@ -37,7 +37,9 @@ fn slapped() -> Score {
             (0..).zip([(4, 28), (5, 40), (4, 28), (4, 31), (5, 43), (4, 33), (5, 45), (5, 43)])
         {
             track.set(place * EIGHTH, STROKE, stroke);
-            track.note(key, 96, place * EIGHTH, EIGHTH - 40);
+            // A pop is as loud as a slap twice as hard.
+            let velocity = if stroke == 5 { 66 } else { 116 };
+            track.note(key, velocity, place * EIGHTH, EIGHTH - 40);
         }
         track.note(28, 90, 8 * EIGHTH, 2 * QUARTER);
     })
@@ -48,7 +50,11 @@ fn sung() -> Score {
         track.set(0, LEGATO, 127);
         track.set(0, SLIDE, 127);
         track.set(0, SLIDE_TIME, 50);
-        let now = track.line(&[36, 43, 41, 40], 90, 0, QUARTER, 40);
+        let now = [[36, 43], [41, 40]].into_iter().fold(0, |now, [from, to]| {
+            track.note(from, 90, now, QUARTER + 40);
+            track.note(to, 90, now + QUARTER, QUARTER - 10);
+            now + 2 * QUARTER
+        });
         track.note(38, 96, now, 4 * QUARTER);
         track.sweep(now + QUARTER, QUARTER, VIBRATO, [0, 110]);
     })
@@ -103,6 +109,7 @@ fn chugged() -> Score {
             let keys: &[u8] = if open { &[41, 48, 53] } else { &[38, 45, 50] };
             track.chord(keys, 110, place * EIGHTH, EIGHTH - 20);
         }
+        track.set(16 * EIGHTH, PALM, 0);
         track.chord(&[38, 45, 50], 110, 16 * EIGHTH, 3 * QUARTER);
     })
 }
@@ -126,11 +133,14 @@ fn strummed() -> Score {
         track.set(0, STROKE, 2);
         track.set(0, STRUM, 20);
         for (bar, chord) in (0..).zip(CHORDS) {
-            for (place, velocity) in [(0, 96), (2, 84), (3, 70), (5, 76), (6, 90), (7, 70)] {
+            // Each chord rings until the next stroke.
+            for (place, velocity, length) in
+                [(0, 96, 2), (2, 84, 1), (3, 70, 2), (5, 76, 1), (6, 90, 1), (7, 70, 1)]
+            {
                 // A key that two strings give is sent once.
                 let keys: Vec<u8> =
                     (0..4).filter(|&n| !chord[..n].contains(&chord[n])).map(|n| chord[n]).collect();
-                track.chord(&keys, velocity, (bar * 8 + place) * EIGHTH, EIGHTH - 10);
+                track.chord(&keys, velocity, (bar * 8 + place) * EIGHTH, length * EIGHTH - 10);
             }
         }
     })

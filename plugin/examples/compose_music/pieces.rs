@@ -116,11 +116,16 @@ fn strumming() -> Score {
     chords.set(0, STROKE, 2);
     chords.set(0, STRUM, 14);
     for bar in 0..8_u32 {
-        for (place, velocity) in (0..).zip(PATTERN).filter(|&(_, velocity)| velocity > 0) {
+        let strokes = (0..16_u32).filter(|&place| PATTERN[place as usize] > 0);
+        for place in strokes {
+            let velocity = PATTERN[place as usize];
+            // A chord rings on over a rest.
+            let next = (place + 1..16).find(|&next| PATTERN[next as usize] > 0).unwrap_or(16);
             let start = bar * 4 * QUARTER + place * SIXTEENTH;
             let muted = velocity < 30;
             chords.set(start, STOP, if muted { 2 } else { 0 });
-            chords.chord(CHORDS[bar as usize % 4], velocity.max(55), start, SIXTEENTH - 5);
+            let length = (next - place) * SIXTEENTH - 5;
+            chords.chord(CHORDS[bar as usize % 4], velocity.max(55), start, length);
         }
     }
     let bass = score.track("bass notes", 2);

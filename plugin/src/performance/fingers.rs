@@ -31,6 +31,13 @@ struct Finger {
     free: Option<f64>,
 }
 
+impl Finger {
+    /// It leaves when the next note is about to sound.
+    fn gives_way(&self) -> Gesture {
+        lifting(self.slot, self.touch, if self.bar { BAR_LIFT } else { QUICK_LIFT })
+    }
+}
+
 /// The fingers near one string.
 #[derive(Debug, Clone)]
 pub(crate) struct Fingers {
@@ -45,6 +52,8 @@ pub(crate) struct Fingers {
     next_slot: FingerSlot,
     /// Slot of a finger that touches the string lightly.
     light: Option<FingerSlot>,
+    /// Slot of one that has left, and the sample by which it is off the string.
+    departing: Option<(FingerSlot, u64)>,
     /// Which slots hold a damper that rests on the string.
     resting: [bool; FINGERS_PER_STRING],
     right: RightHand,
@@ -71,6 +80,7 @@ impl Fingers {
             anchor: None,
             next_slot: 0,
             light: None,
+            departing: None,
             resting: [false; FINGERS_PER_STRING],
             right: RightHand::default(),
             home: 0,
@@ -82,7 +92,7 @@ impl Fingers {
 
     /// All away.
     pub(crate) fn reset(&mut self) {
-        (self.fretting, self.anchor, self.light) = (None, None, None);
+        (self.fretting, self.anchor, self.light, self.departing) = (None, None, None, None);
         self.next_slot = 0;
         self.resting = [false; FINGERS_PER_STRING];
         self.right.reset();
@@ -94,7 +104,7 @@ impl Fingers {
     /// Takes over the fingers on this string, when it has been given another model.
     pub(crate) fn take_over(&mut self, old: &Self) {
         (self.fretting, self.anchor, self.light) = (old.fretting, old.anchor, old.light);
-        (self.next_slot, self.resting) = (old.next_slot, old.resting);
+        (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
         self.right.take_over(&old.right);
         (self.home, self.glided, self.pressure) = (old.home, old.glided, old.pressure);
         self.capo = old.capo;
@@ -192,7 +202,7 @@ impl Fingers {
     pub(crate) fn stop(&mut self, fret: usize, stop: Stop, strength: f64, at: &mut Moment<impl GestureSink>) {
         self.make_way(at);
         if let Some(anchor) = self.anchor.take() {
-            at.does(lifting(anchor.slot, anchor.touch, QUICK_LIFT));
+            at.does(anchor.gives_way());
         }
         self.lay_capo(at);
         self.home = fret;
@@ -204,7 +214,7 @@ impl Fingers {
             return self.press_again(at);
         }
         if let Some(old) = self.fretting.take() {
-            at.does(lifting(old.slot, old.touch, QUICK_LIFT));
+            at.does(old.gives_way());
         }
         self.glided = 0.0;
         match stop {
@@ -247,7 +257,8 @@ impl Fingers {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
         self.resting = [false; FINGERS_PER_STRING];
-        if let Some(slot) = self.light.take() {
+        let departing = self.departing.take().filter(|&(_, clear)| at.time < clear).map(|(slot, _)| slot);
+        for slot in [self.light.take(), departing].into_iter().flatten() {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
         let sounding = self.sounding_length();

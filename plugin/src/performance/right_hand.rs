@@ -26,6 +26,8 @@ pub(crate) struct RightHand {
     laid: Laid,
     /// Pressure of the palm on notes to come, 0 to 1.
     palm: f64,
+    /// Sample by which a hand that has left quietly is off the string.
+    clear: u64,
 }
 
 /// Where a stroke falls.
@@ -100,7 +102,7 @@ impl Field<'_> {
 impl RightHand {
     /// Takes over from another.
     pub(crate) fn take_over(&mut self, old: &Self) {
-        (self.laid, self.palm) = (old.laid, old.palm);
+        (self.laid, self.palm, self.clear) = (old.laid, old.palm, old.clear);
     }
 
     /// Nothing is on the string.
@@ -125,9 +127,11 @@ impl RightHand {
         }
     }
 
-    /// Gets ready for a stroke: thumb off, palm on or off.
+    /// Gets ready for a stroke: thumb off, palm on or off, at once even if it is on its way off.
     pub(crate) fn prepare(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
-        if self.laid == Laid::Thumb {
+        let lingers = self.palm <= 0.0 && (self.laid != Laid::Nothing || at.time < self.clear);
+        self.clear = 0;
+        if self.laid == Laid::Thumb || lingers {
             at.does(lifting(RIGHT_HAND, field.hands.damper.touch, QUICK_LIFT));
             self.laid = Laid::Nothing;
         }
@@ -187,6 +191,7 @@ impl RightHand {
     pub(crate) fn leave(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
         if std::mem::take(&mut self.laid) != Laid::Nothing {
             at.does(lifting(RIGHT_HAND, field.hands.damper.touch, QUIET_LIFT));
+            self.clear = at.after(LINGERING * QUIET_LIFT.turning);
         }
     }
 }

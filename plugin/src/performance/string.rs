@@ -100,7 +100,11 @@ impl StringPlayer {
         let Articulation { mut stroke, stop, .. } = start.articulation;
         self.fingers.press(start.manner.pressure, &mut at);
         if stroke == Stroke::Tap && start.fret > self.fingers.capo() {
-            self.fingers.hammer(start.fret, strength, &mut at);
+            if self.fingers.let_up(&mut at) {
+                self.deeds.plan(at.after(RISING), Deed::Tap { fret: start.fret, strength });
+            } else {
+                self.fingers.hammer(start.fret, strength, &mut at);
+            }
         } else {
             if stroke == Stroke::Tap {
                 stroke = Stroke::Down;

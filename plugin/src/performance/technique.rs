@@ -9,6 +9,8 @@ pub(crate) const FRETTING_SLOTS: usize = 2;
 /// part of the set-up's damper position. One point alone would leave the partials ringing that have
 /// a node there; a hand is wide, and a partial with nodes at both places is high and dies by itself.
 pub(crate) const DAMPERS: [(FingerSlot, f64); 2] = [(2, 1.0), (3, 0.37)];
+/// Slot of a light finger on a string that another one stops: a damper's.
+pub(crate) const LIGHT: FingerSlot = DAMPERS[1].0;
 /// Slot of the palm, or the thumb, of the hand that plucks.
 pub(crate) const RIGHT_HAND: FingerSlot = 4;
 /// Slot of a capo.
@@ -87,6 +89,8 @@ pub(crate) const BRIGHTNESS_REACH: f64 = 0.08;
 /// How fast a finger comes that is to make a string sound by itself, m/s: at the softest, and added at the
 /// hardest. Fingertips reach 1 to 2 m/s.
 pub(crate) const HAMMER_SPEED: (f64, f64) = (0.15, 1.6);
+/// Time in which a string comes up from a fret that its finger leaves, s, before another can strike it there.
+pub(crate) const RISING: f64 = 0.003;
 /// How much of the landing speed the hand behind it would keep up by its force alone: the finger is thrown,
 /// and held back enough not to bounce.
 pub(crate) const HAMMER_GRIP: f64 = 0.5;
@@ -117,6 +121,8 @@ pub(crate) const AT_NODE: f64 = 0.12;
 pub(crate) const NODE_TOUCH: f64 = 1.0;
 /// How a finger leaves that hardly bends the string.
 pub(crate) const NODE_LIFT: Leaving = Leaving { speed: 0.02, turning: 0.05 };
+/// How long a finger that leaves may still touch the string, as a multiple of the time in which its force turns.
+pub(crate) const LINGERING: f64 = 2.0;
 /// Semitones by which a natural harmonic may be off the key that asks for it.
 pub(crate) const NEAR_ENOUGH: f64 = 0.2;
 /// The highest partial played as a natural harmonic.
@@ -168,9 +174,13 @@ pub(crate) const GRAZE_TIME: f64 = 0.04;
 /// Where the plectrum is then, as a part of the way from the saddle to the thumb.
 pub(crate) const BESIDE_THUMB: f64 = 0.75;
 
-/// A steel bar of 250 g in a hand that lets it come to rest on a string without a bounce.
+/// A steel bar of 250 g, and half a kilogram of the hand that holds it and lets it come to rest on a string without a
+/// bounce. An end that gives way like a mass m shortens the string by T/(mω²): the lowest notes of a bass are 6 cents
+/// sharp by it, and would be 19 under the bar alone.
 pub(crate) const BAR: Touch =
-    Touch { mass: 0.25, stiffness: 1e8, exponent: 1.5, damping: 0.05, hand_damping: 25.0 };
+    Touch { mass: 0.75, stiffness: 1e8, exponent: 1.5, damping: 0.05, hand_damping: 45.0 };
+/// How it leaves when the next note is about to sound: no hand throws it up faster.
+pub(crate) const BAR_LIFT: Leaving = Leaving { speed: 0.3, turning: 0.003 };
 /// How fast it comes down on a string, m/s.
 pub(crate) const BAR_SPEED: f64 = 0.05;
 /// Its weight on one string, N; and the largest part of what brings the string to the fret that may be used.

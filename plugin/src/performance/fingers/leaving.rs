@@ -47,9 +47,7 @@ impl Fingers {
         for slot in self.resting_slots() {
             at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));
         }
-        if let Some(slot) = self.light.take() {
-            at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));
-        }
+        self.lift_light(DAMPER_EASING, at);
         let sounding = self.sounding_length();
         let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
         self.right.leave(&field, at);
@@ -71,6 +69,8 @@ impl Fingers {
     }
 
     fn rest(&mut self, finger: FingerSlot, position: f64, at: &mut Moment<impl GestureSink>) {
+        // It takes the place of a light finger that is still there.
+        self.light = self.light.filter(|&light| light != finger);
         let Damper { touch, force, landing, .. } = self.hands.damper;
         let clearance = self.hands.fretting.hover;
         self.resting[finger] = true;

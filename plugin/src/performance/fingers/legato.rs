@@ -42,10 +42,20 @@ impl Fingers {
                 let force = holding.min(self.force());
                 at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.0 });
             }
-            (None, Some(old)) => at.does(lifting(old.slot, old.touch, QUICK_LIFT)),
+            (None, Some(old)) => at.does(old.gives_way()),
             (None, None) => {}
         }
         self.come_down(fret, HAMMER_SPEED.0 + HAMMER_SPEED.1 * strength, at);
+    }
+
+    /// The finger that stops the string leaves, for another to strike it; `false` if there is none. What damps the
+    /// string stays until then.
+    pub(crate) fn let_up(&mut self, at: &mut Moment<impl GestureSink>) -> bool {
+        let leaving = [self.fretting.take(), self.anchor.take()];
+        for finger in leaving.into_iter().flatten() {
+            at.does(finger.gives_way());
+        }
+        leaving[0].is_some()
     }
 
     /// The finger that sounds plucks the string as it leaves, how hard, 0 to 1; one behind it, or the nut,
@@ -65,13 +75,13 @@ impl Fingers {
             }
             // The slot of an anchor elsewhere is the one that the new finger takes.
             _ if fret > self.capo[1] => self.come_down(fret, BEHIND_SPEED, at),
-            Some(anchor) => at.does(lifting(anchor.slot, anchor.touch, QUICK_LIFT)),
+            Some(anchor) => at.does(anchor.gives_way()),
             None => {}
         }
         let (part, duration) = PULL_OFF;
         let force = part * strength * self.hands.pluck_force;
         at.does(Gesture::Pluck { position: self.pressed(&old), force, duration });
-        at.does(lifting(old.slot, old.touch, QUICK_LIFT));
+        at.does(old.gives_way());
     }
 
     /// Throws a finger at the string behind a fret.

@@ -36,7 +36,9 @@ impl Fingers {
         let sounding = self.sounding_length();
         let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
         let (touch, force) = field.matched(times);
-        let finger = self.next_slot;
+        // Where another finger has just stopped the string, the next slot is the one of the finger before it, which
+        // is still on its way up; the dampers are not.
+        let finger = if self.fretting.is_some() { LIGHT } else { self.next_slot };
         self.light = Some(finger);
         at.does(Gesture::Place { finger, touch, position, clearance: 0.0 });
         at.does(Gesture::Press { finger, force, duration: PALM_LANDING });
@@ -44,8 +46,14 @@ impl Fingers {
 
     /// The light finger goes.
     pub(crate) fn leave_node(&mut self, at: &mut Moment<impl GestureSink>) {
+        self.lift_light(NODE_LIFT, at);
+    }
+
+    /// Lifts a light finger, if there is one.
+    pub(super) fn lift_light(&mut self, manner: Leaving, at: &mut Moment<impl GestureSink>) {
         if let Some(slot) = self.light.take() {
-            at.does(lifting(slot, self.hands.damper.touch, NODE_LIFT));
+            at.does(lifting(slot, self.hands.damper.touch, manner));
+            self.departing = Some((slot, at.after(LINGERING * manner.turning)));
         }
     }
 

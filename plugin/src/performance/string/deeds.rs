@@ -23,6 +23,11 @@ pub(super) enum Deed {
     Strike(Struck),
     /// A stroke of a tremolo, back and forth, with the next one to follow.
     Tremolo(Struck),
+    /// A finger strikes the string behind a fret, how hard, 0 to 1.
+    Tap {
+        fret: usize,
+        strength: f64,
+    },
     /// The light finger leaves its node.
     LeaveNode,
     /// The thumb bounces off.
@@ -41,6 +46,13 @@ impl Deeds {
     pub(super) fn plan(&mut self, time: u64, deed: Deed) {
         if let Some(free) = self.0.iter_mut().find(|deed| deed.is_none()) {
             *free = Some((time, deed));
+        }
+    }
+
+    /// A finger that was to strike does not.
+    pub(super) fn forget_tap(&mut self) {
+        for deed in &mut self.0 {
+            *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Tap { .. }));
         }
     }
 
@@ -76,6 +88,7 @@ impl StringPlayer {
                 self.strike(struck, 0.0, at);
                 self.deeds.plan(at.after(1.0 / self.tremolo).max(at.time + 1), Deed::Tremolo(struck));
             }
+            Some(Deed::Tap { fret, strength }) => self.fingers.hammer(fret, strength, at),
             Some(Deed::LeaveNode) => self.fingers.leave_node(at),
             Some(Deed::Bounce) => self.fingers.bounce(at),
             Some(Deed::Graze) => {

@@ -26,6 +26,7 @@ impl StringPlayer {
             }
         }
         self.begin(time, &start, strength);
+        self.deeds.forget_tap();
         let (slide, bar) = self.note.map_or((None, false), |note| (note.slide, note.bar));
         let mut at = self.moment(time, out);
         self.fingers.press(start.manner.pressure, &mut at);
@@ -50,6 +51,7 @@ impl StringPlayer {
         let (Some(back), Some(from)) = (self.under[latest].take(), self.note) else { return false };
         self.note = Some(Note { since: time, pressed_again: None, ..back });
         self.bend.begin(back.channel);
+        self.deeds.forget_tap();
         let mut at = self.moment(time, out);
         self.fingers.change(back.fret, from.slide, from.bar, from.strength, &mut at);
         self.bend.tune(time, 0.0);
