@@ -7,7 +7,7 @@ use crate::response::Row;
 /// One active contact.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Active {
-    /// Index of its force history: contacts first, then fingers.
+    /// Its index: contacts first, then fingers.
     pub slot: usize,
     /// The string under it at n + 1.
     pub reading: Reading,
@@ -33,6 +33,8 @@ pub(crate) struct Active {
     pub mobility: f64,
     /// z = (hgᵀv)·sign.
     pub pull: f64,
+    /// The change of penetration that is expected, m: where the solution begins.
+    pub expected: f64,
     /// The force found, N.
     pub force: f64,
     /// The change of penetration, m.

@@ -6,8 +6,9 @@ use crate::drive::Drive;
 use crate::kernel::Products;
 use crate::model::Model;
 use crate::response::ONE_BLOCK;
+use crate::skyline::draw;
 use crate::solver::{Convergence, EnergyScale};
-use crate::state::{ForceHistory, State};
+use crate::state::State;
 use crate::string::{Scratch, pull};
 
 /// Where rounding of the forces moves the string so much that the energy is off by more than this part of the
@@ -33,6 +34,7 @@ impl State {
     ) {
         if !drive.heights.is_empty() && !resting {
             self.heights_next.copy_from_slice(&drive.heights);
+            draw(&model.grid, &model.contacts, &self.heights_next, &mut self.skyline);
             self.settling = 2;
         }
         let free_pull = pull(model, products);
@@ -40,7 +42,7 @@ impl State {
         self.find_fixed(model, free_pull, scratch);
         self.find_fingers(model, drive, free_pull, resting, scratch);
         let mut created = 0.0;
-        let moved = loop {
+        loop {
             let mut largest = 0.0;
             scratch.tried = 0.0;
             if scratch.active.is_empty() {
@@ -72,16 +74,15 @@ impl State {
                 }
             }
             let before = scratch.active.len();
-            let moved = self.find_missed(model, drive, largest, free_pull, scratch);
+            self.find_missed(model, largest, free_pull, scratch);
             if scratch.active.len() == before {
-                break moved;
+                break;
             }
             // Something was driven into a contact that was not in the solution: take the forces back
             // and solve again with it.
             convergence.repeats += 1;
             self.take_back(before, free_pull, scratch);
-        };
-        self.watch.go(moved);
+        }
         convergence.active = scratch.active.len() as u32;
         self.solver_balance = (self.solver_balance + created).max(0.0);
         self.finish(model, scratch);
@@ -93,6 +94,7 @@ impl State {
     fn recentre(&self, scratch: &mut Scratch) -> f64 {
         for active in &mut scratch.active {
             active.base = active.force;
+            active.expected = active.change;
             let moved = active.sign * active.reading.of(&scratch.motion);
             active.centre = -(moved + active.rest + active.own_mobility * active.base);
         }
@@ -107,6 +109,7 @@ impl State {
             let at = active.reading.first;
             scratch.prediction[at..at + 4].copy_from_slice(&active.saved);
             active.base = 0.0;
+            active.expected = active.change;
         }
         for index in 0..count {
             let free = scratch.free_motion(&scratch.active[index].reading, free_pull);
@@ -132,15 +135,11 @@ impl State {
         EnergyScale { present, credit }
     }
 
-    /// Moves fingers by their forces, and keeps forces and heights for the next step.
+    /// Moves fingers by their forces, and keeps heights for the next step.
     fn finish(&mut self, model: &Model, scratch: &mut Scratch) {
         scratch.solver.aside.clear();
         let contacts = model.contacts.len();
         for active in &scratch.active {
-            let history = &mut self.forces[active.slot];
-            let known = history.step == self.steps;
-            let (before, earlier) = if known { (history.last, history.before) } else { (0.0, 0.0) };
-            *history = ForceHistory { last: active.force, before, earlier, step: self.steps + 1 };
             if let Some(slot) = active.slot.checked_sub(contacts)
                 && let (Some(finger), Some(old)) = (&mut self.fingers[slot], &scratch.fingers[slot])
             {

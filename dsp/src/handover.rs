@@ -177,8 +177,7 @@ impl State {
         self.take_over_heights(model, old, old_model, same_grid);
         self.heights_next.copy_from_slice(&self.heights);
         self.settling = 2;
-        self.forces.fill(Default::default());
-        self.watch.forget();
+        self.look_at_all(model);
     }
 
     /// Puts every contact that was in touch where it is just as deep in touch, and every other one under

@@ -332,6 +332,33 @@ fn advance<S: Simd, const STRETCH: bool>(
     lanes.iter().fold(0.0f64, |a, &b| a.max(b))
 }
 
+/// Groups of points no higher than `margin` over a skyline.
+#[inline(always)]
+fn near<S: Simd>(
+    simd: S,
+    unknowns: usize,
+    u: &[f64],
+    skyline: &[f64],
+    margin: f64,
+    found: &mut Vec<u32>,
+) {
+    // Beyond the unknowns there is nothing to be near.
+    let count = unknowns.div_ceil(LANES);
+    let margin = simd.splat_f64s(margin);
+    let points = groups(u, FIRST, count).iter().zip(groups(skyline, FIRST, count));
+    found.clear();
+    for (group, (u, top)) in (0..).zip(points) {
+        let (u, top) = (split::<S>(u), split::<S>(top));
+        let mut least = simd.sub_f64s(u[0], top[0]);
+        for part in 1..vectors::<S>() {
+            least = simd.min_f64s(least, simd.sub_f64s(u[part], top[part]));
+        }
+        if simd.first_true_m64s(simd.less_than_or_equal_f64s(least, margin)) < S::F64_LANES {
+            found.push(group);
+        }
+    }
+}
+
 /// The passes of one model, on the widest instruction set of this machine.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kernel {
@@ -420,6 +447,21 @@ impl Kernel {
     }
 }
 
+impl Kernel {
+    /// Puts the groups of [`LANES`] points that are no higher than `margin`, m, over a skyline into `found`, which has
+    /// room for all.
+    pub fn near(
+        &self,
+        unknowns: usize,
+        u: &[f64],
+        skyline: &[f64],
+        margin: f64,
+        found: &mut Vec<u32>,
+    ) {
+        self.arch.dispatch(Near { unknowns, u, skyline, margin, found });
+    }
+}
+
 /// The passes of a prediction, to be compiled for each instruction set.
 struct Predict<'a, const REACH: usize, const STRETCH: bool, const LOSS: bool> {
     unknowns: usize,
@@ -461,6 +503,24 @@ impl<const STRETCH: bool> WithSimd for Advance<'_, STRETCH> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         advance::<S, STRETCH>(simd, self.unknowns, self.pull, self.from, self.d_next, self.u_next)
+    }
+}
+
+/// The look at the skyline, likewise.
+struct Near<'a> {
+    unknowns: usize,
+    u: &'a [f64],
+    skyline: &'a [f64],
+    margin: f64,
+    found: &'a mut Vec<u32>,
+}
+
+impl WithSimd for Near<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        near(simd, self.unknowns, self.u, self.skyline, self.margin, self.found);
     }
 }
 

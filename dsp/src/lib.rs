@@ -92,12 +92,12 @@ pub mod scene;
 pub mod settings;
 pub mod setup;
 pub mod simulation;
+mod skyline;
 mod solver;
 pub mod state;
 pub mod string;
 mod touching;
 mod voice;
-mod watch;
 
 pub use drive::Drive;
 pub use energy::{Energies, Entry, Ledger};

@@ -5,6 +5,7 @@ use crate::curve::{CountOrList, Curve, OneOrEach};
 use crate::error::{Error, plain};
 use crate::grid::{Grid, Reading};
 use crate::scene::{FretPlacement, FretboardSpec, SolverSettings, Stencil, StringSpec};
+use crate::skyline::Blocks;
 
 /// The physical numbers of one string.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -227,6 +228,8 @@ pub struct Model {
     pub(crate) inverse_s: f64,
     /// k²/(ρhs): displacement in one step per newton at a grid point, m/N.
     pub(crate) mobility: f64,
+    /// The contacts beside each group of grid points.
+    pub(crate) blocks: Blocks,
     /// k²EA/(4ρLh³s), the strength of tension modulation in units of undivided second differences.
     pub(crate) stretch: f64,
 }
@@ -265,7 +268,19 @@ impl Model {
             contact.law = conditioned("fretboard.stiffness", contact.law, mobility)?;
         }
         let string = StringParameters { loss_0, ..string };
-        Ok(Model { grid, string, settings, contacts, finger_slots, decay, inverse_s, mobility, stretch })
+        let blocks = Blocks::new(&grid, &contacts);
+        Ok(Model {
+            grid,
+            string,
+            settings,
+            contacts,
+            finger_slots,
+            decay,
+            inverse_s,
+            mobility,
+            blocks,
+            stretch,
+        })
     }
 
     /// The finest grid on which the scheme is stable up to the tension limit.

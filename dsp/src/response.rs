@@ -6,7 +6,7 @@
 //! contacts make one block that holds everything.
 
 use nalgebra::linalg::Cholesky;
-use nalgebra::{DVectorViewMut, Dyn, OMatrix, SMatrix, SVector, VecStorage};
+use nalgebra::{DVectorViewMut, Dyn, OMatrix, VecStorage};
 
 use crate::solver::Answer;
 
@@ -35,9 +35,10 @@ pub(crate) struct Response {
     /// z and its factor ω ≥ 0; 0 when it is inside the only block.
     pull: Vec<f64>,
     pull_factor: f64,
-    /// Room for one block's matrix, and for z scaled.
+    /// Room for one block's matrix and roots, and for what springs make of z.
     matrix: Vec<f64>,
-    scaled_pull: Vec<f64>,
+    roots: Vec<f64>,
+    pulled: Vec<f64>,
 }
 
 /// Splits contacts in order of place into the shortest runs that share no grid points. A wide contact may
@@ -114,7 +115,8 @@ impl Response {
             pull: Vec::with_capacity(all),
             pull_factor: 0.0,
             matrix: Vec::with_capacity(largest * largest),
-            scaled_pull: Vec::with_capacity(all),
+            roots: Vec::with_capacity(largest),
+            pulled: Vec::with_capacity(all),
         }
     }
 
@@ -169,40 +171,38 @@ impl Answer for Response {
         }
     }
 
-    fn solve(&mut self, roots: &[f64], y: &mut [f64]) {
+    fn springs(&mut self, slopes: &[f64], x: &mut [f64]) {
         for index in 0..self.blocks.len() {
-            self.solve_block(self.blocks[index], roots, y);
+            self.springs_of_block(self.blocks[index], slopes, x);
         }
         if self.pull_factor > 0.0 {
-            // Sherman–Morrison on 1 + √D(S + D)√D − ω t tᵀ with t = √D z.
-            let mut t = std::mem::take(&mut self.scaled_pull);
-            t.clear();
-            t.extend(self.pull.iter().zip(roots).map(|(z, root)| z * root));
-            let along: f64 = t.iter().zip(y.iter()).map(|(t, y)| t * y).sum();
+            // Sherman–Morrison on 1 + D(S + own) − ω D z zᵀ.
+            let mut pulled = std::mem::take(&mut self.pulled);
+            pulled.clone_from(&self.pull);
+            let along = dot(&self.pull, x);
             for index in 0..self.blocks.len() {
-                self.solve_block(self.blocks[index], roots, &mut t);
+                self.springs_of_block(self.blocks[index], slopes, &mut pulled);
             }
-            let against: f64 = t.iter().zip(&self.pull).zip(roots).map(|((t, z), root)| t * (z * root)).sum();
-            let factor = self.pull_factor * along / (1.0 - self.pull_factor * against);
-            for (y, t) in y.iter_mut().zip(&t) {
-                *y += factor * t;
+            let factor = self.pull_factor * along / (1.0 - self.pull_factor * dot(&self.pull, &pulled));
+            for (x, pulled) in x.iter_mut().zip(&pulled) {
+                *x += factor * pulled;
             }
-            self.scaled_pull = t;
+            self.pulled = pulled;
         }
     }
 }
 
 impl Response {
-    fn solve_block(&mut self, block: Block, roots: &[f64], y: &mut [f64]) {
+    fn springs_of_block(&mut self, block: Block, slopes: &[f64], x: &mut [f64]) {
         let range = block.start..block.start + block.len;
-        let (roots, y) = (&roots[range.clone()], &mut y[range]);
+        let (slopes, x) = (&slopes[range.clone()], &mut x[range]);
         let entries = &self.entries[block.offset..][..block.len * block.len];
         match block.len {
-            1 => y[0] /= 1.0 + roots[0] * entries[0] * roots[0],
-            2 => solve_fixed::<2>(entries, roots, y),
-            3 => solve_fixed::<3>(entries, roots, y),
-            4 => solve_fixed::<4>(entries, roots, y),
-            _ => solve_any(&mut self.matrix, entries, roots, y),
+            1 => springs_of_few::<1>(|_, _| entries[0], slopes, x),
+            2 => springs_of_few::<2>(|i, j| entries[2 * i + j], slopes, x),
+            3 => springs_of_few::<3>(|i, j| entries[3 * i + j], slopes, x),
+            4 => springs_of_few::<4>(|i, j| entries[4 * i + j], slopes, x),
+            _ => springs_of_any(&mut self.matrix, &mut self.roots, entries, slopes, x),
         }
     }
 }
@@ -238,82 +238,80 @@ impl<const N: usize> Answer for Few<N> {
     }
 
     #[inline(always)]
-    fn solve(&mut self, roots: &[f64], y: &mut [f64]) {
-        if N == 1 {
-            y[0] /= 1.0 + roots[0] * self.entries[0][0] * roots[0];
-        } else {
-            solve_few(&self.entries, roots, y);
-        }
+    fn springs(&mut self, slopes: &[f64], x: &mut [f64]) {
+        springs_of_few::<N>(|i, j| self.entries[i][j], slopes, x);
     }
 }
 
-/// 1 + √D M √D at (i, j).
-#[inline(always)]
-fn scaled(entries: &[f64], roots: &[f64], i: usize, j: usize) -> f64 {
-    let entry = roots[i] * entries[i * roots.len() + j] * roots[j];
-    if i == j { 1.0 + entry } else { entry }
-}
-
-/// Solves (1 + √D M √D) y = y₀ by L Λ Lᵀ without roots or pivots, which needs none where all eigenvalues are at
-/// least 1. (For so few unknowns a general factorisation takes three times as many instructions.)
+/// Solves (1 + D M) x = D g by elimination without pivots. None are needed: where a slope is 0 its row is done, and
+/// the others are those of the positive D⁻¹ + M, scaled, so that every pivot is at least 1. (For so few unknowns a
+/// general factorisation takes three times as many instructions.)
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "indices are how the formulas are written")]
-fn solve_few<const N: usize>(entries: &[[f64; N]; N], roots: &[f64], y: &mut [f64]) {
+fn springs_of_few<const N: usize>(entry: impl Fn(usize, usize) -> f64, slopes: &[f64], x: &mut [f64]) {
     let mut matrix = [[0.0; N]; N];
     for i in 0..N {
-        for j in 0..i {
-            matrix[i][j] = roots[i] * entries[i][j] * roots[j];
+        for j in 0..N {
+            matrix[i][j] = slopes[i] * entry(i, j);
         }
-        matrix[i][i] = 1.0 + roots[i] * entries[i][i] * roots[i];
+        matrix[i][i] += 1.0;
+        x[i] *= slopes[i];
     }
     let mut inverses = [0.0; N];
-    let mut factors = [[0.0; N]; N];
     for j in 0..N {
         inverses[j] = 1.0 / matrix[j][j];
         for i in j + 1..N {
-            factors[i][j] = matrix[i][j] * inverses[j];
-            for k in j + 1..=i {
-                matrix[i][k] -= factors[i][j] * matrix[k][j];
+            let factor = matrix[i][j] * inverses[j];
+            for k in j + 1..N {
+                matrix[i][k] -= factor * matrix[j][k];
             }
-            y[i] -= factors[i][j] * y[j];
+            x[i] -= factor * x[j];
         }
     }
     for j in (0..N).rev() {
-        y[j] *= inverses[j];
-        for i in j + 1..N {
-            y[j] -= factors[i][j] * y[i];
+        for k in j + 1..N {
+            x[j] -= matrix[j][k] * x[k];
         }
+        x[j] *= inverses[j];
     }
 }
 
-#[inline(always)]
-fn solve_fixed<const N: usize>(entries: &[f64], roots: &[f64], y: &mut [f64]) {
-    let matrix = SMatrix::<f64, N, N>::from_fn(|i, j| scaled(entries, roots, i, j));
-    // Eigenvalues are at least 1: only overflow can make the factorisation fail.
-    if let Some(factor) = matrix.cholesky() {
-        let solution = factor.solve(&SVector::<f64, N>::from_column_slice(y));
-        y.copy_from_slice(solution.as_slice());
-    }
-}
-
-/// The same for any size, in memory that is lent to nalgebra and taken back, so nothing is allocated.
-fn solve_any(room: &mut Vec<f64>, entries: &[f64], roots: &[f64], y: &mut [f64]) {
-    let n = roots.len();
+/// The same for any size: x = √D y with (1 + √D M √D) y = √D g, which is symmetric. Memory is lent to nalgebra and
+/// taken back, so nothing is allocated.
+fn springs_of_any(
+    room: &mut Vec<f64>,
+    roots: &mut Vec<f64>,
+    entries: &[f64],
+    slopes: &[f64],
+    x: &mut [f64],
+) {
+    let n = slopes.len();
+    roots.clear();
+    roots.extend(slopes.iter().map(|slope| slope.sqrt()));
     let mut data = std::mem::take(room);
     data.clear();
     for j in 0..n {
-        data.extend((0..n).map(|i| scaled(entries, roots, i, j)));
+        data.extend((0..n).map(|i| {
+            let entry = roots[i] * entries[i * n + j] * roots[j];
+            if i == j { 1.0 + entry } else { entry }
+        }));
     }
+    x.iter_mut().zip(&*roots).for_each(|(x, root)| *x *= root);
     let storage = VecStorage::new(Dyn(n), Dyn(n), data);
     let matrix = OMatrix::<f64, Dyn, Dyn>::from_data(storage);
     match Cholesky::new(matrix) {
         Some(factor) => {
-            factor.solve_mut(&mut DVectorViewMut::from_slice(y, n));
+            factor.solve_mut(&mut DVectorViewMut::from_slice(x, n));
             *room = factor.unpack_dirty().data.into();
         }
         // Overflow only; the caller's energy test then falls back on a stiffer secant.
         None => *room = Vec::new(),
     }
+    x.iter_mut().zip(&*roots).for_each(|(x, root)| *x *= root);
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

@@ -50,8 +50,9 @@ pub(crate) struct Solver {
 pub(crate) trait Answer {
     /// out = M x.
     fn product(&self, x: &[f64], out: &mut [f64]);
-    /// Solves (1 + √D M √D) y = y₀ in place, `roots` being the diagonal of √D.
-    fn solve(&mut self, roots: &[f64], y: &mut [f64]);
+    /// The forces x = D(g − M x) of springs of these slopes D, were the penetrations g without them. In place: g
+    /// goes in, x comes out.
+    fn springs(&mut self, slopes: &[f64], x: &mut [f64]);
 }
 
 /// The arrays of one solution, each with a number for each contact.
@@ -59,7 +60,7 @@ struct Room<'a> {
     residual: &'a mut [f64],
     step: &'a mut [f64],
     motion: &'a mut [f64],
-    roots: &'a mut [f64],
+    slopes: &'a mut [f64],
     unknown: &'a mut [f64],
     start: &'a mut [f64],
     /// Forces beyond the base.
@@ -75,11 +76,11 @@ impl<'a> Room<'a> {
         let (residual, rest) = numbers.split_at_mut(count);
         let (step, rest) = rest.split_at_mut(count);
         let (motion, rest) = rest.split_at_mut(count);
-        let (roots, rest) = rest.split_at_mut(count);
+        let (slopes, rest) = rest.split_at_mut(count);
         let (unknown, rest) = rest.split_at_mut(count);
         let (start, rest) = rest.split_at_mut(count);
         let (forces, _) = rest.split_at_mut(count);
-        Room { residual, step, motion, roots, unknown, start, forces }
+        Room { residual, step, motion, slopes, unknown, start, forces }
     }
 }
 
@@ -110,7 +111,7 @@ impl Solver {
         }
     }
 
-    /// Solves for the forces of `rows`, starting from those they hold. Returns the energy, J, that the
+    /// Solves for the forces of `rows`, starting from the changes they expect. Returns the energy, J, that the
     /// solution's inexactness gives to the string (negative: takes from it).
     pub fn solve(
         &mut self,
@@ -159,9 +160,7 @@ fn solve(
     Demands { settings, scale }: Demands,
     convergence: &mut Convergence,
 ) -> f64 {
-    for (start, row) in room.start.iter_mut().zip(rows.iter()) {
-        *start = row.force - row.base;
-    }
+    begin(rows, answer, &mut room);
     place(rows, answer, &mut room, 0.0);
     let work_tolerance = WORK_TOLERANCE.max(WORK_PER_METRE * settings.tolerance) * scale.present;
     let mut iterations = 0;
@@ -201,6 +200,27 @@ fn solve(
         row.force = row.base + *force;
     }
     gain
+}
+
+/// Forces from which to start, were each law a straight line from the change of penetration that is expected on.
+///
+/// (Penetrations run smoothly from sample to sample. Forces of stiff contacts do not: continued from the samples
+/// before, they take twice as many iterations.)
+#[inline(always)]
+fn begin(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) {
+    for (i, row) in rows.iter_mut().enumerate() {
+        row.evaluate(row.expected);
+        room.start[i] = row.required - row.base;
+        room.slopes[i] = row.slope;
+    }
+    answer.product(room.start, room.motion);
+    for (i, row) in rows.iter().enumerate() {
+        room.unknown[i] = row.centre - room.motion[i] - row.expected;
+    }
+    answer.springs(room.slopes, room.unknown);
+    for (start, more) in room.start.iter_mut().zip(&*room.unknown) {
+        *start += more;
+    }
 }
 
 /// Whether the iteration still gets somewhere.
@@ -244,16 +264,16 @@ fn place(rows: &mut [Active], answer: &impl Answer, room: &mut Room, t: f64) {
 }
 
 /// The step δ of Newton's method from the residual R and M R, which stand in `residual` and `motion`:
-/// (1 + √D M √D) y = −√D M R, δ = R + √D y.
+/// δ = R − D M δ, so δ = R + x with x = D(−M R − M x).
 #[inline(always)]
 fn newton_direction(rows: &[Active], answer: &mut impl Answer, room: &mut Room) {
     for (i, row) in rows.iter().enumerate() {
-        room.roots[i] = row.slope.sqrt();
-        room.unknown[i] = -room.roots[i] * room.motion[i];
+        room.slopes[i] = row.slope;
+        room.unknown[i] = -room.motion[i];
     }
-    answer.solve(room.roots, room.unknown);
+    answer.springs(room.slopes, room.unknown);
     for i in 0..rows.len() {
-        room.step[i] = room.residual[i] + room.roots[i] * room.unknown[i];
+        room.step[i] = room.residual[i] + room.unknown[i];
     }
 }
 

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::gesture::Touch;
 use crate::grid::{NUT, Reading};
 use crate::model::Model;
-use crate::watch::Watch;
+use crate::skyline::draw;
 
 /// A finger near the string.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,19 +27,6 @@ pub struct Finger {
     pub reading_before: Reading,
 }
 
-/// The last forces of a contact, from which the next solution starts.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct ForceHistory {
-    /// Force in step `step`, N.
-    pub last: f64,
-    /// Force in the step before, N.
-    pub before: f64,
-    /// Force in the step before that, N.
-    pub earlier: f64,
-    /// One more than the index of the last step in which the contact was active; 0 for never.
-    pub step: u64,
-}
-
 /// The state of one string, its fingers and its contacts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
@@ -58,9 +45,10 @@ pub struct State {
     pub(crate) settling: u8,
     /// How often a finger has been placed or removed.
     pub(crate) finger_changes: u64,
-    /// Last forces, by contact, then by finger.
-    pub(crate) forces: Vec<ForceHistory>,
-    pub(crate) watch: Watch,
+    /// The highest of the fixed contacts beside each grid point, m, by `heights_next`.
+    pub(crate) skyline: Vec<f64>,
+    /// Fixed contacts to be looked at in the next step, in order: those that are touched or near.
+    pub(crate) close: Vec<u32>,
     /// Number of steps taken.
     pub(crate) steps: u64,
     /// Energy that inexact solutions have put in and not yet taken out again, J; kept tiny.
@@ -75,7 +63,7 @@ impl State {
     pub fn new(model: &Model) -> State {
         let heights: Vec<f64> = model.contacts.iter().map(|contact| contact.height).collect();
         let contacts = heights.len();
-        State {
+        let mut state = State {
             displacement: vec![0.0; model.grid.padded_len()],
             motion: vec![0.0; model.grid.padded_len()],
             fingers: vec![None; model.finger_slots],
@@ -84,13 +72,15 @@ impl State {
             heights,
             settling: 0,
             finger_changes: 0,
-            forces: vec![ForceHistory::default(); contacts + model.finger_slots],
-            watch: Watch::new(contacts),
+            skyline: vec![0.0; model.grid.padded_len()],
+            close: Vec::with_capacity(contacts),
             steps: 0,
             solver_balance: 0.0,
             energy_scale: 0.0,
             interior: model.grid.unknowns(),
-        }
+        };
+        state.look_at_all(model);
+        state
     }
 
     /// Back to rest, without allocating.
@@ -105,8 +95,7 @@ impl State {
         self.heights_next.copy_from_slice(&self.heights);
         self.settling = 0;
         self.finger_changes = 0;
-        self.forces.fill(ForceHistory::default());
-        self.watch.forget();
+        self.look_at_all(model);
         self.steps = 0;
         self.solver_balance = 0.0;
         self.energy_scale = 0.0;
@@ -118,7 +107,14 @@ impl State {
             self.displacement[NUT + node] = shape.at(model.grid.place(node));
         }
         self.motion.fill(0.0);
-        self.watch.forget();
+        self.look_at_all(model);
+    }
+
+    /// Has every fixed contact looked at in the next step, at its present height.
+    pub(crate) fn look_at_all(&mut self, model: &Model) {
+        draw(&model.grid, &model.contacts, &self.heights_next, &mut self.skyline);
+        self.close.clear();
+        self.close.extend((0..).zip(&model.contacts).map(|(index, _)| index));
     }
 
     /// Displacement of the interior points u₁ … u_{N−1}, m.
@@ -172,7 +168,6 @@ impl State {
         let finger = Finger { touch, law, height, motion, position, reading, reading_before: reading };
         self.fingers[slot] = Some(finger);
         self.finger_changes += 1;
-        self.forces[model.contacts.len() + slot] = ForceHistory::default();
         Ok(())
     }
 

@@ -2,8 +2,10 @@
 
 use crate::active::Active;
 use crate::drive::Drive;
+use crate::grid::LANES;
 use crate::kernel::{Kernel, Products, Weights};
 use crate::model::{Model, Stiffness};
+use crate::skyline::SAG;
 use crate::solver::{Convergence, Solver};
 use crate::state::{Finger, State};
 
@@ -24,8 +26,10 @@ pub struct Scratch {
     pub(crate) solver: Solver,
     /// The contacts active in the last step, with their forces.
     pub(crate) active: Vec<Active>,
-    /// The step in which each contact or finger was last solved for, one more than its index.
+    /// The step in which each contact was last solved for, one more than its index.
     pub(crate) held: Vec<u64>,
+    /// Groups of grid points near the skyline.
+    pub(crate) groups: Vec<u32>,
     /// Sum of the sizes of all forces that led to those found, N.
     pub(crate) tried: f64,
     /// Fingers before the last step.
@@ -50,7 +54,8 @@ impl Scratch {
             displacement: grid(),
             solver: Solver::with_capacity(&spans, model.finger_slots),
             active: Vec::with_capacity(contacts),
-            held: vec![0; contacts],
+            held: vec![0; model.contacts.len()],
+            groups: Vec::with_capacity(model.grid.unknowns().div_ceil(LANES)),
             tried: 0.0,
             fingers: vec![None; model.finger_slots],
         }
@@ -70,6 +75,18 @@ impl Scratch {
         self.fingers.fill(None);
         self.motion.fill(0.0);
         self.displacement.fill(0.0);
+    }
+
+    /// Finds the groups of grid points that have come within `near`, m, of a skyline, or the string between them has.
+    /// None has moved by more than `largest`, m. Returns how low over the skyline points are of which that can be, m.
+    #[inline(always)]
+    pub(crate) fn find_near(&mut self, model: &Model, skyline: &[f64], near: f64, largest: f64) -> f64 {
+        // Second differences of u are those of uⁿ, none larger than the root of the sum of their squares, and of d.
+        let squares =
+            if model.stretch > 0.0 { self.products.curvature } else { 2.0 * self.products.steepness };
+        let margin = near + SAG * (squares.sqrt() + 4.0 * largest);
+        self.kernel.near(model.grid.unknowns(), &self.displacement, skyline, margin, &mut self.groups);
+        margin
     }
 
     /// The stiffness of the last step.

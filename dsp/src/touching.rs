@@ -5,6 +5,7 @@ use crate::contact::Before;
 use crate::drive::Drive;
 use crate::grid::{READING_NORM, Reading};
 use crate::model::{Model, STEEPEST};
+use crate::skyline::lowest;
 use crate::state::State;
 use crate::string::Scratch;
 
@@ -16,16 +17,15 @@ impl Scratch {
     }
 }
 
+/// How far ahead contacts are looked for, in steps of the size of the last one: all that touch the string at n − 1 or n
+/// are within one, and most that will at n + 1 within two. What is driven farther is found when it has been.
+const AHEAD: f64 = 2.0;
+
 impl State {
     /// Adds the fixed contacts that touched the string at n − 1 or, as predicted, will at n + 1.
-    pub(crate) fn find_fixed(&mut self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
-        let ahead = self.watch.ahead();
-        self.watch.look(ahead);
-        for position in 0..self.watch.near().len() {
-            let index = self.watch.near()[position] as usize;
-            if !self.watch.is_due(index, ahead) {
-                continue;
-            }
+    pub(crate) fn find_fixed(&self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
+        for &index in &self.close {
+            let index = index as usize;
             let reading = &model.contacts[index].reading;
             let now = reading.of(&self.displacement);
             let before = self.heights_before[index] - (now - reading.of(&self.motion));
@@ -33,8 +33,6 @@ impl State {
             let after = self.heights_next[index] - (now + free);
             if before > 0.0 || after > 0.0 {
                 self.activate(model, index, before, free, scratch);
-            } else {
-                self.watch.note(index, now - self.heights[index]);
             }
         }
     }
@@ -44,7 +42,8 @@ impl State {
     fn activate(&self, model: &Model, index: usize, before: f64, free: f64, scratch: &mut Scratch) {
         let contact = &model.contacts[index];
         let raised = self.heights_next[index] - self.heights_before[index];
-        let rest = contact.reading.of(&self.motion) - raised;
+        let motion = contact.reading.of(&self.motion);
+        let rest = motion - raised;
         scratch.held[index] = self.steps + 1;
         scratch.active.push(Active {
             slot: index,
@@ -60,26 +59,14 @@ impl State {
             own_mobility: 0.0,
             mobility: model.mobility,
             pull: contact.reading.of(&scratch.curvature),
-            force: self.start_force(index),
+            expected: raised - 2.0 * motion,
+            force: 0.0,
             change: 0.0,
             lambda: 0.0,
             required: 0.0,
             slope: 0.0,
             saved: contact.reading.window(&scratch.prediction),
         });
-    }
-
-    /// Forces of the last three steps, continued by a parabola where they lie on one, otherwise by a line.
-    #[inline(always)]
-    fn start_force(&self, slot: usize) -> f64 {
-        let history = &self.forces[slot];
-        if history.step != self.steps {
-            return 0.0;
-        }
-        let slope = history.last - history.before;
-        let bend = slope - (history.before - history.earlier);
-        let bend = if bend.abs() <= slope.abs() { bend } else { 0.0 };
-        (history.last + slope + bend).max(0.0)
     }
 
     /// Moves every finger as if it were free, and adds those that touch the string at n − 1, n or, as
@@ -144,7 +131,8 @@ impl State {
                 own_mobility,
                 mobility: model.mobility,
                 pull: -reading.of(&scratch.curvature),
-                force: self.start_force(model.contacts.len() + slot),
+                expected: 2.0 * (reading_now.of(&self.motion) - motion),
+                force: 0.0,
                 change: 0.0,
                 lambda: 0.0,
                 required: 0.0,
@@ -152,7 +140,6 @@ impl State {
                 saved: reading.window(&scratch.prediction),
             };
             if before > 0.0 || now > 0.0 || after > 0.0 {
-                scratch.held[active.slot] = self.steps + 1;
                 scratch.active.push(active);
             } else {
                 // Not yet in contact: kept aside, to be looked at again when the string has been moved.
@@ -161,52 +148,77 @@ impl State {
         }
     }
 
-    /// Adds every contact that the string at n + 1 overlaps but the solution did not hold. Returns how far the
-    /// string can have moved against any fixed contact, m.
+    /// Adds every contact that the string at n + 1 overlaps but the solution did not hold, and keeps those that it
+    /// may touch in the next step. No grid point has moved by more than `largest`, m.
     pub(crate) fn find_missed(
         &mut self,
         model: &Model,
-        drive: &Drive,
         largest: f64,
         free_pull: f64,
         scratch: &mut Scratch,
-    ) -> f64 {
+    ) {
         let held = scratch.active.len();
-        for index in 0..scratch.solver.aside.len() {
-            let finger = scratch.solver.aside[index];
+        let mut position = 0;
+        while let Some(finger) = scratch.solver.aside.get(position) {
             let height = self.fingers[finger.slot - model.contacts.len()].map_or(0.0, |f| f.height);
-            let overlaps = finger.reading.of(&scratch.displacement) - height > 0.0;
-            if overlaps && scratch.held[finger.slot] != self.steps + 1 {
-                scratch.held[finger.slot] = self.steps + 1;
-                scratch.active.push(finger);
+            if finger.reading.of(&scratch.displacement) - height > 0.0 {
+                scratch.active.push(scratch.solver.aside.remove(position));
+            } else {
+                position += 1;
             }
         }
-        let lifted = if drive.heights.is_empty() {
-            0.0
-        } else {
-            let lifts = self.heights_next.iter().zip(&self.heights).map(|(next, now)| (next - now).abs());
-            lifts.fold(0.0f64, f64::max)
-        };
-        let moved = READING_NORM * largest + lifted;
-        let way = self.watch.after(moved);
-        self.watch.look(way);
-        for position in 0..self.watch.near().len() {
-            let index = self.watch.near()[position] as usize;
-            if self.watch.is_due(index, way) && scratch.held[index] != self.steps + 1 {
-                self.add_missed(model, index, held, free_pull, scratch);
-            }
-        }
-        moved
-    }
-
-    fn add_missed(&self, model: &Model, index: usize, held: usize, free_pull: f64, scratch: &mut Scratch) {
-        let reading = &model.contacts[index].reading;
-        let overlap = self.heights_next[index] - reading.of(&scratch.displacement);
-        // Written so that a string that is not a number counts as clear.
-        let overlaps = overlap > 0.0;
-        if !overlaps {
+        if model.contacts.is_empty() {
             return;
         }
+        let near = AHEAD * READING_NORM * largest;
+        let margin = scratch.find_near(model, &self.skyline, near, largest);
+        self.close.clear();
+        let mut next = 0;
+        for position in 0..scratch.groups.len() {
+            let group = scratch.groups[position];
+            let floor = lowest(&scratch.displacement, group) - margin;
+            let block = model.blocks.of(group);
+            for index in block.start.max(next)..block.end {
+                let below = self.heights_next[index as usize] < floor;
+                if !below {
+                    self.look_back(model, index, near, held, free_pull, scratch);
+                }
+            }
+            next = next.max(block.end);
+        }
+    }
+
+    /// Looks at one contact after a step.
+    #[inline(always)]
+    fn look_back(
+        &mut self,
+        model: &Model,
+        index: u32,
+        near: f64,
+        held: usize,
+        free_pull: f64,
+        scratch: &mut Scratch,
+    ) {
+        let at = index as usize;
+        let gap = model.contacts[at].reading.of(&scratch.displacement) - self.heights_next[at];
+        if gap <= near {
+            self.close.push(index);
+            if gap < 0.0 && scratch.held[at] != self.steps + 1 {
+                self.add_missed(model, at, held, free_pull, scratch);
+            }
+        }
+    }
+
+    #[cold]
+    fn add_missed(
+        &self,
+        model: &Model,
+        index: usize,
+        held: usize,
+        free_pull: f64,
+        scratch: &mut Scratch,
+    ) {
+        let reading = &model.contacts[index].reading;
         let before = self.heights_before[index] - (reading.of(&self.displacement) - reading.of(&self.motion));
         // The prediction holds forces by now; the free one is what was saved under them.
         let mut window = reading.window(&scratch.prediction);

@@ -70,15 +70,14 @@ fn fall_back(
     let mut least = f64::INFINITY;
     for attempt in 0..FALLBACKS {
         convergence.fallbacks += 1;
-        // y = (1 + √S M √S)⁻¹ √S(r₀ − Mλ(0)), f = λ(0) + √S y.
+        // x = S(r₀ − Mλ(0) − M x), f = λ(0) + x.
         answer.product(room.start, room.motion);
         for (i, row) in rows.iter().enumerate() {
-            room.roots[i] = room.residual[i].sqrt();
-            room.unknown[i] = room.roots[i] * (row.centre - room.motion[i]);
+            room.unknown[i] = row.centre - room.motion[i];
         }
-        answer.solve(room.roots, room.unknown);
+        answer.springs(room.residual, room.unknown);
         for i in 0..rows.len() {
-            room.forces[i] = room.start[i] + room.roots[i] * room.unknown[i];
+            room.forces[i] = room.start[i] + room.unknown[i];
         }
         let gain = settle(rows, answer, room.forces, room.motion);
         if gain <= 0.0 && (attempt >= EASINGS || bounded(rows, room.forces, 0.0)) {
