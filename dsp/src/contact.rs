@@ -188,7 +188,8 @@ impl ContactLaw {
         let force = self.power(after);
         let energy = force * after.max(0.0) * self.share;
         let lambda = (energy - before.energy) / r;
-        (lambda, ((force - lambda) / r).max(0.0))
+        // (A second division need not wait for the first.)
+        (lambda, ((force - lambda) * (1.0 / r)).max(0.0))
     }
 
     /// The same where the change begins or ends beyond the knee.

@@ -5,7 +5,7 @@
 //! balance 𝔥ⁿ⁺½ − 𝔥ⁿ⁻½ + k(𝔮 − 𝔭) = 0 holds exactly in exact arithmetic, whatever the solver's cap.
 
 use crate::drive::Drive;
-use crate::grid::NUT;
+use crate::grid::{LANES, NUT};
 use crate::model::{Model, Stiffness};
 use crate::state::{Finger, State};
 use crate::string::Scratch;
@@ -248,9 +248,32 @@ fn gross(
     kinetic + per_slope * slope + stretched + contacts + sums + fingers
 }
 
+/// A sum in [`LANES`] parts: rounded a few times less than one after another, which the balance of a sample shows.
+#[derive(Default)]
+struct Sum([f64; LANES]);
+
+impl Sum {
+    #[inline(always)]
+    fn add(&mut self, index: usize, value: f64) {
+        self.0[index % LANES] += value;
+    }
+
+    fn total(&self) -> f64 {
+        let l = &self.0;
+        ((l[0] + l[4]) + (l[1] + l[5])) + ((l[2] + l[6]) + (l[3] + l[7]))
+    }
+}
+
+/// The sum of values, in parts.
+fn sum(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sum = Sum::default();
+    values.enumerate().for_each(|(index, value)| sum.add(index, value));
+    sum.total()
+}
+
 /// Σ of products of neighbours' differences, (δa)ᵀδb over all intervals.
 fn slopes(model: &Model, a: &[f64], b: &[f64]) -> f64 {
-    (NUT..NUT + model.grid.intervals).map(|i| (a[i + 1] - a[i]) * (b[i + 1] - b[i])).sum()
+    sum((NUT..NUT + model.grid.intervals).map(|i| (a[i + 1] - a[i]) * (b[i + 1] - b[i])))
 }
 
 /// The undivided second difference at an interior index.
@@ -261,15 +284,15 @@ fn second(u: &[f64], i: usize) -> f64 {
 
 /// Σ(δ²a)(δ²b) over the unknowns, and Σ(δ³a)(δ³b) over the intervals, δ²u vanishing at both ends.
 fn curvatures(model: &Model, a: &[f64], b: &[f64]) -> (f64, f64) {
-    let (mut second_sum, mut third_sum) = (0.0, 0.0);
+    let (mut second_sum, mut third_sum) = (Sum::default(), Sum::default());
     let (mut a_before, mut b_before) = (0.0, 0.0);
     for i in NUT + 1..NUT + model.grid.intervals {
         let (va, vb) = (second(a, i), second(b, i));
-        second_sum += va * vb;
-        third_sum += (va - a_before) * (vb - b_before);
+        second_sum.add(i, va * vb);
+        third_sum.add(i, (va - a_before) * (vb - b_before));
         (a_before, b_before) = (va, vb);
     }
-    (second_sum, third_sum + a_before * b_before)
+    (second_sum.total(), third_sum.total() + a_before * b_before)
 }
 
 /// Energy of tension, bending and the stencil's correction between two displacements, J.
@@ -289,7 +312,7 @@ fn string_energy(model: &Model, stiffness: &Stiffness, now: &[f64], state: &Stat
     let string = &model.string;
     let (next, motion) = (&state.displacement, &state.motion);
     let slope = slopes(model, now, next);
-    let kinetic: f64 = motion.iter().map(|d| d * d).sum();
+    let kinetic = sum(motion.iter().map(|d| d * d));
     let mut energy = 0.5 * string.linear_density * h / (k * k) * kinetic
         + stiffness_energy(model, stiffness, now, next, slope);
     if string.loss_1 > 0.0 {
@@ -322,17 +345,15 @@ fn string_loss(model: &Model, now: &[f64], next: &[f64]) -> f64 {
     let string = &model.string;
     let mut loss = 0.0;
     if string.loss_0 > 0.0 {
-        let sum: f64 = now.iter().zip(next).map(|(a, b)| (a + b) * (a + b)).sum();
-        loss += 2.0 * string.linear_density * string.loss_0 * h * sum / (4.0 * k * k);
+        let square = sum(now.iter().zip(next).map(|(a, b)| (a + b) * (a + b)));
+        loss += 2.0 * string.linear_density * string.loss_0 * h * square / (4.0 * k * k);
     }
     if string.loss_1 > 0.0 {
-        let sum: f64 = (NUT..NUT + model.grid.intervals)
-            .map(|i| {
-                let shear = (now[i + 1] - now[i]) + (next[i + 1] - next[i]);
-                shear * shear
-            })
-            .sum();
-        loss += 2.0 * string.linear_density * string.loss_1 * sum / (4.0 * k * k * h);
+        let square = sum((NUT..NUT + model.grid.intervals).map(|i| {
+            let shear = (now[i + 1] - now[i]) + (next[i + 1] - next[i]);
+            shear * shear
+        }));
+        loss += 2.0 * string.linear_density * string.loss_1 * square / (4.0 * k * k * h);
     }
     loss
 }

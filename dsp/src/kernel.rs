@@ -334,14 +334,7 @@ fn advance<S: Simd, const STRETCH: bool>(
 
 /// Groups of points no higher than `margin` over a skyline.
 #[inline(always)]
-fn near<S: Simd>(
-    simd: S,
-    unknowns: usize,
-    u: &[f64],
-    skyline: &[f64],
-    margin: f64,
-    found: &mut Vec<u32>,
-) {
+fn near<S: Simd>(simd: S, unknowns: usize, u: &[f64], skyline: &[f64], margin: f64, found: &mut Vec<u32>) {
     // Beyond the unknowns there is nothing to be near.
     let count = unknowns.div_ceil(LANES);
     let margin = simd.splat_f64s(margin);
@@ -450,14 +443,7 @@ impl Kernel {
 impl Kernel {
     /// Puts the groups of [`LANES`] points that are no higher than `margin`, m, over a skyline into `found`, which has
     /// room for all.
-    pub fn near(
-        &self,
-        unknowns: usize,
-        u: &[f64],
-        skyline: &[f64],
-        margin: f64,
-        found: &mut Vec<u32>,
-    ) {
+    pub fn near(&self, unknowns: usize, u: &[f64], skyline: &[f64], margin: f64, found: &mut Vec<u32>) {
         self.arch.dispatch(Near { unknowns, u, skyline, margin, found });
     }
 }
@@ -529,6 +515,14 @@ mod tests {
     use super::*;
     use crate::grid::Grid;
 
+    /// All that this machine has.
+    fn instruction_sets() -> Vec<Arch> {
+        let mut all = vec![Arch::new()];
+        #[cfg(target_arch = "x86_64")]
+        all.extend(pulp::x86::V3::try_new().map(Arch::V3));
+        all
+    }
+
     /// Every instruction set gives the same bits, for every number of points in the last group.
     #[test]
     fn every_instruction_set_gives_the_same_bits() {
@@ -555,9 +549,13 @@ mod tests {
                 let largest = kernel.advance(unknowns, 1e-3, (&w, &v, &u), &mut d_next, &mut u_next);
                 assert!(u_next[FIRST + unknowns..].iter().all(|value| *value == 0.0), "ends move");
                 let bits: Vec<u64> = w.iter().chain(&d_next).chain(&u_next).map(|x| x.to_bits()).collect();
-                (format!("{products:?}"), largest.to_bits(), bits)
+                let mut near = Vec::new();
+                kernel.near(unknowns, &u_next, &u, -0.4, &mut near);
+                (format!("{products:?} {near:?}"), largest.to_bits(), bits)
             };
-            assert_eq!(run(Arch::new()), run(Arch::Scalar), "{intervals} intervals");
+            for arch in instruction_sets() {
+                assert_eq!(run(arch), run(Arch::Scalar), "{intervals} intervals, {arch:?}");
+            }
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Which contacts act in a step: those the string touches at n − 1 or n, or would at n + 1.
 
+use std::ops::Range;
+
 use crate::active::Active;
 use crate::contact::Before;
 use crate::drive::Drive;
@@ -150,13 +152,7 @@ impl State {
 
     /// Adds every contact that the string at n + 1 overlaps but the solution did not hold, and keeps those that it
     /// may touch in the next step. No grid point has moved by more than `largest`, m.
-    pub(crate) fn find_missed(
-        &mut self,
-        model: &Model,
-        largest: f64,
-        free_pull: f64,
-        scratch: &mut Scratch,
-    ) {
+    pub(crate) fn find_missed(&mut self, model: &Model, largest: f64, free_pull: f64, scratch: &mut Scratch) {
         let held = scratch.active.len();
         let mut position = 0;
         while let Some(finger) = scratch.solver.aside.get(position) {
@@ -170,54 +166,44 @@ impl State {
         if model.contacts.is_empty() {
             return;
         }
-        let near = AHEAD * READING_NORM * largest;
+        let near = AHEAD * (READING_NORM * largest + self.lifted());
         let margin = scratch.find_near(model, &self.skyline, near, largest);
-        self.close.clear();
+        let mut close = std::mem::take(&mut self.close);
+        close.clear();
         let mut next = 0;
         for position in 0..scratch.groups.len() {
             let group = scratch.groups[position];
             let floor = lowest(&scratch.displacement, group) - margin;
-            let block = model.blocks.of(group);
-            for index in block.start.max(next)..block.end {
-                let below = self.heights_next[index as usize] < floor;
-                if !below {
-                    self.look_back(model, index, near, held, free_pull, scratch);
+            let Range { start, end } = model.blocks.of(group);
+            let start = start.max(next);
+            for (index, &height) in (start..).zip(&self.heights_next[start..end.max(start)]) {
+                if height < floor {
+                    continue;
+                }
+                let gap = model.contacts[index].reading.of(&scratch.displacement) - height;
+                if gap <= near {
+                    close.push(index as u32);
+                    if gap < 0.0 && scratch.held[index] != self.steps + 1 {
+                        self.add_missed(model, index, held, free_pull, scratch);
+                    }
                 }
             }
-            next = next.max(block.end);
+            next = next.max(end);
         }
+        self.close = close;
     }
 
-    /// Looks at one contact after a step.
-    #[inline(always)]
-    fn look_back(
-        &mut self,
-        model: &Model,
-        index: u32,
-        near: f64,
-        held: usize,
-        free_pull: f64,
-        scratch: &mut Scratch,
-    ) {
-        let at = index as usize;
-        let gap = model.contacts[at].reading.of(&scratch.displacement) - self.heights_next[at];
-        if gap <= near {
-            self.close.push(index);
-            if gap < 0.0 && scratch.held[at] != self.steps + 1 {
-                self.add_missed(model, at, held, free_pull, scratch);
-            }
+    /// How far any fixed contact itself moves in this step, m.
+    fn lifted(&self) -> f64 {
+        if self.settling == 0 {
+            return 0.0;
         }
+        let lifts = self.heights_next.iter().zip(&self.heights).map(|(next, now)| (next - now).abs());
+        lifts.fold(0.0, f64::max)
     }
 
     #[cold]
-    fn add_missed(
-        &self,
-        model: &Model,
-        index: usize,
-        held: usize,
-        free_pull: f64,
-        scratch: &mut Scratch,
-    ) {
+    fn add_missed(&self, model: &Model, index: usize, held: usize, free_pull: f64, scratch: &mut Scratch) {
         let reading = &model.contacts[index].reading;
         let before = self.heights_before[index] - (reading.of(&self.displacement) - reading.of(&self.motion));
         // The prediction holds forces by now; the free one is what was saved under them.

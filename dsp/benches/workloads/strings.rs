@@ -61,7 +61,7 @@ impl OneString {
     }
 
     fn new(rate: f64, stencil: Stencil, barrier: Option<&Barrier>, fingers: usize) -> Self {
-        let settings = SolverSettings { stencil, max_iterations: 20, tolerance: 1e-10 };
+        let settings = SolverSettings { stencil, max_iterations: 20, tolerance: 1e-9 };
         let model = Model::new(LOW_E, barrier, fingers, settings, rate).expect("it can be built");
         let (state, scratch, drive) = (State::new(&model), Scratch::new(&model), Drive::new(&model));
         OneString { model, state, scratch, drive }
