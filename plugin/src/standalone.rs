@@ -22,8 +22,19 @@ const NATIVE: &str = if cfg!(target_os = "macos") {
 };
 /// The way through the JACK server, which knows its own devices.
 const JACK: &str = "jack";
+/// No way at all, by our name for it and by the framework's: for those who only look at the editor.
+const NONE: &str = "none";
+const NOTHING: &str = "dummy";
 /// What stands for JACK if a server runs, and for the system's own way otherwise.
 const AUTO: &str = "auto";
+
+/// How long it plays, and what there is to hear where there is no keyboard.
+const UNTIL: &str = if cfg!(feature = "editor") { "until its window is closed" } else { "until Ctrl+C" };
+const WITHOUT_KEYBOARD: &str = if cfg!(feature = "editor") {
+    "there is no MIDI keyboard: the strings are played with the mouse"
+} else {
+    "there is no MIDI keyboard: nothing will be heard"
+};
 
 /// A port that leads programs to each other and is no keyboard.
 const THROUGH: &str = "Midi Through";
@@ -31,7 +42,7 @@ const THROUGH: &str = "Midi Through";
 /// Which devices are to be used.
 #[derive(Debug, Clone, Default)]
 pub struct Devices {
-    /// `auto`, `jack`, `alsa`, `core-audio` or `wasapi`; nothing is `auto`.
+    /// `auto`, `jack`, `alsa`, `core-audio`, `wasapi` or `none`; nothing is `auto`.
     pub backend: Option<String>,
     /// Where the sound goes; nothing is what the system usually takes.
     pub output: Option<String>,
@@ -54,21 +65,26 @@ pub fn open(start: Start, devices: &Devices) -> Result<()> {
     let way = match devices.backend.as_deref().unwrap_or(AUTO) {
         AUTO if jack_runs() => JACK,
         AUTO => NATIVE,
+        NONE => NOTHING,
         named => named,
     };
     let mut arguments = vec!["low-action --".to_owned(), format!("--backend={way}")];
-    if way == JACK {
-        say("low-action", "plays what arrives at its JACK port, until Ctrl+C");
-    } else {
+    if way != JACK {
         arguments.push(format!("--sample-rate={}", devices.sample_rate));
         arguments.push(format!("--period-size={}", devices.period));
+    }
+    if way == JACK {
+        say("low-action", &format!("plays what arrives at its JACK port, {UNTIL}"));
+    } else if way == NOTHING {
+        say("low-action", &format!("plays to nobody, {UNTIL}"));
+    } else {
         arguments.extend(devices.output.as_ref().map(|name| format!("--output-device={name}")));
         match keyboard(devices)? {
             Some(name) => {
-                say("low-action", &format!("plays what {name} sends, until Ctrl+C"));
+                say("low-action", &format!("plays what {name} sends, {UNTIL}"));
                 arguments.push(format!("--midi-input={name}"));
             }
-            None => say("warning", "there is no MIDI keyboard: nothing will be heard"),
+            None => say("warning", WITHOUT_KEYBOARD),
         }
     }
     arguments.extend(devices.others.iter().cloned());

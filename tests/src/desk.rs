@@ -100,6 +100,7 @@ impl Desk {
         self.writer.look(true, &mut self.engine);
         self.engine.process(&mut left, &mut right);
         self.writer.write(&mut self.engine, samples, Health::default());
+        self.meters.see_output(&left, &right);
         self.sound.extend(left);
     }
 

@@ -8,6 +8,8 @@ pub mod host;
 pub mod midi;
 pub mod paper;
 pub mod parameters;
+#[cfg(feature = "pictures")]
+pub mod pictures;
 pub mod pitch;
 pub mod session;
 pub mod stage;

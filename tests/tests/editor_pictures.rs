@@ -3,19 +3,9 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test -p low-action-tests --features pictures --test editor_pictures` draws them anew.
 #![cfg(feature = "pictures")]
 
-use egui_kittest::wgpu::WgpuTestRenderer;
 use low_action::performance::PlayerEvent;
 use low_action_tests::desk::Desk;
-
-/// Whether pictures can be drawn here. Where the whole project is checked they must be.
-fn can_draw() -> bool {
-    let can = std::panic::catch_unwind(WgpuTestRenderer::new).is_ok();
-    assert!(can || std::env::var("CI").as_deref() != Ok("true"), "there is no Vulkan driver");
-    if !can {
-        eprintln!("passed over: there is no Vulkan driver");
-    }
-    can
-}
+use low_action_tests::pictures::{assert_looks, can_draw};
 
 fn chord(desk: &mut Desk) {
     for key in [40, 47, 52, 56, 59, 64] {
@@ -31,7 +21,7 @@ fn picture(name: &str, times: f32, pixels: f32, happen: impl FnOnce(&mut Desk)) 
         let mut desk = Desk::sized(times, pixels);
         desk.wait(0.05);
         happen(&mut desk);
-        desk.harness.snapshot(name);
+        assert_looks(&mut desk, name);
     }
 }
 

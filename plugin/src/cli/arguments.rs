@@ -151,9 +151,9 @@ pub struct StandAloneArgs {
     /// Where the sound goes [default: where the system's usually does].
     #[arg(long, value_name = "NAME")]
     pub output_device: Option<String>,
-    /// Way to the devices: jack, alsa (Linux), core-audio (macOS) or wasapi (Windows) [default: jack if its server
-    /// runs].
-    #[arg(long, value_name = "NAME", value_parser = ["auto", "jack", "alsa", "core-audio", "wasapi"])]
+    /// Way to the devices: jack, alsa (Linux), core-audio (macOS) or wasapi (Windows), or none for no sound [default:
+    /// jack if its server runs].
+    #[arg(long, value_name = "NAME", value_parser = ["auto", "jack", "alsa", "core-audio", "wasapi", "none"])]
     pub backend: Option<String>,
     /// Samples per second, 8000 to 384000; JACK has its own.
     #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate)]

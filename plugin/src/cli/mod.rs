@@ -35,7 +35,7 @@ pub use render::{BitDepth, Tail};
     args_conflicts_with_subcommands = true,
     after_help = "\
 Without a command, low-action opens the stand-alone instrument, if it was built with it
-(cargo feature standalone), and plays what arrives on MIDI until Ctrl+C.
+(cargo feature standalone), which the mouse and what arrives on MIDI play until it is closed.
 
 Examples:
   low-action --instrument tanpura            played by the first keyboard there is

@@ -3,7 +3,7 @@
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::Given;
-use super::theme::{self, GAP, NEAR, TIGHT};
+use super::theme::{self, GAP, NEAR};
 
 /// What the header remembers.
 #[derive(Debug)]
@@ -37,7 +37,7 @@ impl Header {
             theme::TEXT,
         );
         let name = given.params.instrument.instrument.to_string();
-        painter.text(
+        let name = painter.text(
             pos2(title.right() + GAP, middle + 1.0),
             Align2::LEFT_CENTER,
             name,
@@ -46,7 +46,9 @@ impl Header {
         );
         let meter = Rect::from_min_size(pos2(area.right() - 160.0, middle - 6.0), vec2(160.0, 12.0));
         self.show_meter(ui, given, meter);
-        show_lights(ui, given, meter.left() - GAP, middle);
+        let left = name.right() + GAP;
+        let between = Rect::from_min_max(pos2(left, area.top()), pos2(meter.left() - GAP, area.bottom()));
+        show_lights(ui, given, between);
     }
 
     /// Both channels, one over the other.
@@ -70,19 +72,26 @@ impl Header {
     }
 }
 
-/// What a player should know of: too little time, a file that is missing.
-fn show_lights(ui: &Ui, given: &Given, right: f32, middle: f32) {
-    let mut right = right;
-    let mut say = |text: &str, colour| {
-        let place = pos2(right - TIGHT, middle);
-        let rect = ui.painter().text(place, Align2::RIGHT_CENTER, text, theme::BODY_FONT, colour);
-        ui.painter().circle_filled(pos2(rect.left() - NEAR, middle), 4.0, colour);
-        right = rect.left() - GAP;
+/// What a player should know of: too little time, a file that is missing. As much as fits is read, and all of it under
+/// the mouse.
+fn show_lights(ui: &mut Ui, given: &Given, area: Rect) {
+    let mut rest = area;
+    let mut say = |text: &str| {
+        let label = egui::Label::new(egui::RichText::new(text).color(theme::ALARM)).truncate();
+        let galley = ui.painter().layout_no_wrap(text.to_owned(), theme::BODY_FONT, theme::ALARM);
+        let width = galley.size().x.min(rest.width() - GAP);
+        if width < GAP {
+            return;
+        }
+        let place = Rect::from_min_max(pos2(rest.right() - width, rest.top()), rest.max);
+        ui.painter().circle_filled(pos2(place.left() - NEAR, place.center().y), 4.0, theme::ALARM);
+        ui.put(place, label).on_hover_text(text);
+        rest.max.x = place.left() - GAP - NEAR;
     };
     if given.meters.relaxed() {
-        say("over budget: contacts solved less exactly", theme::ALARM);
+        say("Over budget: contacts are solved less exactly");
     }
     if let Some(message) = given.params.shelf.message() {
-        say(&message, theme::ALARM);
+        say(&message);
     }
 }

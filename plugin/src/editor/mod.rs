@@ -45,7 +45,6 @@ pub struct Editor {
     plan: Plan,
     header: header::Header,
     strings: strings::Strings,
-    side: side::Side,
     panels: panels::Panels,
 }
 
@@ -61,7 +60,6 @@ impl Editor {
             plan: Plan::default(),
             header: header::Header::default(),
             strings: strings::Strings::default(),
-            side: side::Side::default(),
             panels: panels::Panels::default(),
         }
     }
@@ -92,7 +90,7 @@ impl Editor {
         place(ui, "strings", strings, |ui| self.strings.show(ui, &given));
         let watched = self.strings.watched();
         if let Some(side) = side {
-            place(ui, "side", side, |ui| self.side.show(ui, &given, watched));
+            place(ui, "side", side, |ui| side::show(ui, &given, watched));
         }
         if let Some(panels) = panels {
             place(ui, "panels", panels, |ui| self.panels.show(ui, &given));

@@ -5,29 +5,22 @@ use low_action_dsp::Setup;
 
 use super::Given;
 use super::handle::Handle;
-use super::theme::{self, GAP, NEAR, TIGHT};
+use super::theme::{self, GAP, LEFT, NEAR, RIGHT, TIGHT};
 use crate::display::{POINTS, StringSeen};
 
-/// What the side view remembers.
-#[derive(Debug, Default)]
-pub struct Side {}
-
-/// Room left of the nut and right of the saddle, as the strings above have it, points.
-const LEFT: f32 = 48.0;
-const RIGHT: f32 = 32.0;
 /// The highest and the lowest that is seen, m over the string at rest.
 const TOP: f32 = 2.5e-3;
 const BOTTOM: f32 = -4.5e-3;
 
 /// Where things are.
 #[derive(Debug, Clone, Copy)]
-struct Sight {
+struct Profile {
     area: Rect,
     along: f32,
     lift: f32,
 }
 
-impl Sight {
+impl Profile {
     fn new(area: Rect, scale: f32) -> Self {
         let along = (area.width() - LEFT - RIGHT).max(1.0) / scale;
         Self { area, along, lift: area.height() / (TOP - BOTTOM) }
@@ -38,57 +31,96 @@ impl Sight {
     }
 }
 
-impl Side {
-    /// Draws a string, counted from 0.
-    pub fn show(&mut self, ui: &mut Ui, given: &Given, string: usize) {
-        let area = ui.max_rect();
-        ui.painter().rect_filled(area, theme::ROUND, theme::SURFACE);
-        let Some(setup) = given.plan.setup() else { return };
-        let scale = setup.neck.scale_length as f32;
-        let sight = Sight::new(area.shrink2(vec2(0.0, TIGHT)), scale);
-        let painter = ui.painter_at(area);
-        let seen = given.snapshot.strings().get(string);
-        paint_neck(&painter, &sight, setup);
-        if let Some(seen) = seen {
-            paint_string(&painter, &sight, seen);
-        } else {
-            painter.line_segment([sight.at(0.0, 0.0), sight.at(scale, 0.0)], Stroke::new(1.5, theme::PLAIN));
-        }
-        show_handles(ui, given, &sight, setup);
-        if let Some(seen) = seen {
-            show_contact(ui, &sight, seen);
-        }
-        let name = setup.string.get(string).map_or("", |string| &string.name);
-        painter.text(
-            pos2(area.left() + GAP, sight.at(0.0, 0.0).y),
-            Align2::LEFT_CENTER,
-            name,
-            theme::BODY_FONT,
-            theme::TEXT,
-        );
-        let text = format!("from the side, heights magnified {:.0} times", sight.lift / sight.along);
-        painter.text(
-            area.right_bottom() - vec2(NEAR, NEAR),
-            Align2::RIGHT_BOTTOM,
-            text,
-            theme::SMALL,
-            theme::SOFT_TEXT,
-        );
+/// Draws a string, counted from 0.
+pub fn show(ui: &mut Ui, given: &Given, string: usize) {
+    let area = ui.max_rect();
+    ui.painter().rect_filled(area, theme::ROUND, theme::SURFACE);
+    let Some(setup) = given.plan.setup() else { return };
+    let scale = setup.neck.scale_length as f32;
+    let profile = Profile::new(area.shrink2(vec2(0.0, TIGHT)), scale);
+    let painter = ui.painter_at(area);
+    let seen = given.snapshot.strings().get(string);
+    paint_neck(&painter, &profile, setup);
+    if let Some(seen) = seen {
+        paint_string(&painter, &profile, seen);
+    } else {
+        painter.line_segment([profile.at(0.0, 0.0), profile.at(scale, 0.0)], Stroke::new(1.5, theme::PLAIN));
     }
+    let name = setup.string.get(string).map_or("", |string| &string.name);
+    let response = ui.interact(area, ui.scope_id().with("contacts"), egui::Sense::hover());
+    response.widget_info(|| {
+        let mut info = egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Side view");
+        info.current_text_value = Some(name.to_owned());
+        info
+    });
+    if let Some(seen) = seen {
+        show_contact(response, &profile, seen);
+    }
+    show_handles(ui, given, &profile, setup);
+    painter.text(
+        pos2(area.left() + GAP, profile.at(0.0, 0.0).y),
+        Align2::LEFT_CENTER,
+        name,
+        theme::BODY_FONT,
+        theme::TEXT,
+    );
+    let text = format!("from the side, heights magnified {:.0} times", profile.lift / profile.along);
+    painter.text(
+        area.right_bottom() - vec2(NEAR, NEAR),
+        Align2::RIGHT_BOTTOM,
+        text,
+        theme::SMALL,
+        theme::SOFT_TEXT,
+    );
 }
 
 /// Board and frets as the set-up has them.
-fn paint_neck(painter: &Painter, sight: &Sight, setup: &Setup) {
+fn paint_neck(painter: &Painter, profile: &Profile, setup: &Setup) {
     let neck = &setup.neck;
     let end = neck.board_end();
-    let mut mesh = Mesh::default();
+    let board = |place: f64| (neck.crown_height(place) - neck.fret_height) as f32;
+    paint_ground(painter, profile, [0.0, end], board, theme::BOARD);
+    if let Some(bridge) = setup.bridge {
+        // As `Setup::barrier` has it.
+        let saddle = neck.scale_length;
+        let curve = |place: f64| (-(saddle - place).powi(2) / (2.0 * bridge.radius)) as f32;
+        paint_ground(
+            painter,
+            profile,
+            [saddle - bridge.length, saddle],
+            curve,
+            [theme::BONE, theme::BODY[0]],
+        );
+    }
+    if neck.fretless {
+        return;
+    }
+    for (index, place) in neck.equal_places().into_iter().enumerate() {
+        let worn: f64 = neck.worn.iter().filter(|(fret, _)| *fret == index + 1).map(|(_, wear)| wear).sum();
+        let crown = neck.crown_height(place);
+        let top = profile.at(place as f32, (crown - worn) as f32);
+        let foot = profile.at(place as f32, (crown - neck.fret_height) as f32);
+        let wire = Rect::from_min_max(pos2(top.x - 3.0, top.y), pos2(top.x + 3.0, foot.y.max(top.y + 2.0)));
+        let round = egui::CornerRadius { nw: 3, ne: 3, sw: 0, se: 0 };
+        painter.rect_filled(wire, round, theme::BRASS);
+    }
+}
+
+/// Fills what lies under a curve (m over m from the nut).
+fn paint_ground(
+    painter: &Painter,
+    profile: &Profile,
+    [from, to]: [f64; 2],
+    curve: impl Fn(f64) -> f32,
+    [above, below]: [egui::Color32; 2],
+) {
     const PIECES: u32 = 48;
+    let mut mesh = Mesh::default();
     for piece in 0..=PIECES {
-        let place = end * f64::from(piece) / f64::from(PIECES);
-        let height = neck.crown_height(place) - neck.fret_height;
-        let top = sight.at(place as f32, height as f32);
-        mesh.colored_vertex(top, theme::BOARD[0]);
-        mesh.colored_vertex(pos2(top.x, sight.area.bottom()), theme::BOARD[1]);
+        let place = from + (to - from) * f64::from(piece) / f64::from(PIECES);
+        let top = profile.at(place as f32, curve(place));
+        mesh.colored_vertex(top, above);
+        mesh.colored_vertex(pos2(top.x, profile.area.bottom()), below);
         if let Some(before) = piece.checked_sub(1) {
             let corner = 2 * before;
             mesh.add_triangle(corner, corner + 1, corner + 2);
@@ -96,27 +128,15 @@ fn paint_neck(painter: &Painter, sight: &Sight, setup: &Setup) {
         }
     }
     painter.add(Shape::mesh(mesh));
-    if neck.fretless {
-        return;
-    }
-    for (index, place) in neck.equal_places().into_iter().enumerate() {
-        let worn: f64 = neck.worn.iter().filter(|(fret, _)| *fret == index + 1).map(|(_, wear)| wear).sum();
-        let crown = neck.crown_height(place);
-        let top = sight.at(place as f32, (crown - worn) as f32);
-        let foot = sight.at(place as f32, (crown - neck.fret_height) as f32);
-        let wire = Rect::from_min_max(pos2(top.x - 3.0, top.y), pos2(top.x + 3.0, foot.y.max(top.y + 2.0)));
-        let round = egui::CornerRadius { nw: 3, ne: 3, sw: 0, se: 0 };
-        painter.rect_filled(wire, round, theme::BRASS);
-    }
 }
 
 /// The string as it is, the blur of where it has been, and the fingers on it.
-fn paint_string(painter: &Painter, sight: &Sight, seen: &StringSeen) {
+fn paint_string(painter: &Painter, profile: &Profile, seen: &StringSeen) {
     let mut mesh = Mesh::default();
     for point in 0..POINTS {
         let place = seen.place(point);
         for height in [seen.highest[point], seen.lowest[point]] {
-            mesh.colored_vertex(sight.at(place, height), theme::faint(theme::PLAIN, 0.2));
+            mesh.colored_vertex(profile.at(place, height), theme::faint(theme::PLAIN, 0.2));
         }
         if let Some(before) = (point as u32).checked_sub(1) {
             let corner = 2 * before;
@@ -125,21 +145,21 @@ fn paint_string(painter: &Painter, sight: &Sight, seen: &StringSeen) {
         }
     }
     painter.add(Shape::mesh(mesh));
-    let line = (0..POINTS).map(|point| sight.at(seen.place(point), seen.displacement[point]));
+    let line = (0..POINTS).map(|point| profile.at(seen.place(point), seen.displacement[point]));
     painter.line(line.collect(), Stroke::new(1.5, theme::PLAIN));
     for finger in seen.fingers.iter().flatten() {
-        let pad = sight.at(finger.position, finger.height);
+        let pad = profile.at(finger.position, finger.height);
         let tip = Rect::from_min_max(pos2(pad.x - 7.0, pad.y - 22.0), pos2(pad.x + 7.0, pad.y));
         painter.rect_filled(tip, 7.0, theme::faint(theme::FINGER, 0.85));
     }
 }
 
 /// What can be moved up and down: the board under fret 12, and its dip in the middle.
-fn show_handles(ui: &mut Ui, given: &Given, sight: &Sight, setup: &Setup) {
+fn show_handles(ui: &mut Ui, given: &Given, profile: &Profile, setup: &Setup) {
     let neck = &setup.neck;
     let action = &given.params.setup.action;
     // A point down is so many metres; the action is a factor of the set-up's own.
-    let metres = 1.0 / sight.lift;
+    let metres = 1.0 / profile.lift;
     let own = neck.action as f32 / action.value().max(1e-3);
     let handle = Handle {
         param: action,
@@ -148,7 +168,7 @@ fn show_handles(ui: &mut Ui, given: &Given, sight: &Sight, setup: &Setup) {
         growth: vec2(0.0, metres / own.max(1e-5)),
     };
     let text = format!("action {:.2} mm", 1e3 * neck.action);
-    show_handle(ui, given, sight, setup, &handle, neck.equal_place(12.0), text);
+    show_handle(ui, given, profile, setup, &handle, neck.equal_place(12.0), text);
     let handle = Handle {
         param: &given.params.setup.relief,
         name: "Relief",
@@ -156,21 +176,21 @@ fn show_handles(ui: &mut Ui, given: &Given, sight: &Sight, setup: &Setup) {
         growth: vec2(0.0, 1e3 * metres),
     };
     let text = format!("relief {:.2} mm", 1e3 * neck.relief);
-    show_handle(ui, given, sight, setup, &handle, neck.equal_place(5.5), text);
+    show_handle(ui, given, profile, setup, &handle, neck.equal_place(5.5), text);
 }
 
 fn show_handle(
     ui: &mut Ui,
     given: &Given,
-    sight: &Sight,
+    profile: &Profile,
     setup: &Setup,
     handle: &Handle,
     place: f64,
     text: String,
 ) {
     let board = (setup.neck.crown_height(place) - setup.neck.fret_height) as f32;
-    let at = sight.at(place as f32, board) + vec2(0.0, 14.0);
-    let at = pos2(at.x, at.y.min(sight.area.bottom() - 12.0));
+    let at = profile.at(place as f32, board) + vec2(0.0, 14.0);
+    let at = pos2(at.x, at.y.min(profile.area.bottom() - 12.0));
     let area = Rect::from_center_size(at, vec2(24.0, 20.0));
     let response = handle.show(ui, given, area).on_hover_and_drag_cursor(egui::CursorIcon::ResizeVertical);
     let taken = response.dragged() || response.hovered() || response.has_focus();
@@ -189,10 +209,9 @@ fn show_handle(
 const NEAR_FRET: f32 = 10.0;
 
 /// Depth and force of the contact under the mouse.
-fn show_contact(ui: &mut Ui, sight: &Sight, seen: &StringSeen) {
-    let response = ui.interact(sight.area, ui.scope_id().with("contacts"), egui::Sense::hover());
+fn show_contact(response: egui::Response, profile: &Profile, seen: &StringSeen) {
     let Some(at) = response.hover_pos() else { return };
-    let away = |fret: &crate::display::FretSeen| (sight.at(fret.position, 0.0).x - at.x).abs();
+    let away = |fret: &crate::display::FretSeen| (profile.at(fret.position, 0.0).x - at.x).abs();
     let nearest = seen.frets().iter().enumerate().min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)));
     let Some((index, fret)) = nearest.filter(|(_, fret)| away(fret) < NEAR_FRET) else { return };
     let depth = if fret.penetration > 0.0 {

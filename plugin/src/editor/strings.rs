@@ -55,6 +55,9 @@ impl Strings {
     }
 }
 
+/// Width under which there is no room for many words, points.
+const ROOM: f32 = 720.0;
+
 /// The name of each string, left of the nut.
 fn paint_names(ui: &Ui, sight: &Sight, setup: &low_action_dsp::Setup) {
     if sight.spacing < theme::SMALL.size {
@@ -77,7 +80,10 @@ fn paint_scale(ui: &Ui, sight: &Sight) {
     for y in [bottom - height, bottom] {
         painter.hline(x - 3.0..=x + 3.0, y, stroke);
     }
-    let text = format!("1 mm of motion, magnified {:.0} times", sight.magnification());
+    let text = match sight.area.width() {
+        ..ROOM => "1 mm".to_owned(),
+        _ => format!("1 mm of motion, magnified {:.0} times", sight.magnification()),
+    };
     painter.text(
         pos2(x - NEAR, bottom - 0.5 * height),
         Align2::RIGHT_CENTER,

@@ -15,6 +15,11 @@ pub const HEADER: f32 = 48.0;
 pub const SIDE: f32 = 148.0;
 /// Height of the panels, points.
 pub const PANELS: f32 = 208.0;
+/// Room left of the nut for the names of the strings, and right of the saddle, points: the string views lie one under
+/// the other.
+pub const LEFT: f32 = 48.0;
+/// See [`LEFT`].
+pub const RIGHT: f32 = 32.0;
 /// Radius of corners, points.
 pub const ROUND: f32 = 6.0;
 

@@ -41,14 +41,16 @@ impl Meters {
         self.refusals.load(Ordering::Relaxed)
     }
 
-    pub(super) fn see_output(&self, left: &[f32], right: &[f32]) {
+    /// A block has gone out.
+    pub fn see_output(&self, left: &[f32], right: &[f32]) {
         for (meter, samples) in [(&self.left, left), (&self.right, right)] {
             let peak = samples.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
             meter.fetch_max(peak, Ordering::Relaxed);
         }
     }
 
-    pub(super) fn see_load(&self, load: f64, relaxed: bool) {
+    /// So much of the time was spent, and contacts are solved less exactly or not.
+    pub fn see_load(&self, load: f64, relaxed: bool) {
         self.load.store(load as f32, Ordering::Relaxed);
         self.relaxed.store(relaxed, Ordering::Relaxed);
     }

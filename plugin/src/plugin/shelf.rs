@@ -143,7 +143,7 @@ impl Shelf {
     }
 
     /// Remembers why the chosen file is not played, or that all is well.
-    pub(super) fn tell(&self, message: Option<String>) {
+    pub fn tell(&self, message: Option<String>) {
         let mut present = lock(&self.0.message);
         if *present != message {
             if let Some(message) = &message {

@@ -37,7 +37,8 @@ pub(super) fn paint(painter: &Painter, sight: &Sight, setup: &Setup) {
         } else if DOTS.contains(&fret) {
             dot(between(fret), middle);
         }
-        if DOTS.contains(&fret) || DOUBLE.contains(&fret) {
+        let width = 2.0 * (frets[fret - 1] - between(fret));
+        if (DOTS.contains(&fret) || DOUBLE.contains(&fret)) && width > theme::SMALL.size {
             let place = pos2(between(fret), board.bottom() + 3.0 * theme::TIGHT);
             painter.text(place, Align2::CENTER_CENTER, fret, theme::SMALL, theme::SOFT_TEXT);
         }

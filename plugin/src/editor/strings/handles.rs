@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, given: &Given, sight: &Sight, setup: &Setup) {
             growth,
         };
         let place = scale - player.pluck_position as f32;
-        mark(ui, given, sight, &handle, place, "pluck", theme::PLUCK);
+        mark(ui, given, sight, &handle, place, ("pluck", Align2::LEFT_BOTTOM), theme::PLUCK);
     }
     if let Pickup::Magnetic { position, .. } = setup.pickup {
         let handle = Handle {
@@ -33,7 +33,8 @@ pub(super) fn show(ui: &mut Ui, given: &Given, sight: &Sight, setup: &Setup) {
             hint: "A coil does not hear a partial that has a node over it: near the saddle it hears the high ones.",
             growth,
         };
-        mark(ui, given, sight, &handle, scale - position as f32, "pickup", theme::STEEL);
+        let label = ("pickup", Align2::RIGHT_BOTTOM);
+        mark(ui, given, sight, &handle, scale - position as f32, label, theme::STEEL);
     }
 }
 
@@ -43,7 +44,7 @@ fn mark(
     sight: &Sight,
     handle: &Handle,
     place: f32,
-    label: &str,
+    (label, side): (&str, Align2),
     colour: Color32,
 ) {
     let board = sight.board(place, place);
@@ -58,5 +59,6 @@ fn mark(
     let shape = [vec2(-6.0, -11.0), vec2(6.0, -11.0), vec2(6.0, -5.0), vec2(0.0, 0.0), vec2(-6.0, -5.0)];
     let points = shape.map(|corner| tip + corner).to_vec();
     painter.add(Shape::convex_polygon(points, colour, Stroke::NONE));
-    painter.text(pos2(tip.x, tip.y - 14.0), Align2::CENTER_BOTTOM, label, theme::SMALL, colour);
+    let beside = if side == Align2::LEFT_BOTTOM { -6.0 } else { 6.0 };
+    painter.text(pos2(tip.x + beside, tip.y - 14.0), side, label, theme::SMALL, colour);
 }

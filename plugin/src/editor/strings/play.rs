@@ -13,8 +13,10 @@ use crate::performance::{PlayerEvent, StringDeed};
 
 /// How near to a string the mouse is on it, as a part of the distance between strings.
 const ON_STRING: f32 = 0.3;
-/// Speed across the strings, strings a second, at which a pluck is as hard as the hardest note's.
-const FAST: f32 = 45.0;
+/// Speed across the strings, strings a second, at which a pluck is as hard as the hardest note's, and the power by which
+/// force goes with speed: hands differ more in speed than in what they want to be heard.
+const FAST: f32 = 30.0;
+const CURVE: f32 = 0.6;
 /// Force of the softest pluck, of the hardest, and of a click, as parts of the hardest note's.
 const SOFTEST: f32 = 0.06;
 const HARDEST: f32 = 2.0;
@@ -104,7 +106,7 @@ impl Play {
             Doing::Strumming(before) => {
                 let from = std::mem::replace(before, at);
                 let speed = (at.y - from.y).abs() / sight.spacing / seconds.max(LEAST_TIME);
-                let force = (speed / FAST).clamp(SOFTEST, HARDEST);
+                let force = (speed / FAST).powf(CURVE).clamp(SOFTEST, HARDEST);
                 // In the order in which they are crossed.
                 let count = self.left.len();
                 let down = at.y > from.y;

@@ -3,16 +3,15 @@
 use egui::{Rect, pos2};
 use low_action_dsp::Setup;
 
-/// Room left of the nut for the names of the strings, and right of the saddle, points.
-const LEFT: f32 = 48.0;
-const RIGHT: f32 = 32.0;
+use crate::editor::theme::{LEFT, RIGHT};
+
 /// Room over the board for handles and under it for numbers, points.
 const OVER: f32 = 32.0;
 const UNDER: f32 = 24.0;
 /// Widest that strings lie apart, points.
 const WIDEST: f32 = 56.0;
 /// How much of the distance between two strings a millimetre of motion takes.
-const LIFT: f32 = 0.22;
+const LIFT: f32 = 0.3;
 
 /// Where things are.
 #[derive(Debug, Clone, Copy)]

@@ -1,0 +1,53 @@
+//! Promise: the side view shows the string that the mouse was over last, and reads its contacts: over a fret it says how
+//! deep the string is pressed into it and with what force, or how far it is away.
+
+use egui_kittest::kittest::{NodeT, Queryable};
+use low_action::performance::PlayerEvent;
+use low_action_tests::desk::Desk;
+
+/// The words beside the mouse over a fret (counted from 1) of the string in the side view.
+fn read(desk: &mut Desk, fret: usize) -> String {
+    let area = desk.harness.get_by_label("Side view").rect();
+    let place = 0.6477 * (1.0 - (-(fret as f32) / 12.0).exp2());
+    let at = egui::pos2(desk.sight().x(place), area.center().y);
+    desk.point(at);
+    desk.wait(1.5);
+    let named = format!("Fret {fret}:");
+    let said = desk.harness.query_by_label_contains(&named);
+    said.and_then(|node| node.accesskit_node().label().or(node.value())).unwrap_or_default()
+}
+
+/// The number before a unit.
+fn number(words: &str, unit: &str) -> f32 {
+    let before = words.split(unit).next().and_then(|words| words.split_whitespace().last());
+    before.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("no {unit} in {words:?}"))
+}
+
+#[test]
+fn a_stopped_string_is_pressed_into_its_fret() {
+    let mut desk = Desk::new();
+    // The third fret of the string E2.
+    desk.play(PlayerEvent::NoteOn { channel: 0, key: 43, velocity: 0.5 });
+    desk.wait(0.5);
+    let low_e = desk.at(0.5, 5.0);
+    desk.point(low_e);
+    let third = read(&mut desk, 3);
+    assert!(third.contains("pressed in by"), "{third:?}");
+    assert!((0.01..5.0).contains(&number(&third, "µm")) && number(&third, "N now") > 0.5, "{third:?}");
+    let twelfth = read(&mut desk, 12);
+    assert!(twelfth.contains("free"), "{twelfth:?}");
+    assert!((0.3..2.0).contains(&number(&twelfth, "mm")), "{twelfth:?}");
+}
+
+#[test]
+fn another_string_is_shown_where_the_mouse_was() {
+    let mut desk = Desk::new();
+    desk.wait(0.1);
+    for (string, name) in [(2, "G3"), (5, "E2")] {
+        let at = desk.at(0.5, string as f32);
+        desk.point(at);
+        desk.wait(0.1);
+        let shown = desk.harness.get_by_label("Side view").value();
+        assert_eq!(shown.as_deref(), Some(name));
+    }
+}
