@@ -7,6 +7,7 @@
 mod choices;
 mod ranges;
 mod start;
+pub mod words;
 
 use nice_plug::prelude::*;
 

@@ -18,7 +18,7 @@ use low_action::pointer::{Played, pointer};
 use low_action_dsp::Setup;
 use nice_plug::context::gui::GuiContext;
 
-pub use recorder::{Recorder, Told};
+pub use recorder::{Recorder, Told, is_gesture};
 
 /// Of the sound, Hz.
 pub const RATE: f64 = 48_000.0;
@@ -148,8 +148,34 @@ impl Desk {
         pos2(sight.x(place), sight.y(0) + string * sight.spacing)
     }
 
-    /// The middle of something that has a name.
+    /// The middle of something that has a name; of two, the one higher up: a handle in the picture of the strings.
     pub fn named(&self, name: &str) -> Pos2 {
-        self.harness.get_by_label(name).rect().center()
+        let places = self.harness.get_all_by_label(name).map(|node| node.rect().center());
+        places.min_by(|one, other| one.y.total_cmp(&other.y)).expect("get_all finds one")
+    }
+
+    /// The middle of a control in the panel that is seen, if it is there.
+    pub fn control(&self, name: &str) -> Option<Pos2> {
+        let tabs = self.named("Engine").y;
+        let places = self.harness.query_all_by_label(name).map(|node| node.rect().center());
+        places.into_iter().find(|place| place.y > tabs)
+    }
+
+    /// Clicks on something.
+    pub fn click(&mut self, at: Pos2) {
+        self.drag(&[at], 0.0);
+    }
+
+    /// Opens a panel.
+    pub fn open(&mut self, tab: &str) {
+        self.wait(0.05);
+        self.click(self.named(tab));
+        self.wait(0.05);
+    }
+
+    /// Presses a key.
+    pub fn key(&mut self, key: egui::Key) {
+        self.harness.key_press(key);
+        self.wait(0.05);
     }
 }

@@ -2,17 +2,8 @@
 //! begins and ends, what is set is where the mouse is, and nothing leaves its range.
 
 use egui::{Event, Key, Modifiers, Pos2, vec2};
-use low_action_tests::desk::{Desk, Told};
+use low_action_tests::desk::{Desk, Told, is_gesture};
 use nice_plug::prelude::Param;
-
-/// Whether a host was told of one whole gesture on a parameter.
-fn is_gesture(told: &[Told], id: &str) -> bool {
-    let inside = &told[1..told.len() - 1];
-    told.first() == Some(&Told::Begin(id.into()))
-        && told.last() == Some(&Told::End(id.into()))
-        && !inside.is_empty()
-        && inside.iter().all(|told| matches!(told, Told::Set(set, _) if set == id))
-}
 
 /// Drags something with a name by so much.
 fn drag(desk: &mut Desk, name: &str, way: egui::Vec2) -> Vec<Told> {

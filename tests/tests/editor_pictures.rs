@@ -3,6 +3,7 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test -p low-action-tests --features pictures --test editor_pictures` draws them anew.
 #![cfg(feature = "pictures")]
 
+use egui::pos2;
 use low_action::performance::PlayerEvent;
 use low_action_tests::desk::Desk;
 use low_action_tests::pictures::{assert_looks, can_draw};
@@ -43,4 +44,33 @@ fn a_chord_finely() {
 #[test]
 fn a_small_window() {
     picture("small", 0.5, 1.0, chord);
+}
+
+/// A panel while a chord rings, with so many pixels a point.
+fn panel(tab: &str, name: &str, pixels: f32) {
+    picture(name, 1.0, pixels, |desk| {
+        desk.open(tab);
+        desk.point(pos2(500.0, 24.0));
+        chord(desk);
+    });
+}
+
+#[test]
+fn the_luthier() {
+    panel("Luthier", "luthier", 1.0);
+}
+
+#[test]
+fn the_sound() {
+    panel("Sound", "sound", 1.0);
+}
+
+#[test]
+fn the_engine() {
+    panel("Engine", "engine", 1.0);
+}
+
+#[test]
+fn the_engine_finely() {
+    panel("Engine", "engine_fine", 2.0);
 }

@@ -6,6 +6,7 @@ use nice_plug::prelude::ParamSetter;
 
 use crate::display::Snapshot;
 use crate::params::LowActionParams;
+use crate::params::words::Words;
 use crate::plugin::meters::Meters;
 use crate::plugin::order::{self, Order};
 use crate::pointer::Pointer;
@@ -26,6 +27,8 @@ pub struct Given<'a> {
     pub pointer: &'a Pointer,
     /// The set-up that the parameters ask for.
     pub plan: &'a Plan,
+    /// What a musician hears of each parameter.
+    pub words: &'a Words,
 }
 
 /// The set-up that the parameters ask for, whether it sounds already or not.

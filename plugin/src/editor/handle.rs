@@ -15,10 +15,6 @@ const FINE: f32 = 0.1;
 pub struct Handle<'a> {
     /// The parameter.
     pub param: &'a FloatParam,
-    /// What it is called here.
-    pub name: &'static str,
-    /// What a musician hears of it.
-    pub hint: &'static str,
     /// How much the parameter grows for a point to the right and for a point down.
     pub growth: Vec2,
 }
@@ -26,19 +22,19 @@ pub struct Handle<'a> {
 impl Handle<'_> {
     /// Takes hold of it in `area`.
     pub fn show(&self, ui: &mut Ui, given: &Given, area: Rect) -> Response {
-        let id = ui.scope_id().with(self.name);
+        let id = ui.scope_id().with(self.param.name());
         let response = ui.interact(area, id, Sense::click_and_drag());
         let (param, setter) = (self.param, &given.setter);
         let value = param.unmodulated_plain_value();
-        response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(value), self.name));
+        response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(value), param.name()));
+        let fine = if ui.input(|input| input.modifiers.shift) { FINE } else { 1.0 };
         if response.drag_started() {
             setter.begin_set_parameter(param);
             // What it moved until it was known to be a drag counts too.
             let before = response.total_drag_delta().unwrap_or_default() - response.drag_delta();
-            ui.data_mut(|data| data.insert_temp(id, value + self.growth.dot(before)));
+            ui.data_mut(|data| data.insert_temp(id, value + fine * self.growth.dot(before)));
         }
         if response.dragged() {
-            let fine = if ui.input(|input| input.modifiers.shift) { FINE } else { 1.0 };
             let grown = fine * self.growth.dot(response.drag_delta());
             let held = ui.data(|data| data.get_temp(id)).unwrap_or(value) + grown;
             // Beyond the end the mouse has to come back before anything moves again.
@@ -71,7 +67,7 @@ impl Handle<'_> {
                 self.set(given, stepped);
             }
         }
-        response.on_hover_text(format!("{}: {param}\n{}", self.name, self.hint))
+        response.on_hover_text(format!("{}: {param}\n{}", param.name(), given.words.heard(param)))
     }
 
     fn set(&self, given: &Given, value: f32) {

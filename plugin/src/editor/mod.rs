@@ -11,6 +11,7 @@
 //! parameters ask for, and the way back to the audio thread. What a view remembers for itself is a struct of its own
 //! that [`Editor`] keeps.
 
+pub mod control;
 mod given;
 mod handle;
 mod header;
@@ -28,6 +29,7 @@ use nice_plug_egui::NiceEguiApp;
 
 use crate::display::Reader;
 use crate::params::LowActionParams;
+use crate::params::words::Words;
 use crate::plugin::meters::Meters;
 use crate::pointer::Pointer;
 pub use given::{Given, Plan};
@@ -43,6 +45,7 @@ pub struct Editor {
     pointer: Pointer,
     gui: Option<GuiContext>,
     plan: Plan,
+    words: Words,
     header: header::Header,
     strings: strings::Strings,
     panels: panels::Panels,
@@ -52,6 +55,7 @@ impl Editor {
     /// An editor of these parameters, which sees and plays the strings.
     pub fn new(params: Arc<LowActionParams>, meters: Arc<Meters>, reader: Reader, pointer: Pointer) -> Self {
         Self {
+            words: Words::of(&params),
             params,
             meters,
             reader,
@@ -81,6 +85,7 @@ impl Editor {
             fresh,
             pointer: &self.pointer,
             plan: &self.plan,
+            words: &self.words,
         };
         let window = ui.ctx().content_rect();
         let Areas { header, strings, side, panels } = Areas::of(window);

@@ -161,20 +161,10 @@ fn show_handles(ui: &mut Ui, given: &Given, profile: &Profile, setup: &Setup) {
     // A point down is so many metres; the action is a factor of the set-up's own.
     let metres = 1.0 / profile.lift;
     let own = neck.action as f32 / action.value().max(1e-3);
-    let handle = Handle {
-        param: action,
-        name: "Action",
-        hint: "Height of the strings over fret 12. Lower plays easily and buzzes, higher rings clean and loud.",
-        growth: vec2(0.0, metres / own.max(1e-5)),
-    };
+    let handle = Handle { param: action, growth: vec2(0.0, metres / own.max(1e-5)) };
     let text = format!("action {:.2} mm", 1e3 * neck.action);
     show_handle(ui, given, profile, setup, &handle, neck.equal_place(12.0), text);
-    let handle = Handle {
-        param: &given.params.setup.relief,
-        name: "Relief",
-        hint: "How far the neck bows away from the strings: room for the middle of their swing.",
-        growth: vec2(0.0, 1e3 * metres),
-    };
+    let handle = Handle { param: &given.params.setup.relief, growth: vec2(0.0, 1e3 * metres) };
     let text = format!("relief {:.2} mm", 1e3 * neck.relief);
     show_handle(ui, given, profile, setup, &handle, neck.equal_place(5.5), text);
 }

@@ -84,6 +84,11 @@ impl Shelf {
         lock(&self.0.message).clone()
     }
 
+    /// How many files can be chosen.
+    pub fn count(&self) -> usize {
+        self.0.files.len()
+    }
+
     /// A file is chosen by its number. Called wherever parameters change: neither waits nor allocates.
     pub(crate) fn choose(&self, number: u32) {
         self.0.chosen.store(number, Ordering::Relaxed);

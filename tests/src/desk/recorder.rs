@@ -21,6 +21,13 @@ pub enum Told {
     End(String),
 }
 
+/// Whether a host was told of one whole gesture on a parameter, and nothing else.
+pub fn is_gesture(told: &[Told], id: &str) -> bool {
+    let [Told::Begin(begun), inside @ .., Told::End(ended)] = told else { return false };
+    let is_set = |told: &Told| matches!(told, Told::Set(set, _) if set == id);
+    begun == id && ended == id && !inside.is_empty() && inside.iter().all(is_set)
+}
+
 /// A host that sets what it is told at once.
 pub struct Recorder {
     params: Arc<LowActionParams>,

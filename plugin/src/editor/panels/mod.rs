@@ -1,5 +1,7 @@
 //! The panels under the strings, one at a time behind tabs.
 
+mod bar;
+mod cells;
 mod engine;
 mod luthier;
 mod player;
@@ -44,10 +46,13 @@ impl Tab {
 pub struct Panels {
     /// The one that is seen.
     pub tab: Tab,
+    engine: engine::Engine,
 }
 
 /// Height of the row of tabs, points.
 const TABS: f32 = 32.0;
+/// What is narrower than this is scrolled, points.
+const NARROWEST: f32 = 880.0;
 
 impl Panels {
     /// Draws the tabs and the panel that is seen.
@@ -56,14 +61,25 @@ impl Panels {
         ui.painter().rect_filled(area, theme::ROUND, theme::SURFACE);
         let tabs = Rect::from_min_size(area.min, vec2(area.width(), TABS));
         self.show_tabs(ui, tabs);
-        let inside =
-            Rect::from_min_max(pos2(area.left(), tabs.bottom()), area.max).shrink2(vec2(theme::GAP, NEAR));
-        ui.scope_builder(UiBuilder::new().id_salt(self.tab.name()).max_rect(inside), |ui| match self.tab {
+        let inside = Rect::from_min_max(pos2(area.left(), tabs.bottom()), area.max).shrink2(vec2(NEAR, NEAR));
+        ui.scope_builder(UiBuilder::new().id_salt(self.tab.name()).max_rect(inside), |ui| {
+            egui::ScrollArea::horizontal().show(ui, |ui| {
+                let size = vec2(inside.width().max(NARROWEST), inside.height());
+                let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
+                // Room for the rings around controls that have the focus.
+                let whole = whole.shrink2(vec2(NEAR, 0.0));
+                ui.scope_builder(UiBuilder::new().max_rect(whole), |ui| self.show_tab(ui, given));
+            });
+        });
+    }
+
+    fn show_tab(&mut self, ui: &mut Ui, given: &Given) {
+        match self.tab {
             Tab::Player => player::show(ui, given),
             Tab::Luthier => luthier::show(ui, given),
             Tab::Sound => sound::show(ui, given),
-            Tab::Engine => engine::show(ui, given),
-        });
+            Tab::Engine => self.engine.show(ui, given),
+        }
     }
 
     fn show_tabs(&mut self, ui: &mut Ui, area: Rect) {

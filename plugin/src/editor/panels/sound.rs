@@ -1,10 +1,64 @@
-//! What becomes of the sound: level, losses, tuning.
+//! What becomes of the sound: level, tuning, losses, and how long the strings ring with them.
 
-use egui::Ui;
+use std::f64::consts::PI;
 
-use crate::editor::{Given, theme};
+use egui::{Align2, Rect, Ui, pos2, vec2};
+use low_action_dsp::Setup;
+
+use super::cells::Cells;
+use crate::editor::control::{slider, switch};
+use crate::editor::theme::{self, GAP};
+use crate::editor::{Given, panels::bar};
+
+/// Times longer than this fill their bar, s.
+const LONGEST: f64 = 40.0;
+/// The partials whose times are shown.
+const PARTIALS: [u32; 2] = [1, 10];
 
 /// Draws the panel.
-pub fn show(ui: &mut Ui, _given: &Given) {
-    ui.colored_label(theme::SOFT_TEXT, "What becomes of the sound: level, losses, tuning.");
+pub fn show(ui: &mut Ui, given: &Given) {
+    let (setup, output) = (&given.params.setup, &given.params.output);
+    let mut cells = Cells::new(ui.max_rect(), 6);
+    cells.group(ui, "OUTPUT", 1);
+    slider(ui, given, &output.level, cells.next());
+    switch(ui, given, &output.bypass, cells.next());
+    cells.group(ui, "PITCH", 1);
+    slider(ui, given, &setup.tuning, cells.next());
+    switch(ui, given, &setup.tension_modulation, cells.next());
+    cells.group(ui, "LOSSES", 1);
+    slider(ui, given, &setup.loss_0, cells.next());
+    slider(ui, given, &setup.loss_1, cells.next());
+    cells.group(ui, "HOW LONG OPEN STRINGS RING", 3);
+    if let Some(setup) = given.plan.setup() {
+        show_times(ui, cells.rest(), setup);
+    }
+}
+
+/// Time in which a partial of an open string falls by 60 dB, s.
+fn ringing_time(setup: &Setup, string: usize, partial: u32) -> f64 {
+    let wavenumber = PI * f64::from(partial) / setup.neck.scale_length;
+    let string = &setup.string[string];
+    1000_f64.ln() / (string.loss_0 + string.loss_1 * wavenumber * wavenumber)
+}
+
+/// A row for each string: its first and its tenth partial.
+fn show_times(ui: &Ui, area: Rect, setup: &Setup) {
+    let row = bar::row_height(area, setup.string.len());
+    let width = (0.5 * (area.width() - 40.0 - GAP)).max(8.0);
+    for (index, string) in setup.string.iter().enumerate() {
+        let middle = area.top() + (index as f32 + 0.5) * row;
+        bar::paint_name(ui, pos2(area.left(), middle), &string.name);
+        for (column, partial) in PARTIALS.into_iter().enumerate() {
+            let time = ringing_time(setup, index, partial);
+            let left = area.left() + 40.0 + column as f32 * (width + GAP);
+            let place = Rect::from_min_size(pos2(left, middle - 0.5 * row), vec2(width, row));
+            bar::paint(ui, place, (time / LONGEST).sqrt() as f32, &format!("{time:.1} s"), theme::CALM);
+        }
+    }
+    for (column, partial) in PARTIALS.into_iter().enumerate() {
+        let left = area.left() + 40.0 + column as f32 * (width + GAP);
+        let text = if partial == 1 { "fundamental".to_owned() } else { format!("partial {partial}") };
+        let place = pos2(left + width, area.top() - theme::TIGHT);
+        ui.painter().text(place, Align2::RIGHT_BOTTOM, text, theme::SMALL, theme::SOFT_TEXT);
+    }
 }

@@ -17,22 +17,12 @@ pub(super) fn show(ui: &mut Ui, given: &Given, sight: &Sight, setup: &Setup) {
     // To the right is towards the saddle; the parameters count millimetres away from it.
     let growth = vec2(-1e3 / sight.along, 0.0);
     if let Some(player) = given.plan.player() {
-        let handle = Handle {
-            param: &given.params.player.pluck_position,
-            name: "Pluck position",
-            hint: "Nearer to the saddle is brighter and thinner, nearer to the neck rounder.",
-            growth,
-        };
+        let handle = Handle { param: &given.params.player.pluck_position, growth };
         let place = scale - player.pluck_position as f32;
         mark(ui, given, sight, &handle, place, ("pluck", Align2::LEFT_BOTTOM), theme::PLUCK);
     }
     if let Pickup::Magnetic { position, .. } = setup.pickup {
-        let handle = Handle {
-            param: &given.params.setup.pickup_position,
-            name: "Pickup position",
-            hint: "A coil does not hear a partial that has a node over it: near the saddle it hears the high ones.",
-            growth,
-        };
+        let handle = Handle { param: &given.params.setup.pickup_position, growth };
         let label = ("pickup", Align2::RIGHT_BOTTOM);
         mark(ui, given, sight, &handle, scale - position as f32, label, theme::STEEL);
     }

@@ -1,0 +1,113 @@
+//! Controls of the panels: one for each kind of parameter, all with the same habits.
+//!
+//! The name stands over each, the value with its unit beside it or under it. Tab reaches a control, arrows move it,
+//! Home and End bring it to its ends, Delete to its usual value. The host is told where each gesture begins and ends.
+
+mod choice;
+mod number;
+mod slider;
+mod switch;
+
+use egui::{
+    Align2, Color32, EventFilter, Key, Modifiers, Rect, Response, Stroke, StrokeKind, Ui, pos2, vec2,
+};
+use nice_plug::prelude::Param;
+
+use super::{Given, theme};
+pub use choice::choice;
+pub use slider::slider;
+pub use switch::switch;
+
+/// Height of a control, points.
+pub const HEIGHT: f32 = 32.0;
+/// Height of the row with its name, points.
+const NAME: f32 = 16.0;
+
+/// Sets a parameter in one gesture, 0 to 1.
+fn set<P: Param>(given: &Given, param: &P, normalized: f32) {
+    given.setter.begin_set_parameter(param);
+    given.setter.set_parameter_normalized(param, normalized);
+    given.setter.end_set_parameter(param);
+}
+
+/// Moves a parameter by so many steps, up or down.
+fn step<P: Param>(given: &Given, param: &P, steps: i32, fine: bool) {
+    let mut value = param.unmodulated_normalized_value();
+    for _ in 0..steps.abs() {
+        value = if steps > 0 {
+            param.next_normalized_step(value, fine)
+        } else {
+            param.previous_normalized_step(value, fine)
+        };
+    }
+    if steps != 0 {
+        set(given, param, value);
+    }
+}
+
+/// Takes what the keyboard does to a control that has the focus.
+fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response) {
+    if response.clicked() {
+        response.request_focus();
+    }
+    if !response.has_focus() {
+        return;
+    }
+    let own = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, own));
+    let (steps, fine, end) = ui.input_mut(|input| {
+        let fine = input.modifiers.shift;
+        let mut pressed = |key| {
+            input.count_and_consume_key(Modifiers::NONE, key)
+                + input.count_and_consume_key(Modifiers::SHIFT, key)
+        };
+        let up = pressed(Key::ArrowRight) + pressed(Key::ArrowUp);
+        let down = pressed(Key::ArrowLeft) + pressed(Key::ArrowDown);
+        let ends = [
+            (Key::Home, 0.0),
+            (Key::End, 1.0),
+            (Key::Delete, param.default_normalized_value()),
+            (Key::Backspace, param.default_normalized_value()),
+        ];
+        let end = ends.into_iter().filter(|(key, _)| pressed(*key) > 0).map(|(_, value)| value).last();
+        (up as i32 - down as i32, fine, end)
+    });
+    step(given, param, steps, fine);
+    if let Some(end) = end {
+        set(given, param, end);
+    }
+}
+
+/// A musician's words for it, under the mouse.
+fn explain<P: Param>(given: &Given, param: &P, response: Response) -> Response {
+    response.on_hover_ui(|ui| {
+        ui.set_max_width(280.0);
+        ui.label(format!("{}: {}", param.name(), shown(param)));
+        ui.colored_label(theme::SOFT_TEXT, given.words.heard(param));
+    })
+}
+
+/// The value with its unit.
+fn shown<P: Param>(param: &P) -> String {
+    param.normalized_value_to_string(param.unmodulated_normalized_value(), true)
+}
+
+/// The name in its row, and a ring around all of it while it has the focus.
+fn paint_name<P: Param>(ui: &Ui, param: &P, area: Rect, response: &Response) {
+    let colour = if is_taken(response) { theme::TEXT } else { theme::SOFT_TEXT };
+    let place = pos2(area.left(), area.top() + 0.5 * NAME);
+    ui.painter().text(place, Align2::LEFT_CENTER, param.name(), theme::SMALL, colour);
+    if response.has_focus() {
+        let ring = Stroke::new(1.0, theme::ACCENT);
+        ui.painter().rect_stroke(area.expand2(vec2(6.0, 2.0)), 4.0, ring, StrokeKind::Inside);
+    }
+}
+
+fn is_taken(response: &Response) -> bool {
+    response.hovered() || response.dragged() || response.has_focus()
+}
+
+/// The colour of what a control shows of its value.
+fn strength(response: &Response) -> Color32 {
+    if is_taken(response) { theme::ACCENT } else { theme::faint(theme::ACCENT, 0.75) }
+}

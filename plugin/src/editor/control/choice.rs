@@ -1,0 +1,59 @@
+//! One of a few things, chosen from a list.
+
+use egui::{
+    Align2, Button, CursorIcon, Popup, Rect, Response, ScrollArea, Sense, Shape, Stroke, Ui, pos2, vec2,
+};
+use nice_plug::prelude::Param;
+
+use super::{NAME, explain, follow_keys, is_taken, paint_name, set, shown};
+use crate::editor::{Given, theme};
+
+/// Highest that a list is, points; what is longer scrolls.
+const HIGHEST: f32 = 320.0;
+
+/// Shows it: the first `count` values of the parameter can be chosen.
+pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count: usize) -> Response {
+    let id = ui.scope_id().with(param.name());
+    let response = ui.interact(area, id, Sense::click());
+    response.widget_info(|| {
+        let mut info = egui::WidgetInfo::labeled(egui::Role::ComboBox, true, param.name());
+        info.current_text_value = Some(shown(param));
+        info
+    });
+    follow_keys(ui, given, param, &response);
+    paint_name(ui, param, area, &response);
+    paint_value(ui, &shown(param), area, &response);
+    let steps = param.step_count().unwrap_or(1).max(1) as f32;
+    let chosen = param.unmodulated_normalized_value();
+    Popup::menu(&response).width(area.width()).show(|ui| {
+        ScrollArea::vertical().max_height(HIGHEST).show(ui, |ui| {
+            for index in 0..count {
+                let value = index as f32 / steps;
+                let text = param.normalized_value_to_string(value, true);
+                let is_chosen = (value - chosen).abs() < 0.5 / steps;
+                let line = ui.add(Button::selectable(is_chosen, text).min_size(vec2(area.width(), 0.0)));
+                if line.clicked() {
+                    set(given, param, value);
+                    ui.close();
+                }
+            }
+        });
+    });
+    explain(given, param, response.on_hover_cursor(CursorIcon::PointingHand))
+}
+
+/// The value in a box with a mark that there are others, cut off where there is no room.
+fn paint_value(ui: &Ui, text: &str, area: Rect, response: &Response) {
+    let painter = ui.painter();
+    let row = Rect::from_min_max(pos2(area.left(), area.top() + NAME), area.max);
+    painter.rect_filled(row, 4.0, if is_taken(response) { theme::LIFTED } else { theme::RAISED });
+    let inside = row.shrink2(vec2(6.0, 0.0)).with_max_x(row.right() - 16.0);
+    let mut job = egui::text::LayoutJob::simple_singleline(text.into(), theme::SMALL, theme::TEXT);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(inside.width());
+    let galley = painter.layout_job(job);
+    let place = Align2::LEFT_CENTER.anchor_size(inside.left_center(), galley.size());
+    painter.galley(place.min, galley, theme::TEXT);
+    let middle = pos2(row.right() - 10.0, row.center().y);
+    let corners = [vec2(-3.5, -2.0), vec2(3.5, -2.0), vec2(0.0, 2.5)].map(|corner| middle + corner);
+    painter.add(Shape::convex_polygon(corners.to_vec(), theme::SOFT_TEXT, Stroke::NONE));
+}

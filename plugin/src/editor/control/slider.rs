@@ -1,0 +1,101 @@
+//! A number on a line.
+//!
+//! Dragging anywhere over it moves it, ten times as finely with Shift, and the wheel by steps; a double click brings it
+//! back to its usual value. A click on the number, or Enter, types one.
+
+use egui::{CursorIcon, Event, Id, MouseWheelUnit, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
+use nice_plug::prelude::Param;
+
+use super::{NAME, explain, follow_keys, is_taken, number, paint_name, set, step, strength};
+use crate::editor::{Given, theme};
+
+/// How much finer a drag is with Shift.
+const FINE: f32 = 0.1;
+/// Points of a wheel without notches that are as much as a notch.
+const NOTCH: f32 = 24.0;
+
+/// Shows it.
+pub fn slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect) -> Response {
+    let id = ui.scope_id().with(param.name());
+    let mut response = ui.interact(area, id, Sense::click_and_drag());
+    let value = param.unmodulated_normalized_value();
+    response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(value), param.name()));
+    drag(ui, given, param, &response);
+    if response.double_clicked() {
+        set(given, param, param.default_normalized_value());
+    }
+    step(given, param, notches(ui, id, area), ui.input(|input| input.modifiers.shift));
+    follow_keys(ui, given, param, &response);
+    paint_name(ui, param, area, &response);
+    paint_line(ui, param, area, &response);
+    response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
+    let response = explain(given, param, response);
+    let row = Rect::from_min_size(area.min, vec2(area.width(), NAME));
+    number::show(ui, given, param, row, &response);
+    response
+}
+
+fn drag<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response) {
+    let (id, setter) = (response.id, &given.setter);
+    let growth = 1.0 / response.rect.width().max(1.0);
+    let value = param.unmodulated_normalized_value();
+    let fine = if ui.input(|input| input.modifiers.shift) { FINE } else { 1.0 };
+    if response.drag_started() {
+        setter.begin_set_parameter(param);
+        // What it moved until it was known to be a drag counts too.
+        let before = response.total_drag_delta().unwrap_or_default() - response.drag_delta();
+        ui.data_mut(|data| data.insert_temp(id, value + fine * growth * before.x));
+    }
+    if response.dragged() {
+        let held =
+            ui.data(|data| data.get_temp(id)).unwrap_or(value) + fine * growth * response.drag_delta().x;
+        // Beyond the end the mouse has to come back before anything moves again.
+        ui.data_mut(|data| data.insert_temp(id, held));
+        let whole = param.preview_normalized(param.preview_plain(held.clamp(0.0, 1.0)));
+        setter.set_parameter_normalized(param, whole);
+    }
+    if response.drag_stopped() {
+        setter.end_set_parameter(param);
+    }
+}
+
+/// Notches that the wheel has turned over an area.
+fn notches(ui: &Ui, id: Id, area: Rect) -> i32 {
+    if !ui.rect_contains_pointer(area) {
+        return 0;
+    }
+    let turned: f32 = ui.input(|input| {
+        let turn = |event: &Event| match event {
+            Event::MouseWheel { unit: MouseWheelUnit::Point, delta, .. } => (delta.x + delta.y) / NOTCH,
+            Event::MouseWheel { delta, .. } => delta.x + delta.y,
+            _ => 0.0,
+        };
+        input.events.iter().map(turn).sum()
+    });
+    let id = id.with("turned");
+    let turned = ui.data(|data| data.get_temp::<f32>(id)).unwrap_or(0.0) + turned;
+    ui.data_mut(|data| data.insert_temp(id, turned.fract()));
+    turned.trunc() as i32
+}
+
+/// The line, full from the usual value to the present one, and where a host's modulation has it.
+fn paint_line<P: Param>(ui: &Ui, param: &P, area: Rect, response: &Response) {
+    let painter = ui.painter();
+    let y = area.top() + NAME + 8.0;
+    let line = Rect::from_min_max(pos2(area.left(), y - 2.0), pos2(area.right(), y + 2.0));
+    let at = |value: f32| line.left() + value * line.width();
+    let (value, usual) = (param.unmodulated_normalized_value(), param.default_normalized_value());
+    painter.rect_filled(line, 2.0, if is_taken(response) { theme::LIFTED } else { theme::RAISED });
+    let (from, to) = (at(value.min(usual)), at(value.max(usual)));
+    painter.rect_filled(line.with_min_x(from).with_max_x(to), 2.0, strength(response));
+    painter.vline(at(usual), line.y_range().expand(2.0), Stroke::new(1.0, theme::SOFT_TEXT));
+    painter.circle_filled(
+        pos2(at(value), y),
+        5.0,
+        if is_taken(response) { theme::TEXT } else { theme::BONE },
+    );
+    let modulated = param.modulated_normalized_value();
+    if modulated != value {
+        painter.circle_stroke(pos2(at(modulated), y), 4.0, Stroke::new(1.5, theme::PLUCK));
+    }
+}

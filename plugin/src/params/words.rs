@@ -1,0 +1,104 @@
+//! What a musician hears of each parameter: the one place from which the editor takes its explanations.
+
+use std::collections::HashMap;
+
+use nice_plug::params::internals::ParamPtr;
+use nice_plug::prelude::{Param, Params};
+
+use super::LowActionParams;
+
+/// What is heard of a parameter, by its [identifier](LowActionParams). All strings' tunings share one.
+const HEARD: [(&str, &str); 37] = [
+    ("instrument", "The instrument: strings, neck, hands and pickup."),
+    ("instrument_file", "An instrument of your own, from your folder, in place of that one."),
+    (
+        "quality",
+        "How exactly the strings are computed while you play. More costs time and gains truth in the buzz.",
+    ),
+    ("render_quality", "The same where the host renders offline and time does not matter."),
+    ("iterations", "Bounds the work of the hardest moment. A low number takes energy out of hard hits."),
+    ("relax", "Short of time, contacts are solved less exactly instead of the sound breaking up."),
+    ("action", "Height of the strings. Lower plays easily and buzzes, higher rings clean and loud."),
+    ("relief", "How far the neck bows away from the strings: room for the middle of their swing."),
+    ("fret_height", "Tall frets ring clean of the wood; with low ones the string touches the board."),
+    ("loss_0", "How soon everything dies away. Less rings longer."),
+    ("loss_1", "How soon the brightness dies away: old strings have more of it, new ones less."),
+    ("tension_modulation", "A hard pluck stretches the string, and so begins sharp and settles."),
+    ("pickup_position", "Near the saddle is thin and bright, near the neck round and full."),
+    (
+        "pickup_blend",
+        "Mixes in the other pickup: the force on the bridge beside a coil, or a coil beside the bridge.",
+    ),
+    ("tuning", "Another concert pitch: every note sounds higher or lower."),
+    ("string_tuning", "Tunes this open string; keys keep their pitch and find it on other frets."),
+    ("pluck_position", "Nearer to the saddle is brighter and thinner, nearer to the neck rounder."),
+    ("pluck_force", "How hard the hardest pluck is. Hard plucks throw the string at the frets."),
+    ("pluck_softest", "How hard the softest pluck is beside the hardest: more evens the dynamics out."),
+    ("pluck_duration", "A long push is a soft thumb, a short one a hard pick."),
+    (
+        "velocity_curve",
+        "How force follows velocity: low numbers are loud early, high ones late; 0 is always the hardest.",
+    ),
+    ("variation", "How much plucks differ from one another, as a hand's do. At 0 all are exactly alike."),
+    ("finger_force", "How firmly fingers press. Too little and the note buzzes against its own fret."),
+    ("finger_hardness", "Soft pads swallow the high notes, hard ones let the string rattle."),
+    ("finger_mass", "A heavy finger lands with more of a thump."),
+    ("finger_hover", "How high fingers hover: from higher up they strike harder and later."),
+    ("hand_damping", "How much the hand swallows of what shakes the finger."),
+    (
+        "input_mode",
+        "What MIDI channels mean: one keyboard, a channel for each string, or a channel for each note.",
+    ),
+    ("bend_range", "How far a full turn of the pitch wheel bends."),
+    ("tremolo_arm", "Bends all strings at once, as the arm on the bridge does."),
+    ("level", "Loudness of the output. At 0 dB the samples pass untouched."),
+    ("bypass", "Silences the output; the strings go on."),
+    ("first_channel", "The first channel that is a string, where each channel is one."),
+    ("string_order", "Whether that channel is the first string, the highest on guitars, or the last."),
+    ("ignore_rpn", "Keeps the bend range as it is here, whatever the keyboard announces."),
+    (
+        "legato",
+        "Overlapping notes on one string become hammer-ons, pull-offs and slides: while CC 68 is down, or always.",
+    ),
+    ("keyswitches", "The first of 20 keys that tell the hands how to play instead of sounding."),
+];
+
+/// What a musician hears of the parameter with this identifier; nothing if there is none such.
+pub fn heard(id: &str) -> Option<&'static str> {
+    let id = if id.starts_with("string_tuning") { "string_tuning" } else { id };
+    HEARD.iter().find(|(known, _)| *known == id).map(|(_, heard)| *heard)
+}
+
+/// Tells of the parameters of one plugin.
+#[derive(Debug)]
+pub struct Words(HashMap<ParamPtr, &'static str>);
+
+impl Words {
+    /// Of these parameters.
+    pub fn of(params: &LowActionParams) -> Self {
+        let told = params.param_map().into_iter().filter_map(|(id, param, _)| Some((param, heard(&id)?)));
+        Self(told.collect())
+    }
+
+    /// What a musician hears of a parameter.
+    pub fn heard(&self, param: &impl Param) -> &'static str {
+        self.0.get(&param.as_ptr()).copied().unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_parameter_is_explained_and_nothing_else() {
+        let ids: Vec<String> =
+            LowActionParams::default().param_map().into_iter().map(|(id, ..)| id).collect();
+        for id in &ids {
+            assert!(heard(id).is_some_and(|heard| heard.ends_with('.')), "{id}");
+        }
+        for (id, _) in HEARD {
+            assert!(ids.iter().any(|known| known.starts_with(id)), "{id}");
+        }
+    }
+}

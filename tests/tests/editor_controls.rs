@@ -1,0 +1,173 @@
+//! Promise: everything that can be set has one control in the panels. It is dragged, turned with the wheel, typed with or
+//! without its unit and moved by the keyboard, and the host is told of one whole gesture each time.
+
+use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, vec2};
+use low_action_tests::desk::{Desk, is_gesture};
+use nice_plug::prelude::Params;
+
+/// Opens a panel and points at one of its controls.
+fn at(desk: &mut Desk, tab: &str, name: &str) -> egui::Pos2 {
+    desk.open(tab);
+    let place = desk.control(name).unwrap_or_else(|| panic!("{name} is not in {tab}"));
+    desk.host.take();
+    place
+}
+
+fn write(desk: &mut Desk, text: &str) {
+    desk.harness.event(Event::Text(text.into()));
+    desk.wait(0.05);
+}
+
+#[test]
+fn every_parameter_has_its_place() {
+    let mut desk = Desk::new();
+    let names: Vec<String> = desk
+        .params
+        .param_map()
+        .into_iter()
+        // SAFETY: the pointers lead into the parameters, which the desk keeps.
+        .map(|(_, param, _)| unsafe { param.name() }.to_owned())
+        .collect();
+    let mut found = vec![0; names.len()];
+    for tab in ["Player", "Luthier", "Sound", "Engine"] {
+        desk.open(tab);
+        for (found, name) in found.iter_mut().zip(&names) {
+            *found += usize::from(desk.control(name).is_some());
+        }
+    }
+    for (found, name) in found.iter().zip(&names) {
+        assert_eq!(*found, 1, "{name}");
+    }
+}
+
+#[test]
+fn a_drag_is_one_gesture_and_shift_is_finer() {
+    let mut desk = Desk::new();
+    let from = at(&mut desk, "Player", "Variation");
+    desk.drag(&[from, from + vec2(40.0, 0.0)], 0.2);
+    assert!(is_gesture(&desk.host.take(), "variation"));
+    let coarse = desk.params.player.variation.value() - 0.25;
+    assert!((0.15..0.4).contains(&coarse), "{coarse}");
+    desk.point(from);
+    desk.press(from, true, Modifiers::SHIFT);
+    for step in 1..=10 {
+        let to = from - vec2(4.0 * step as f32, 0.0);
+        desk.harness.event_modifiers(Event::PointerMoved(to), Modifiers::SHIFT);
+        desk.picture();
+    }
+    desk.press(from - vec2(40.0, 0.0), false, Modifiers::SHIFT);
+    let fine = 0.25 + coarse - desk.params.player.variation.value();
+    assert!((0.5 * coarse..2.0 * coarse).contains(&(10.0 * fine)), "{coarse} and {fine}");
+}
+
+#[test]
+fn nothing_leaves_its_range_and_a_double_click_brings_back() {
+    let mut desk = Desk::new();
+    let from = at(&mut desk, "Player", "Pluck force");
+    desk.drag(&[from, from + vec2(900.0, 0.0)], 0.2);
+    assert_eq!(desk.params.player.pluck_force.value(), 5.0);
+    desk.wait(1.0);
+    desk.host.take();
+    desk.click(from);
+    desk.click(from);
+    assert_eq!(desk.params.player.pluck_force.value(), 1.0);
+    assert!(is_gesture(&desk.host.take(), "pluck_force"));
+}
+
+#[test]
+fn the_wheel_moves_by_steps() {
+    let mut desk = Desk::new();
+    let place = at(&mut desk, "Sound", "Level");
+    desk.point(place);
+    let notch = |lines: f32| Event::MouseWheel {
+        unit: MouseWheelUnit::Line,
+        delta: vec2(0.0, lines),
+        phase: TouchPhase::Move,
+        source: MouseWheelSource::Wheel,
+        modifiers: Modifiers::NONE,
+    };
+    desk.harness.event(notch(-2.0));
+    desk.picture();
+    let down = desk.params.output.level.value();
+    assert!((-4.0..-1.0).contains(&down), "{down} dB");
+    assert!(is_gesture(&desk.host.take(), "level"));
+    desk.harness.event(notch(2.0));
+    desk.picture();
+    assert_eq!(desk.params.output.level.value(), 0.0);
+}
+
+#[test]
+fn numbers_are_typed_with_or_without_unit() {
+    let mut desk = Desk::new();
+    for (text, decibels) in [("-6", -6.0), ("-12 dB", -12.0)] {
+        let typed = at(&mut desk, "Sound", "Type Level");
+        desk.click(typed);
+        desk.wait(0.05);
+        write(&mut desk, text);
+        assert!(desk.host.take().is_empty(), "nothing is set before it is entered");
+        desk.key(Key::Enter);
+        assert_eq!(desk.params.output.level.value(), decibels);
+        assert!(is_gesture(&desk.host.take(), "level"));
+        desk.wait(1.0);
+    }
+}
+
+#[test]
+fn what_is_no_number_is_not_taken() {
+    let mut desk = Desk::new();
+    let typed = at(&mut desk, "Sound", "Type Level");
+    desk.click(typed);
+    desk.wait(0.05);
+    write(&mut desk, "loud");
+    desk.key(Key::Enter);
+    write(&mut desk, "and more");
+    assert!(desk.host.take().is_empty());
+    let typed = at(&mut desk, "Sound", "Type Level");
+    desk.click(typed);
+    desk.wait(0.05);
+    write(&mut desk, "-6");
+    desk.key(Key::Escape);
+    assert!(desk.host.take().is_empty());
+    assert_eq!(desk.params.output.level.value(), 0.0);
+}
+
+#[test]
+fn the_keyboard_does_all_of_it() {
+    let mut desk = Desk::new();
+    let place = at(&mut desk, "Luthier", "Action");
+    desk.click(place);
+    desk.host.take();
+    let value = |desk: &Desk| desk.params.setup.action.value();
+    desk.key(Key::ArrowUp);
+    assert!(value(&desk) > 1.0);
+    assert!(is_gesture(&desk.host.take(), "action"));
+    desk.key(Key::End);
+    assert_eq!(value(&desk), 3.0);
+    desk.key(Key::Home);
+    assert_eq!(value(&desk), 0.1);
+    desk.key(Key::Delete);
+    assert_eq!(value(&desk), 1.0);
+    desk.key(Key::Enter);
+    write(&mut desk, "150 %");
+    desk.key(Key::Enter);
+    assert_eq!(value(&desk), 1.5);
+    desk.key(Key::Tab);
+    desk.key(Key::End);
+    assert_eq!(desk.params.setup.relief.value(), 2.0, "Tab goes to the next control");
+}
+
+#[test]
+fn choices_open_and_switches_turn() {
+    let mut desk = Desk::new();
+    let place = at(&mut desk, "Luthier", "Instrument");
+    desk.click(place);
+    desk.wait(0.1);
+    desk.click(desk.named("Classical"));
+    desk.wait(0.1);
+    assert_eq!(desk.params.instrument.instrument.to_string(), "Classical");
+    assert!(is_gesture(&desk.host.take(), "instrument"));
+    let place = at(&mut desk, "Engine", "Relax when late");
+    desk.click(place);
+    assert!(!desk.params.instrument.relax.value());
+    assert!(is_gesture(&desk.host.take(), "relax"));
+}
