@@ -18,6 +18,9 @@ pub use snapshot::{FingerSeen, FretSeen, POINTS, PluckSeen, Snapshot, StringSeen
 /// Snapshots a second at most: as many as a screen shows.
 pub const RATE: f64 = 60.0;
 
+/// Snapshots a second of strings at rest, which look the same in all of them.
+const RESTING_RATE: f64 = 4.0;
+
 /// Snapshots on their way at once: one being filled, one waiting and one on its way back.
 const UNDER_WAY: usize = 3;
 
@@ -47,6 +50,8 @@ pub struct Writer {
     /// Samples since the last snapshot.
     waited: f64,
     written: u64,
+    /// Whether all strings were at rest in the last snapshot.
+    at_rest: bool,
 }
 
 /// The side of the editor.
@@ -63,7 +68,13 @@ pub fn display() -> (Writer, Reader) {
         // There is room for exactly so many.
         queues.seen.push(Box::default()).ok();
     }
-    let writer = Writer { queues: queues.clone(), looked_at: false, waited: f64::INFINITY, written: 0 };
+    let writer = Writer {
+        queues: queues.clone(),
+        looked_at: false,
+        waited: f64::INFINITY,
+        written: 0,
+        at_rest: false,
+    };
     (writer, Reader { queues, latest: Box::default() })
 }
 
@@ -81,7 +92,9 @@ impl Writer {
     /// did.
     pub fn write(&mut self, engine: &mut Engine, samples: usize, health: Health) -> bool {
         self.waited += samples as f64;
-        if !self.looked_at || self.waited * RATE < engine.instrument().sample_rate() {
+        let at_rest = engine.is_silent();
+        let rate = if at_rest && self.at_rest { RESTING_RATE } else { RATE };
+        if !self.looked_at || self.waited * rate < engine.instrument().sample_rate() {
             return false;
         }
         // One that nobody has fetched is out of date.
@@ -89,7 +102,7 @@ impl Writer {
             return false;
         };
         self.written += 1;
-        self.waited = 0.0;
+        (self.waited, self.at_rest) = (0.0, at_rest);
         snapshot.fill(engine, self.written, health);
         engine.observe_anew();
         if let Err(snapshot) = self.queues.filled.push(snapshot) {

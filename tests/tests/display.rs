@@ -96,6 +96,26 @@ fn sixty_a_second_and_only_the_latest() {
 }
 
 #[test]
+fn strings_at_rest_are_seen_less_often_and_at_once_when_they_move() {
+    let (mut writer, mut reader) = display();
+    let mut engine = engine("electric");
+    let (mut left, mut right) = ([0.0; BLOCK], [0.0; BLOCK]);
+    let mut block = |engine: &mut Engine| {
+        writer.look(true, engine);
+        engine.process(&mut left, &mut right);
+        writer.write(engine, BLOCK, Health::default());
+    };
+    (0..(2.0 * RATE) as usize / BLOCK).for_each(|_| block(&mut engine));
+    reader.fetch();
+    let resting = reader.latest().number;
+    assert!((6..=10).contains(&resting), "{resting} in two seconds");
+    engine.event(0, on(40, 1.0));
+    (0..4).for_each(|_| block(&mut engine));
+    assert!(reader.fetch(), "the pluck is not seen");
+    assert!(reader.latest().strings()[5].displacement.iter().any(|u| *u != 0.0));
+}
+
+#[test]
 fn strings_are_where_they_are() {
     // The picture after the fifth block is the second.
     let (engine, reader) = seen(5);

@@ -105,6 +105,18 @@ fn a_finger_comes_slides_and_leaves() {
 }
 
 #[test]
+fn a_finger_stays_over_the_board() {
+    let mut desk = Desk::new();
+    desk.picture();
+    let way = [desk.at(0.3, 1.0), desk.at(0.64, 1.0), desk.at(-0.02, 1.0)];
+    desk.drag(&way, 0.1);
+    for deed in deeds(&desk, 1) {
+        let StringDeed::Press { position } = deed else { continue };
+        assert!((0.0..0.48).contains(&position), "{position} m");
+    }
+}
+
+#[test]
 fn with_shift_the_finger_stays() {
     let mut desk = Desk::new();
     desk.picture();

@@ -36,11 +36,10 @@ enum Doing {
     Pressing { string: usize, place: f32, stays: bool },
 }
 
-/// What the mouse is doing, and which strings it has left a finger on.
+/// What the view remembers of the mouse.
 #[derive(Debug, Default)]
 pub(super) struct Play {
     doing: Doing,
-    left: Vec<Option<f32>>,
 }
 
 impl Play {
@@ -51,7 +50,6 @@ impl Play {
 
     /// Takes what the mouse has done since the last picture.
     pub fn follow(&mut self, ui: &Ui, response: &Response, sight: &Sight, setup: &Setup, given: &Given) {
-        self.left.resize(setup.string.len(), None);
         let (pressed, held, shift, seconds) = ui.input(|input| {
             let pointer = &input.pointer;
             (pointer.primary_pressed(), pointer.primary_down(), input.modifiers.shift, input.stable_dt)
@@ -63,7 +61,7 @@ impl Play {
         {
             self.begin(at, shift, sight, setup, given);
         } else if let Some(at) = at.filter(|_| held) {
-            self.go_on(at, seconds, sight, given);
+            self.go_on(at, seconds, sight, setup, given);
         }
         if !held {
             self.end(given);
@@ -74,7 +72,6 @@ impl Play {
             self.deed(given, sight.nearest(at.y), StringDeed::Damp);
         }
         if ui.input(|input| input.key_pressed(Key::Escape)) {
-            self.left.fill(None);
             given.pointer.play(PlayerEvent::AllNotesOff);
         }
         if let Some(at) = response.hover_pos() {
@@ -88,10 +85,7 @@ impl Play {
         if !on_string(at, sight) {
             self.doing = Doing::Strumming(at);
         } else if over_board(place, setup) {
-            if let Some(Some(_)) = self.left.get(string).filter(|_| !shift) {
-                // A finger that was left there goes with the mouse.
-                self.left[string] = None;
-            }
+            // One that was left there goes with the mouse.
             self.doing = Doing::Pressing { string, place, stays: shift };
             self.deed(given, string, StringDeed::Press { position: place });
         } else {
@@ -100,7 +94,7 @@ impl Play {
         }
     }
 
-    fn go_on(&mut self, at: Pos2, seconds: f32, sight: &Sight, given: &Given) {
+    fn go_on(&mut self, at: Pos2, seconds: f32, sight: &Sight, setup: &Setup, given: &Given) {
         match &mut self.doing {
             Doing::Nothing => {}
             Doing::Strumming(before) => {
@@ -108,7 +102,7 @@ impl Play {
                 let speed = (at.y - from.y).abs() / sight.spacing / seconds.max(LEAST_TIME);
                 let force = (speed / FAST).powf(CURVE).clamp(SOFTEST, HARDEST);
                 // In the order in which they are crossed.
-                let count = self.left.len();
+                let count = setup.string.len();
                 let down = at.y > from.y;
                 for step in 0..count {
                     let string = if down { step } else { count - 1 - step };
@@ -121,7 +115,9 @@ impl Play {
                 }
             }
             Doing::Pressing { string, place, .. } => {
-                let (string, new) = (*string, sight.place(at.x));
+                // The finger stays over the board.
+                let end = setup.neck.board_end() as f32;
+                let (string, new) = (*string, sight.place(at.x).max(0.0).min(end));
                 if *place != new {
                     *place = new;
                     self.deed(given, string, StringDeed::Press { position: new });
@@ -131,12 +127,8 @@ impl Play {
     }
 
     fn end(&mut self, given: &Given) {
-        if let Doing::Pressing { string, place, stays } = std::mem::take(&mut self.doing) {
-            if stays {
-                self.left[string] = Some(place);
-            } else {
-                self.deed(given, string, StringDeed::Lift);
-            }
+        if let Doing::Pressing { string, stays: false, .. } = std::mem::take(&mut self.doing) {
+            self.deed(given, string, StringDeed::Lift);
         }
     }
 
