@@ -1,6 +1,6 @@
 //! The neck: where frets and board lie under a string, as height below the string at rest.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::contact::ContactLaw;
 use crate::curve::Curve;
@@ -9,7 +9,7 @@ use crate::model::Barrier;
 use crate::scene::FretPlacement;
 
 /// Frets and board, the same under every string but for the exact fret places.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Neck {
     /// Length from nut to saddle, m; fret m of equal temperament leaves 2^(−m/12) of it.

@@ -5,7 +5,7 @@
 
 mod player;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::curve::Curve;
 use crate::error::{Error, within};
@@ -14,7 +14,7 @@ use crate::neck::Neck;
 pub use player::{Damper, Fretting, Player};
 
 /// A whole instrument.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Setup {
     /// Short name, one word.
@@ -54,7 +54,7 @@ pub struct Setup {
 
 /// A wide bridge that falls away under the strings, as on sitar and tanpura: its top is at the saddle, where
 /// the strings end, and towards the nut it is part of a circle under them.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bridge {
     /// How far it reaches from the saddle under the strings, m.
@@ -64,7 +64,7 @@ pub struct Bridge {
 }
 
 /// Whether an instrument is made to play in tune.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Intonation {
     /// Tension and fret places are solved so that open and fretted strings are in tune.
@@ -76,7 +76,7 @@ pub enum Intonation {
 }
 
 /// One string of an instrument.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SetupString {
     /// Name, such as `E4`.
@@ -111,7 +111,7 @@ fn yes() -> bool {
 }
 
 /// What is heard of the strings.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Pickup {
     /// A coil over the strings: their velocity at a place, through the coil's own resonance.
@@ -175,6 +175,14 @@ impl Setup {
         let setup: Setup = crate::preset::read(text, base)?;
         setup.check()?;
         Ok(setup)
+    }
+
+    /// The text of a set-up file that says all of this; [`Setup::from_toml`] reads the same numbers out of it.
+    ///
+    /// # Errors
+    /// When a number is none that TOML has.
+    pub fn to_toml(&self) -> Result<String, Error> {
+        toml::to_string(self).map_err(|error| Error::Syntax(error.to_string()))
     }
 
     /// Refuses every value outside its range, naming it as in the file.

@@ -15,6 +15,7 @@ pub use choices::{InputChoice, InstrumentChoice, LegatoChoice, QualityChoice, Re
 pub use ranges::{exact, poly};
 pub use start::{Start, begin_with};
 
+use crate::plugin::layout::Layout;
 use crate::plugin::shelf::Shelf;
 use crate::plugin::state::Marked;
 
@@ -30,6 +31,9 @@ pub struct LowActionParams {
     /// The user's own set-ups; a session saves the one that is played.
     #[persist = "instrument_file"]
     pub shelf: Shelf,
+    /// How the editor was left.
+    #[persist = "editor"]
+    pub layout: Layout,
     /// What is played, and how exactly.
     #[nested(group = "Instrument")]
     pub instrument: InstrumentParams,

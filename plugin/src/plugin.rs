@@ -9,6 +9,7 @@
 mod budget;
 mod clap;
 mod events;
+pub mod layout;
 mod level;
 pub mod meters;
 pub(crate) mod order;

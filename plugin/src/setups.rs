@@ -24,6 +24,9 @@ pub const SHIPPED: [&str; Setup::BUILTIN.len() + Setup::PRESETS.len()] = {
 /// Largest set-up file read, bytes; those that come with the program have a few thousand.
 pub const LARGEST_FILE: u64 = 1 << 20;
 
+/// The most letters of a name under which a set-up is saved.
+pub const LONGEST_NAME: usize = 60;
+
 /// Names the folder of users' own set-ups, in place of the usual one.
 pub const FOLDER_VARIABLE: &str = "LOW_ACTION_INSTRUMENTS";
 
@@ -89,6 +92,28 @@ pub fn install(path: &Path, folder: &Path) -> Result<SetupFile> {
     let name = path.file_stem().and_then(|name| name.to_str());
     let name = name.with_context(|| format!("{} has no name that could be shown", path.display()))?;
     ensure!(!SHIPPED.contains(&name), "{name} comes with the program: give {} another name", path.display());
+    put(name, &text, folder)
+}
+
+/// Saves a set-up under its own name in a folder, which is made if need be, in place of one of the same name.
+///
+/// # Errors
+/// When the name is empty, longer than [`LONGEST_NAME`], has anything but letters, digits, spaces, - and _ in it or
+/// is that of one that comes with the program, a value is out of its range, or the file cannot be written.
+pub fn save(setup: &Setup, folder: &Path) -> Result<SetupFile> {
+    let name = setup.name.trim();
+    let usable = |letter: char| letter.is_alphanumeric() || " -_".contains(letter);
+    ensure!(
+        (1..=LONGEST_NAME).contains(&name.chars().count()) && name.chars().all(usable),
+        "an instrument cannot be named {name:?}: it must be 1 to {LONGEST_NAME} letters, digits, spaces, - or _"
+    );
+    ensure!(!SHIPPED.contains(&name), "{name} comes with the program: give yours another name");
+    setup.check().with_context(|| name.to_owned())?;
+    put(name, &setup.to_toml()?, folder)
+}
+
+/// Writes a set-up file.
+fn put(name: &str, text: &str, folder: &Path) -> Result<SetupFile> {
     fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let target = folder.join(name).with_extension(EXTENSION);
     // Beside it and then renamed, so that nobody ever reads half of it.

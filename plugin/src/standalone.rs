@@ -31,7 +31,7 @@ const AUTO: &str = "auto";
 /// How long it plays, and what there is to hear where there is no keyboard.
 const UNTIL: &str = if cfg!(feature = "editor") { "until its window is closed" } else { "until Ctrl+C" };
 const WITHOUT_KEYBOARD: &str = if cfg!(feature = "editor") {
-    "there is no MIDI keyboard: the strings are played with the mouse"
+    "there is no MIDI keyboard: mouse and computer keys play"
 } else {
     "there is no MIDI keyboard: nothing will be heard"
 };

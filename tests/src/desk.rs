@@ -16,6 +16,7 @@ use low_action::performance::PlayerEvent;
 use low_action::plugin::meters::Meters;
 use low_action::pointer::{Played, pointer};
 use low_action_dsp::Setup;
+use nice_plug::context::PluginApi;
 use nice_plug::context::gui::GuiContext;
 
 pub use recorder::{Recorder, Told, is_gesture};
@@ -63,11 +64,21 @@ impl Desk {
         Self::built(builder.with_size(times * vec2(SIZE[0], SIZE[1])).with_pixels_per_point(pixels))
     }
 
+    /// The same without a host, as a program of its own.
+    pub fn alone() -> Self {
+        let builder = Harness::builder().with_size(vec2(SIZE[0], SIZE[1])).with_pixels_per_point(1.0);
+        Self::under(PluginApi::Standalone, builder)
+    }
+
     fn built(builder: egui_kittest::HarnessBuilder<Editor>) -> Self {
+        Self::under(PluginApi::Clap, builder)
+    }
+
+    fn under(api: PluginApi, builder: egui_kittest::HarnessBuilder<Editor>) -> Self {
         let (params, meters) = (Arc::new(LowActionParams::default()), Arc::new(Meters::default()));
         let (writer, reader) = display();
         let (sender, queue) = pointer();
-        let host = Arc::new(Recorder::new(params.clone()));
+        let host = Arc::new(Recorder::new(params.clone(), api));
         let gui = GuiContext::new(host.clone());
         let editor = Editor::new(params.clone(), meters.clone(), reader, sender);
         let setup = Setup::builtin("electric").expect("it is built in");

@@ -74,3 +74,11 @@ fn the_engine() {
 fn the_engine_finely() {
     panel("Engine", "engine_fine", 2.0);
 }
+
+#[test]
+fn the_list_of_instruments() {
+    picture("instruments", 1.0, 1.0, |desk| {
+        desk.click(desk.named("Electric"));
+        desk.wait(0.2);
+    });
+}

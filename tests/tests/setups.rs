@@ -1,5 +1,5 @@
 //! Set-ups: the built-in ones read, say what they should and are strung in tune on paper; wrong ones are
-//! refused in one line that names the key, its value and what is accepted.
+//! refused in one line that names the key, its value and what is accepted. What is written is read again bit for bit.
 
 use low_action_dsp::intonation::{finger_place, intonate};
 use low_action_dsp::setup::{Intonation, Pickup, frequency};
@@ -31,6 +31,15 @@ fn built_in_setups_read() {
     assert!(matches!(builtin("electric").pickup, Pickup::Magnetic { .. }));
     assert!(matches!(builtin("steel").pickup, Pickup::Bridge));
     assert!(Setup::builtin("banjo").is_none());
+}
+
+#[test]
+fn what_is_written_is_read_again() {
+    for name in Setup::BUILTIN.into_iter().chain(Setup::PRESETS) {
+        let setup = Setup::shipped(name).unwrap();
+        let text = setup.to_toml().unwrap();
+        assert_eq!(Setup::from_toml(&text).unwrap(), setup, "{text}");
+    }
 }
 
 #[test]

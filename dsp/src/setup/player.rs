@@ -1,13 +1,13 @@
 //! The player's part of a set-up: how the hands of this instrument act.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::on_scale;
 use crate::error::{Error, within};
 use crate::gesture::Touch;
 
 /// How the hands act.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Player {
     /// Where strings are plucked, m from the saddle.
@@ -23,8 +23,8 @@ pub struct Player {
 }
 
 /// A finger that presses a string behind a fret.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(from = "FrettingFile")]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize)]
+#[serde(from = "FrettingFile", into = "FrettingFile")]
 pub struct Fretting {
     /// The finger.
     pub touch: Touch,
@@ -39,8 +39,8 @@ pub struct Fretting {
 }
 
 /// A finger or palm that rests on a string to silence it.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(from = "DamperFile")]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize)]
+#[serde(from = "DamperFile", into = "DamperFile")]
 pub struct Damper {
     /// The finger or palm.
     pub touch: Touch,
@@ -75,7 +75,7 @@ impl Player {
 // keys are let pass, so both lists are written out.
 
 /// `[player.fretting]` as it stands in the file.
-#[derive(Deserialize)]
+#[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct FrettingFile {
     mass: f64,
@@ -102,8 +102,16 @@ impl From<FrettingFile> for Fretting {
     }
 }
 
+impl From<Fretting> for FrettingFile {
+    fn from(fretting: Fretting) -> Self {
+        let Fretting { touch, force, hover, landing, behind } = fretting;
+        let Touch { mass, stiffness, exponent, damping, hand_damping } = touch;
+        Self { mass, stiffness, exponent, damping, hand_damping, force, hover, landing, behind }
+    }
+}
+
 /// `[player.damper]` as it stands in the file.
-#[derive(Deserialize)]
+#[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct DamperFile {
     mass: f64,
@@ -125,5 +133,13 @@ impl From<DamperFile> for Damper {
             landing: file.landing,
             position: file.position,
         }
+    }
+}
+
+impl From<Damper> for DamperFile {
+    fn from(damper: Damper) -> Self {
+        let Damper { touch, force, landing, position } = damper;
+        let Touch { mass, stiffness, exponent, damping, hand_damping } = touch;
+        Self { mass, stiffness, exponent, damping, hand_damping, force, landing, position }
     }
 }

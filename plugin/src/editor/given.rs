@@ -2,8 +2,10 @@
 
 use low_action_dsp::Setup;
 use low_action_dsp::setup::Player;
+use nice_plug::context::gui::GuiContext;
 use nice_plug::prelude::ParamSetter;
 
+use super::history::History;
 use crate::display::Snapshot;
 use crate::params::LowActionParams;
 use crate::params::words::Words;
@@ -27,6 +29,10 @@ pub struct Given<'a> {
     pub pointer: &'a Pointer,
     /// The set-up that the parameters ask for.
     pub plan: &'a Plan,
+    /// What has been done, to be undone.
+    pub history: &'a History,
+    /// The way to the host past the history.
+    pub gui: &'a GuiContext,
     /// What a musician hears of each parameter.
     pub words: &'a Words,
 }

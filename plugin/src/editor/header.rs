@@ -1,17 +1,27 @@
-//! The top of the window: what is played, what is wrong, how loud it is.
+//! The top of the window: what is played, what can be compared and undone, what is wrong, how loud it is.
 
-use egui::{Align2, Rect, Ui, pos2, vec2};
+use egui::{Align, Align2, Button, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
 use super::Given;
-use super::theme::{self, GAP, NEAR};
+use super::compare::Compare;
+use super::presets::Presets;
+use super::theme::{self, GAP, NEAR, TIGHT};
 
 /// What the header remembers.
 #[derive(Debug)]
 pub struct Header {
     /// Levels as they are shown: they fall slowly.
     levels: [f32; 2],
+    presets: Presets,
+    compare: Compare,
 }
 
+/// Widest that the meter is, points.
+const METER: f32 = 160.0;
+/// Height of the buttons, points.
+const BUTTON: f32 = 24.0;
+/// Room that A and B, undo and redo need beside the instrument, points.
+const FOR_COMPARING: f32 = 560.0;
 /// Lowest level shown, dB under full scale.
 const FLOOR: f32 = -60.0;
 /// How fast the meter falls, dB a second.
@@ -19,7 +29,7 @@ const FALL: f32 = 24.0;
 
 impl Default for Header {
     fn default() -> Self {
-        Self { levels: [FLOOR; 2] }
+        Self { levels: [FLOOR; 2], presets: Presets::default(), compare: Compare::default() }
     }
 }
 
@@ -36,19 +46,41 @@ impl Header {
             theme::HEADING,
             theme::TEXT,
         );
-        let name = given.params.instrument.instrument.to_string();
-        let name = painter.text(
-            pos2(title.right() + GAP, middle + 1.0),
-            Align2::LEFT_CENTER,
-            name,
-            theme::BODY_FONT,
-            theme::SOFT_TEXT,
-        );
-        let meter = Rect::from_min_size(pos2(area.right() - 160.0, middle - 6.0), vec2(160.0, 12.0));
+        let width = METER.min(0.2 * area.width());
+        let meter = Rect::from_min_size(pos2(area.right() - width, middle - 6.0), vec2(width, 12.0));
         self.show_meter(ui, given, meter);
-        let left = name.right() + GAP;
-        let between = Rect::from_min_max(pos2(left, area.top()), pos2(meter.left() - GAP, area.bottom()));
-        show_lights(ui, given, between);
+        let row = Rect::from_min_max(
+            pos2(title.right() + GAP, area.top()),
+            pos2(meter.left() - GAP, area.bottom()),
+        );
+        let builder = UiBuilder::new().max_rect(row).layout(Layout::left_to_right(Align::Center));
+        let taken = ui.scope_builder(builder, |ui| {
+            ui.spacing_mut().item_spacing.x = TIGHT;
+            ui.spacing_mut().interact_size.y = BUTTON;
+            self.presets.show(ui, given);
+            if row.width() > FOR_COMPARING {
+                ui.add_space(NEAR);
+                self.show_compare(ui, given);
+                ui.add_space(NEAR);
+                show_history(ui, given);
+            }
+        });
+        let rest = row.with_min_x(taken.response.rect.right() + GAP);
+        show_lights(ui, given, self.presets.problem(), rest);
+    }
+
+    /// Two sets of values to hear one after the other.
+    fn show_compare(&mut self, ui: &mut Ui, given: &Given) {
+        for (b, name) in [(false, "A"), (true, "B")] {
+            let button = Button::selectable(self.compare.is_b == b, name);
+            if ui.add(button).on_hover_text("Hear one set of values, then the other").clicked() {
+                self.compare.hear(given, b);
+            }
+        }
+        let copy = if self.compare.is_b { "B to A" } else { "A to B" };
+        if ui.button(copy).on_hover_text("Make the other the same as what is heard").clicked() {
+            self.compare.copy();
+        }
     }
 
     /// Both channels, one over the other.
@@ -74,7 +106,7 @@ impl Header {
 
 /// What a player should know of: too little time, a file that is missing. As much as fits is read, and all of it under
 /// the mouse.
-fn show_lights(ui: &mut Ui, given: &Given, area: Rect) {
+fn show_lights(ui: &mut Ui, given: &Given, problem: Option<&str>, area: Rect) {
     let mut rest = area;
     let mut say = |text: &str| {
         let label = egui::Label::new(egui::RichText::new(text).color(theme::ALARM)).truncate();
@@ -91,7 +123,19 @@ fn show_lights(ui: &mut Ui, given: &Given, area: Rect) {
     if given.meters.relaxed() {
         say("Over budget: contacts are solved less exactly");
     }
-    if let Some(message) = given.params.shelf.message() {
-        say(&message);
+    let message = given.params.shelf.message();
+    for message in [problem, message.as_deref()].into_iter().flatten() {
+        say(message);
+    }
+}
+
+/// Undo and redo.
+fn show_history(ui: &mut Ui, given: &Given) {
+    let [undo, redo] = given.history.can();
+    if ui.add_enabled(undo, Button::new("Undo")).on_hover_text("Ctrl+Z").clicked() {
+        given.history.undo(given.gui);
+    }
+    if ui.add_enabled(redo, Button::new("Redo")).on_hover_text("Ctrl+Shift+Z").clicked() {
+        given.history.redo(given.gui);
     }
 }

@@ -9,17 +9,13 @@ use nice_plug_egui::{EguiEditor, EguiEditorState, EguiNiceSettings, RepaintNotif
 use super::Editor;
 use crate::display::Reader;
 use crate::params::LowActionParams;
+pub use crate::plugin::layout::SIZE;
+use crate::plugin::layout::SIZES;
 use crate::plugin::meters::Meters;
 use crate::pointer::Pointer;
 
 /// The editor's window, as the framework has it.
 pub type Window = EguiEditor<Editor>;
-
-/// Usual size of the window, in points.
-pub const SIZE: [f32; 2] = [1120.0, 760.0];
-
-/// Least and largest size, as parts of the usual one.
-const SIZES: [f32; 2] = [0.5, 3.0];
 
 /// The plugin's end of its editor.
 pub struct Link {

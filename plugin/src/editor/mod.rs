@@ -1,7 +1,7 @@
 //! The editor: the strings over the fretboard, played with the mouse, and everything that can be set.
 //!
 //! ```text
-//! header          instrument, messages, meter
+//! header          instruments, A and B, undo, messages, meter
 //! strings         all strings over the fretboard, seen from above
 //! side            one string, seen from the side
 //! panels          player | luthier | sound | engine
@@ -11,29 +11,38 @@
 //! parameters ask for, and the way back to the audio thread. What a view remembers for itself is a struct of its own
 //! that [`Editor`] keeps.
 
+mod compare;
 pub mod control;
 mod given;
 mod handle;
 mod header;
+mod history;
+mod keys;
 mod link;
 pub mod panels;
+mod presets;
 mod side;
 mod strings;
 pub mod theme;
 
 use std::sync::Arc;
 
-use egui::{Rect, Ui, UiBuilder, pos2};
+use egui::{Key, Modifiers, Rect, Ui, UiBuilder, ViewportCommand, pos2};
+use nice_plug::context::PluginApi;
 use nice_plug::context::gui::GuiContext;
+use nice_plug::prelude::ParamSetter;
 use nice_plug_egui::NiceEguiApp;
 
 use crate::display::Reader;
 use crate::params::LowActionParams;
 use crate::params::words::Words;
+use crate::plugin::layout::{SIZES, Seen};
 use crate::plugin::meters::Meters;
 use crate::pointer::Pointer;
 pub use given::{Given, Plan};
+use history::{History, Noted};
 pub use link::{Link, SIZE, Window};
+use panels::Tab;
 pub use strings::Sight;
 use theme::{GAP, HEADER, PANELS, SIDE};
 
@@ -46,6 +55,10 @@ pub struct Editor {
     gui: Option<GuiContext>,
     plan: Plan,
     words: Words,
+    history: Arc<History>,
+    keys: keys::Keys,
+    /// Whether the window has yet to become as it was left.
+    opening: bool,
     header: header::Header,
     strings: strings::Strings,
     panels: panels::Panels,
@@ -56,6 +69,9 @@ impl Editor {
     pub fn new(params: Arc<LowActionParams>, meters: Arc<Meters>, reader: Reader, pointer: Pointer) -> Self {
         Self {
             words: Words::of(&params),
+            history: Arc::new(History::new(params.clone())),
+            keys: keys::Keys::default(),
+            opening: true,
             params,
             meters,
             reader,
@@ -77,16 +93,24 @@ impl Editor {
     pub fn show(&mut self, ui: &mut Ui, gui: &GuiContext) {
         let fresh = self.reader.fetch();
         self.plan.follow(&self.params);
+        self.resume(ui);
+        let noted = Noted { gui: gui.clone(), history: self.history.clone() };
         let given = Given {
             params: &self.params,
-            setter: gui.param_setter(),
+            setter: ParamSetter::new(&noted),
             meters: &self.meters,
             snapshot: self.reader.latest(),
             fresh,
             pointer: &self.pointer,
             plan: &self.plan,
             words: &self.words,
+            history: &self.history,
+            gui,
         };
+        follow_shortcuts(ui, &given);
+        if gui.plugin_api() == PluginApi::Standalone {
+            self.keys.follow(ui, &given);
+        }
         let window = ui.ctx().content_rect();
         let Areas { header, strings, side, panels } = Areas::of(window);
         ui.set_clip_rect(window);
@@ -100,6 +124,34 @@ impl Editor {
         if let Some(panels) = panels {
             place(ui, "panels", panels, |ui| self.panels.show(ui, &given));
         }
+        let panel = Tab::ALL.iter().position(|tab| *tab == self.panels.tab).unwrap_or(0);
+        let (size, zoom) = (Some(window.size().into()), ui.ctx().zoom_factor());
+        self.params.layout.keep(Seen { panel, string: self.strings.watched(), size, zoom });
+    }
+
+    /// A window opens, which is to become as it was left.
+    pub fn open(&mut self) {
+        self.opening = true;
+    }
+
+    /// Goes on where the session left off; the window itself becomes as large as it was when it is opened.
+    fn resume(&mut self, ui: &Ui) {
+        let seen = self.params.layout.seen();
+        self.panels.tab = Tab::ALL.get(seen.panel).copied().unwrap_or_default();
+        self.strings.watch(seen.string);
+        let context = ui.ctx();
+        if std::mem::take(&mut self.opening) {
+            context.set_zoom_factor(seen.zoom);
+            let left = seen.size.map(egui::Vec2::from);
+            if let Some(size) = left.filter(|size| *size != context.content_rect().size()) {
+                context.send_viewport_cmd(ViewportCommand::InnerSize(size));
+            }
+        }
+        let [least, largest] = SIZES;
+        let zoom = context.zoom_factor();
+        if !(least..=largest).contains(&zoom) {
+            context.set_zoom_factor(zoom.clamp(least, largest));
+        }
     }
 }
 
@@ -112,6 +164,7 @@ impl NiceEguiApp for Editor {
     ) -> Result<(), nice_plug_egui::baseview::HandlerError> {
         Self::dress(&context);
         self.gui = Some(gui);
+        self.open();
         Ok(())
     }
 
@@ -119,6 +172,20 @@ impl NiceEguiApp for Editor {
         if let Some(gui) = self.gui.clone() {
             self.show(ui, &gui);
         }
+    }
+}
+
+/// Undo and redo.
+fn follow_shortcuts(ui: &Ui, given: &Given) {
+    if ui.ctx().text_edit_focused() {
+        return;
+    }
+    let pressed = |modifiers, key| ui.input_mut(|input| input.consume_key(modifiers, key));
+    // The longer one first: Ctrl+Z would take it as well.
+    if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) || pressed(Modifiers::COMMAND, Key::Y) {
+        given.history.redo(given.gui);
+    } else if pressed(Modifiers::COMMAND, Key::Z) {
+        given.history.undo(given.gui);
     }
 }
 

@@ -31,6 +31,11 @@ impl Strings {
         self.watched
     }
 
+    /// Has the side view show another, until the mouse is over one.
+    pub fn watch(&mut self, string: usize) {
+        self.watched = string;
+    }
+
     /// Draws the strings.
     pub fn show(&mut self, ui: &mut Ui, given: &Given) {
         let area = ui.max_rect();

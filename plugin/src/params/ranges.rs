@@ -10,6 +10,7 @@ use super::{
     QualityChoice, RenderChoice, SetupParams, StringOrder, StringParams,
 };
 use crate::engine::EngineOptions;
+use crate::plugin::layout::Layout;
 use crate::plugin::shelf::{MOST_FILES, Shelf};
 use crate::plugin::state::Marked;
 
@@ -34,6 +35,7 @@ impl LowActionParams {
     pub(crate) fn new(shelf: Shelf, start: &Start) -> Self {
         Self {
             mark: Marked,
+            layout: Layout::default(),
             instrument: InstrumentParams::new(&shelf, start),
             shelf,
             setup: SetupParams::default(),

@@ -42,7 +42,7 @@ pub struct Saved(Option<Kept>);
 
 #[derive(Debug)]
 struct Inside {
-    files: Vec<SetupFile>,
+    files: Mutex<Vec<SetupFile>>,
     kept: Mutex<Option<Kept>>,
     /// The number for which the kept file stands, [`NONE`] if for none.
     stands_for: AtomicU32,
@@ -70,7 +70,7 @@ impl Shelf {
     /// With these files.
     pub(crate) fn new(files: Vec<SetupFile>) -> Self {
         Self(Arc::new(Inside {
-            files,
+            files: Mutex::new(files),
             kept: Mutex::new(None),
             stands_for: AtomicU32::new(NONE),
             chosen: AtomicU32::new(NONE),
@@ -86,7 +86,44 @@ impl Shelf {
 
     /// How many files can be chosen.
     pub fn count(&self) -> usize {
-        self.0.files.len()
+        lock(&self.0.files).len()
+    }
+
+    /// Their names, that of number 1 first.
+    pub fn names(&self) -> Vec<String> {
+        lock(&self.0.files).iter().map(|file| file.name.clone()).collect()
+    }
+
+    /// The name of a number's file; none if it is [`NONE`] or there is no such file.
+    pub fn name(&self, number: u32) -> Option<String> {
+        let kept = lock(&self.0.kept);
+        let kept =
+            kept.as_ref().filter(|_| number != NONE && self.0.stands_for.load(Ordering::Relaxed) == number);
+        kept.map(|kept| kept.name.clone()).or_else(|| Some(self.file(number)?.name))
+    }
+
+    /// Takes in a file that has been written to the user's folder, and gives back its number: that of the file of this
+    /// name, which is read anew, or the next one.
+    ///
+    /// # Errors
+    /// When there are as many files as can be chosen.
+    pub(crate) fn add(&self, file: SetupFile) -> Result<u32, String> {
+        let mut files = lock(&self.0.files);
+        let place = files.iter().position(|known| known.name == file.name).unwrap_or(files.len());
+        if place == MOST_FILES {
+            return Err(format!("{}: saved, but only {MOST_FILES} files can be chosen", file.name));
+        }
+        match files.get_mut(place) {
+            Some(known) => *known = file,
+            None => files.push(file),
+        }
+        drop(files);
+        let number = place as u32 + 1;
+        if self.0.stands_for.load(Ordering::Relaxed) == number {
+            self.0.stands_for.store(NONE, Ordering::Relaxed);
+        }
+        self.0.edition.fetch_add(1, Ordering::Relaxed);
+        Ok(number)
     }
 
     /// A file is chosen by its number. Called wherever parameters change: neither waits nor allocates.
@@ -143,8 +180,8 @@ impl Shelf {
         Ok(found)
     }
 
-    fn file(&self, number: u32) -> Option<&SetupFile> {
-        self.0.files.get((number as usize).checked_sub(1)?)
+    fn file(&self, number: u32) -> Option<SetupFile> {
+        lock(&self.0.files).get((number as usize).checked_sub(1)?).cloned()
     }
 
     /// Remembers why the chosen file is not played, or that all is well.
@@ -163,10 +200,7 @@ impl Shelf {
         if number == NONE {
             return "none".into();
         }
-        let kept = lock(&self.0.kept);
-        let kept = kept.as_ref().filter(|_| self.0.stands_for.load(Ordering::Relaxed) == number);
-        let name = kept.map(|kept| kept.name.as_str());
-        let name = name.or_else(|| self.file(number).map(|file| file.name.as_str())).unwrap_or(NO_FILE);
+        let name = self.name(number).unwrap_or_else(|| NO_FILE.into());
         match self.message() {
             Some(message) if self.0.chosen.load(Ordering::Relaxed) == number => {
                 format!("{number}: {name} ({message})")
@@ -181,7 +215,8 @@ impl Shelf {
         if title == "none" {
             return Some(NONE as i32);
         }
-        let place = self.0.files.iter().position(|file| file.name == title).map(|place| place as i32 + 1);
+        let place =
+            lock(&self.0.files).iter().position(|file| file.name == title).map(|place| place as i32 + 1);
         place.or_else(|| title.split(':').next()?.trim().parse().ok())
     }
 }
@@ -205,7 +240,7 @@ impl<'a> PersistentField<'a, Saved> for Shelf {
         }
         // What cannot be read is saved by its name, so that whoever opens the session learns what is missing.
         let missing = |_| {
-            let name = self.file(number).map_or(NO_FILE, |file| &file.name).to_owned();
+            let name = self.file(number).map_or_else(|| NO_FILE.into(), |file| file.name);
             Kept { number, name, text: String::new() }
         };
         read(&Saved(Some(self.take_up(number).unwrap_or_else(missing))))

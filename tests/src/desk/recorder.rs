@@ -31,15 +31,16 @@ pub fn is_gesture(told: &[Told], id: &str) -> bool {
 /// A host that sets what it is told at once.
 pub struct Recorder {
     params: Arc<LowActionParams>,
+    api: PluginApi,
     names: HashMap<ParamPtr, String>,
     told: Mutex<Vec<Told>>,
 }
 
 impl Recorder {
     /// A host of these parameters.
-    pub fn new(params: Arc<LowActionParams>) -> Self {
+    pub fn new(params: Arc<LowActionParams>, api: PluginApi) -> Self {
         let names = params.param_map().into_iter().map(|(id, param, _)| (param, id)).collect();
-        Self { params, names, told: Mutex::new(Vec::new()) }
+        Self { params, api, names, told: Mutex::new(Vec::new()) }
     }
 
     /// All that it was told since this was last asked.
@@ -58,7 +59,7 @@ impl Recorder {
 
 impl GuiContextInner for Recorder {
     fn plugin_api(&self) -> PluginApi {
-        PluginApi::Clap
+        self.api
     }
 
     unsafe fn raw_begin_set_parameter(&self, param: ParamPtr) {

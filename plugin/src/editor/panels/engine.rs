@@ -62,7 +62,9 @@ impl Engine {
         let part = 1.0 - (-seconds / SLOW).exp();
         self.load += part * (given.meters.load() - self.load);
         let strings = given.snapshot.strings();
-        self.strings.resize(strings.len(), [0.0; COLUMNS.len()]);
+        if self.strings.len() != strings.len() {
+            self.strings = strings.iter().map(numbers).collect();
+        }
         for (shown, seen) in self.strings.iter_mut().zip(strings) {
             for (shown, now) in shown.iter_mut().zip(numbers(seen)) {
                 *shown += part * (now - *shown);

@@ -1,0 +1,210 @@
+//! Instruments to choose from, those that come with the program and the user's own, and saving one under a name.
+//!
+//! Choosing one brings it as its maker left it: what the panels change of neck, strings, pickup and hands goes back to
+//! its usual values. Saving makes those changes part of the file that is written. Both are one entry of the history.
+
+use egui::{Button, Popup, ScrollArea, TextEdit, Ui, vec2};
+use low_action_dsp::Setup;
+use nice_plug::prelude::{Enum, Param};
+
+use super::compare::{Values, change};
+use super::{Given, theme};
+use crate::params::{InstrumentChoice, LowActionParams};
+use crate::setups::{self, SHIPPED};
+
+/// Width of the name and of the list, points.
+const WIDTH: f32 = 176.0;
+const LIST: f32 = 280.0;
+/// Highest that the list is, points; what is longer scrolls.
+const HIGHEST: f32 = 400.0;
+
+/// What the choice of instruments remembers.
+#[derive(Debug, Default)]
+pub struct Presets {
+    /// The name that is being typed.
+    name: String,
+    /// Whether it is only now being asked for.
+    asking: bool,
+    /// Why nothing was saved, if so.
+    problem: Option<String>,
+}
+
+impl Presets {
+    /// Why nothing was saved the last time, in one line.
+    pub fn problem(&self) -> Option<&str> {
+        self.problem.as_deref()
+    }
+
+    /// Shows what is played, what is beside it in the list, the list itself and the way to save.
+    pub fn show(&mut self, ui: &mut Ui, given: &Given) {
+        let (chosen, count) = (chosen(given), SHIPPED.len() + given.params.shelf.count());
+        if ui.button("‹").on_hover_text("The instrument before").clicked() {
+            choose(given, chosen.map_or(0, |index| (index + count - 1) % count));
+        }
+        let mut title = title(given, chosen);
+        if is_changed(given.params) {
+            title += " *";
+        }
+        let size = vec2(WIDTH, ui.spacing().interact_size.y);
+        let button = ui.add_sized(size, Button::new(title.as_str()).truncate());
+        let button = button.on_hover_text("Instruments: those of the program and your own");
+        Popup::menu(&button).width(LIST).show(|ui| {
+            ScrollArea::vertical().max_height(HIGHEST).show(ui, |ui| list(ui, given, chosen));
+        });
+        if ui.button("›").on_hover_text("The next instrument").clicked() {
+            choose(given, chosen.map_or(0, |index| (index + 1) % count));
+        }
+        let save =
+            ui.button("Save").on_hover_text("Save this instrument, with all that was changed, under a name");
+        if save.clicked() {
+            self.name = given.params.shelf.name(number(given)).unwrap_or_default();
+            self.asking = true;
+        }
+        Popup::menu(&save)
+            .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
+            .show(|ui| self.ask(ui, given));
+    }
+
+    /// Asks for a name.
+    fn ask(&mut self, ui: &mut Ui, given: &Given) {
+        ui.set_min_width(LIST);
+        let label = ui.label("Name of the instrument").id;
+        let field = TextEdit::singleline(&mut self.name).desired_width(LIST).char_limit(setups::LONGEST_NAME);
+        let field = ui.add(field).labelled_by(label);
+        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        if std::mem::take(&mut self.asking) {
+            field.request_focus();
+        }
+        let known = given.params.shelf.names().iter().any(|known| known == self.name.trim());
+        let pressed = ui.button(if known { "Replace" } else { "Save it" }).clicked();
+        if pressed || entered {
+            self.problem = save(given, self.name.trim()).err();
+            ui.close();
+        }
+        if let Some(folder) = setups::folder() {
+            ui.colored_label(theme::SOFT_TEXT, format!("in {}", folder.display()));
+        }
+    }
+}
+
+/// Everything there is, to be chosen from.
+fn list(ui: &mut Ui, given: &Given, chosen: Option<usize>) {
+    let line = |ui: &mut Ui, index: usize, title: &str| {
+        let button = Button::selectable(chosen == Some(index), title).min_size(vec2(LIST, 0.0));
+        let response = ui.add(button);
+        if response.clicked() {
+            choose(given, index);
+            ui.close();
+        }
+        response
+    };
+    ui.colored_label(theme::ACCENT, "With the program");
+    for (index, title) in InstrumentChoice::variants().iter().enumerate() {
+        line(ui, index, title).on_hover_ui(|ui| {
+            ui.label(Setup::shipped(SHIPPED[index]).map(|setup| setup.description).unwrap_or_default());
+        });
+    }
+    ui.colored_label(theme::ACCENT, "Your own");
+    let names = given.params.shelf.names();
+    for (index, name) in names.iter().enumerate() {
+        line(ui, SHIPPED.len() + index, name);
+    }
+    if names.is_empty() {
+        ui.colored_label(theme::SOFT_TEXT, "none yet: Save makes one");
+    }
+}
+
+/// The number of the user's file that is played, 0 for none.
+fn number(given: &Given) -> u32 {
+    given.params.instrument.file.unmodulated_plain_value().unsigned_abs()
+}
+
+/// Where in the list what is played stands, if it does.
+fn chosen(given: &Given) -> Option<usize> {
+    match number(given) as usize {
+        0 => Some(given.params.instrument.instrument.unmodulated_plain_value().to_index()),
+        file if file <= given.params.shelf.count() => Some(SHIPPED.len() + file - 1),
+        _ => None,
+    }
+}
+
+fn title(given: &Given, chosen: Option<usize>) -> String {
+    match chosen {
+        Some(index) if index < SHIPPED.len() => InstrumentChoice::variants()[index].to_owned(),
+        _ => given.params.shelf.name(number(given)).unwrap_or_else(|| "no such file".into()),
+    }
+}
+
+/// Plays one of the list as its maker left it.
+fn choose(given: &Given, index: usize) {
+    let instrument = &given.params.instrument;
+    let mut values = usual(given.params);
+    let file = match index.checked_sub(SHIPPED.len()) {
+        None => {
+            let choice = instrument.instrument.preview_normalized(InstrumentChoice::from_index(index));
+            values.push((instrument.instrument.as_ptr(), choice));
+            0
+        }
+        Some(file) => file as i32 + 1,
+    };
+    values.push((instrument.file.as_ptr(), instrument.file.preview_normalized(file)));
+    change(given, &values);
+}
+
+/// Writes what is played, with all that was changed, to the user's folder, and plays that.
+fn save(given: &Given, name: &str) -> Result<(), String> {
+    let (Some(setup), Some(player)) = (given.plan.setup(), given.plan.player()) else {
+        return Err("there is nothing to save yet".into());
+    };
+    let folder = setups::folder().ok_or("this system has no folder for a user's data")?;
+    let setup = Setup { name: name.into(), player: player.clone(), ..setup.clone() };
+    let file = setups::save(&setup, &folder).map_err(|error| format!("{error:#}"))?;
+    let number = given.params.shelf.add(file)?;
+    let param = &given.params.instrument.file;
+    let mut values = usual(given.params);
+    values.push((param.as_ptr(), param.preview_normalized(number as i32)));
+    change(given, &values);
+    Ok(())
+}
+
+/// What an instrument's own values are changed by, all at their usual values: what [`Setup`] keeps of them.
+fn usual(params: &LowActionParams) -> Values {
+    fn one<P: Param>(param: &P) -> (nice_plug::params::internals::ParamPtr, f32) {
+        (param.as_ptr(), param.default_normalized_value())
+    }
+    let (setup, player) = (&params.setup, &params.player);
+    let strings = params.strings.iter().map(|string| &string.tuning);
+    let mut values: Values = strings.map(one).collect();
+    values.push(one(&setup.tension_modulation));
+    values.extend(
+        [
+            &setup.action,
+            &setup.relief,
+            &setup.fret_height,
+            &setup.loss_0,
+            &setup.loss_1,
+            &setup.pickup_position,
+            &setup.pickup_blend,
+            &setup.tuning,
+            &player.pluck_position,
+            &player.pluck_force,
+            &player.pluck_duration,
+            &player.finger_force,
+            &player.finger_hardness,
+            &player.finger_mass,
+            &player.finger_hover,
+            &player.hand_damping,
+        ]
+        .map(one),
+    );
+    values
+}
+
+/// Whether anything is changed of the instrument that was chosen.
+fn is_changed(params: &LowActionParams) -> bool {
+    // What hosts round is the same again as a plain value.
+    // SAFETY: the pointers lead into `params`.
+    usual(params)
+        .iter()
+        .any(|(param, _)| unsafe { param.unmodulated_plain_value() != param.default_plain_value() })
+}

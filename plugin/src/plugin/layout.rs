@@ -1,0 +1,78 @@
+//! How the editor was left: its size, what was seen in it. A session keeps it, and nothing of the sound depends on it.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use nice_plug::params::persist::PersistentField;
+use serde::{Deserialize, Serialize};
+
+/// Usual size of the window, in points.
+pub const SIZE: [f32; 2] = [1120.0, 760.0];
+/// Least and largest size of the window, and of everything in it, as parts of the usual one.
+pub const SIZES: [f32; 2] = [0.5, 3.0];
+
+/// What was seen.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Seen {
+    /// Which panel, counted from 0.
+    pub panel: usize,
+    /// The string seen from the side, counted from 0.
+    pub string: usize,
+    /// Of the window, points; none before it was ever open.
+    pub size: Option<[f32; 2]>,
+    /// Of everything in it, 1 as usual.
+    pub zoom: f32,
+}
+
+impl Default for Seen {
+    fn default() -> Self {
+        Self { panel: 0, string: 0, size: None, zoom: 1.0 }
+    }
+}
+
+impl Seen {
+    /// The same with sizes that a window can have.
+    fn admitted(self) -> Self {
+        let [least, largest] = SIZES;
+        let fit = |value: f32, usual: f32| match value.is_finite() {
+            true => value.clamp(least * usual, largest * usual),
+            false => usual,
+        };
+        let size = self.size.map(|[width, height]| [fit(width, SIZE[0]), fit(height, SIZE[1])]);
+        Self { size, zoom: fit(self.zoom, 1.0), ..self }
+    }
+}
+
+/// Keeps it; the audio thread never looks.
+#[derive(Debug, Default)]
+pub struct Layout(Mutex<Seen>);
+
+impl Layout {
+    /// What was seen last.
+    pub fn seen(&self) -> Seen {
+        *self.lock()
+    }
+
+    /// Keeps what is seen now.
+    pub fn keep(&self, seen: Seen) {
+        *self.lock() = seen.admitted();
+    }
+
+    /// There is nothing in it that a panicking thread could have left half-done.
+    fn lock(&self) -> MutexGuard<'_, Seen> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<'a> PersistentField<'a, Seen> for Layout {
+    fn set(&self, seen: Seen) {
+        self.keep(seen);
+    }
+
+    fn map<F, R>(&self, read: F) -> R
+    where
+        F: Fn(&Seen) -> R,
+    {
+        read(&self.seen())
+    }
+}

@@ -1,0 +1,136 @@
+//! Promise: text can be read against everything it stands on; Tab reaches every control; the editor comes back as it was
+//! left; and where there is no host the computer's keys play, unless something is typed.
+
+use egui::{Color32, Event, Key, Modifiers};
+use egui_kittest::kittest::{NodeT, Queryable};
+use low_action::editor::theme;
+use low_action::performance::PlayerEvent;
+use low_action_tests::desk::Desk;
+use nice_plug::prelude::Params;
+
+/// Relative luminance as WCAG 2 defines it.
+fn luminance(colour: Color32) -> f64 {
+    let linear = |part: u8| {
+        let part = f64::from(part) / 255.0;
+        if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+    };
+    0.2126 * linear(colour.r()) + 0.7152 * linear(colour.g()) + 0.0722 * linear(colour.b())
+}
+
+fn contrast(one: Color32, other: Color32) -> f64 {
+    let (one, other) = (luminance(one), luminance(other));
+    (one.max(other) + 0.05) / (one.min(other) + 0.05)
+}
+
+#[test]
+fn text_can_be_read() {
+    assert!((contrast(Color32::BLACK, Color32::WHITE) - 21.0).abs() < 1e-9);
+    let texts = [
+        ("TEXT", theme::TEXT),
+        ("SOFT_TEXT", theme::SOFT_TEXT),
+        ("ACCENT", theme::ACCENT),
+        ("ALARM", theme::ALARM),
+        ("PLUCK", theme::PLUCK),
+        ("FINGER", theme::FINGER),
+    ];
+    let grounds = [("GROUND", theme::GROUND), ("SURFACE", theme::SURFACE), ("BOARD", theme::BOARD[0])];
+    for (text, colour) in texts {
+        for (ground, behind) in grounds {
+            let contrast = contrast(colour, behind);
+            assert!(contrast >= 4.5, "{text} on {ground}: {contrast:.2}");
+        }
+    }
+    // What can be taken hold of bears nothing but plain text.
+    for behind in [theme::RAISED, theme::LIFTED] {
+        assert!(contrast(theme::TEXT, behind) >= 4.5);
+    }
+}
+
+#[test]
+fn tab_reaches_every_control() {
+    let mut desk = Desk::new();
+    desk.open("Luthier");
+    let mut reached = Vec::new();
+    for _ in 0..60 {
+        desk.key(Key::Tab);
+        if let Some(node) = desk.harness.query_by(|node| node.is_focused()) {
+            reached.extend(node.accesskit_node().label());
+        }
+    }
+    for name in ["Player", "Save", "Instrument", "Action", "Relief", "Pickup blend", "String 8 tuning"] {
+        assert!(reached.iter().any(|label| label == name), "{name} is not among {reached:?}");
+    }
+}
+
+#[test]
+fn it_comes_back_as_it_was_left() {
+    let mut desk = Desk::new();
+    desk.open("Engine");
+    desk.point(desk.at(0.3, 4.0));
+    desk.wait(0.05);
+    let fields = desk.params.serialize_fields();
+    let mut other = Desk::new();
+    other.params.deserialize_fields(&fields);
+    other.wait(0.05);
+    assert!(other.control("Quality").is_some());
+    assert_eq!(other.params.layout.seen(), desk.params.layout.seen());
+    assert_eq!(desk.params.layout.seen().string, 4);
+}
+
+#[test]
+fn the_window_is_as_large_as_it_was() {
+    let mut desk = Desk::new();
+    let fields = [("editor".to_owned(), r#"{"size": [1400.0, 900.0]}"#.to_owned())].into();
+    desk.params.deserialize_fields(&fields);
+    desk.harness.state_mut().open();
+    desk.wait(0.1);
+    assert_eq!(desk.harness.ctx.content_rect().size(), egui::vec2(1400.0, 900.0));
+    let nonsense =
+        [("editor".to_owned(), r#"{"size": [1e9, 0.0], "zoom": 77, "panel": 9}"#.to_owned())].into();
+    desk.params.deserialize_fields(&nonsense);
+    assert_eq!(desk.params.layout.seen().size, Some([3360.0, 380.0]));
+    assert_eq!(desk.params.layout.seen().zoom, 3.0);
+    desk.wait(0.1);
+}
+
+fn down(desk: &mut Desk, key: Key, pressed: bool, modifiers: Modifiers) {
+    desk.harness.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
+    desk.wait(0.05);
+}
+
+#[test]
+fn keys_play_where_there_is_no_host() {
+    let mut desk = Desk::alone();
+    desk.wait(0.05);
+    down(&mut desk, Key::Q, true, Modifiers::NONE);
+    assert!(
+        matches!(desk.played[..], [PlayerEvent::NoteOn { channel: 0, key: 60, .. }]),
+        "{:?}",
+        desk.played
+    );
+    desk.wait(0.2);
+    assert!(desk.sound.iter().any(|sample| sample.abs() > 1e-3), "it is heard");
+    down(&mut desk, Key::Q, false, Modifiers::NONE);
+    assert!(matches!(desk.played[1..], [PlayerEvent::NoteOff { channel: 0, key: 60 }]));
+    desk.played.clear();
+    down(&mut desk, Key::PageDown, true, Modifiers::NONE);
+    down(&mut desk, Key::S, true, Modifiers::NONE);
+    assert!(matches!(desk.played[..], [PlayerEvent::NoteOn { key: 37, .. }]), "{:?}", desk.played);
+    // While a number is typed they are letters.
+    desk.open("Sound");
+    let number = desk.control("Type Level").expect("it has a number");
+    desk.played.clear();
+    desk.click(number);
+    desk.wait(0.05);
+    down(&mut desk, Key::W, true, Modifiers::NONE);
+    let only_off = desk.played.iter().all(|event| matches!(event, PlayerEvent::NoteOff { .. }));
+    assert!(only_off, "{:?}", desk.played);
+}
+
+#[test]
+fn keys_are_the_hosts_where_there_is_one() {
+    let mut desk = Desk::new();
+    desk.wait(0.05);
+    down(&mut desk, Key::Q, true, Modifiers::NONE);
+    assert!(desk.played.is_empty());
+}

@@ -1,0 +1,182 @@
+//! Promise: instruments are chosen and saved in the editor. What is saved is what was heard; choosing and saving are one
+//! step back each, as is every gesture; A and B are two sets of values; what cannot be saved is told in one line.
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use egui::{Event, Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+use low_action::setups::FOLDER_VARIABLE;
+use low_action_dsp::Setup;
+use low_action_tests::desk::Desk;
+use nice_plug::prelude::ParamSetter;
+
+/// The folder of the user this test is.
+fn folder() -> &'static PathBuf {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    FOLDER.get_or_init(|| {
+        let folder = tempfile::tempdir().expect("there is room").keep();
+        // SAFETY: every test begins here, before it has read the environment.
+        unsafe { std::env::set_var(FOLDER_VARIABLE, &folder) };
+        folder
+    })
+}
+
+fn desk() -> Desk {
+    folder();
+    let mut desk = Desk::new();
+    desk.wait(0.05);
+    desk
+}
+
+/// Types a value into the control of a parameter.
+fn enter(desk: &mut Desk, tab: &str, name: &str, value: &str) {
+    desk.open(tab);
+    let place = desk.control(&format!("Type {name}")).expect("it has a number");
+    desk.click(place);
+    desk.wait(0.05);
+    desk.harness.event(Event::Text(value.into()));
+    desk.key(Key::Enter);
+    desk.wait(0.5);
+}
+
+/// Saves what is played under a name.
+fn save(desk: &mut Desk, name: &str) {
+    desk.click(desk.named("Save"));
+    desk.wait(0.1);
+    desk.harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    desk.harness.event(Event::Text(name.into()));
+    desk.key(Key::Enter);
+    desk.wait(0.1);
+}
+
+/// The action, to the step of its parameter.
+fn action(desk: &Desk) -> f32 {
+    (100.0 * desk.params.setup.action.value()).round() / 100.0
+}
+
+fn undo(desk: &mut Desk) {
+    desk.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    desk.wait(0.05);
+}
+
+fn redo(desk: &mut Desk) {
+    desk.harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    desk.wait(0.05);
+}
+
+#[test]
+fn one_is_chosen_as_its_maker_left_it() {
+    let mut desk = desk();
+    enter(&mut desk, "Luthier", "Action", "150");
+    desk.open("Player");
+    desk.click(desk.named("Electric *"));
+    desk.wait(0.1);
+    desk.click(desk.named("Steel"));
+    desk.wait(0.1);
+    assert_eq!(desk.params.instrument.instrument.to_string(), "Steel");
+    assert_eq!(action(&desk), 1.0);
+    undo(&mut desk);
+    assert_eq!(desk.params.instrument.instrument.to_string(), "Electric");
+    assert_eq!(action(&desk), 1.5);
+    desk.click(desk.named("›"));
+    desk.wait(0.05);
+    assert_eq!(desk.params.instrument.instrument.to_string(), "Classical");
+}
+
+#[test]
+fn what_is_saved_is_what_was_heard() {
+    let mut desk = desk();
+    enter(&mut desk, "Luthier", "Action", "150");
+    enter(&mut desk, "Luthier", "Relief", "0.1");
+    enter(&mut desk, "Player", "Finger force", "80");
+    enter(&mut desk, "Sound", "Tuning", "-50");
+    save(&mut desk, "Mine 1");
+    let text = fs::read_to_string(folder().join("Mine 1.toml")).expect("it was written");
+    let saved = Setup::from_toml(&text).expect("it is a set-up");
+    let mut expected = Setup::builtin("electric").expect("it is built in");
+    expected.name = "Mine 1".into();
+    expected.neck.action *= 1.5;
+    expected.neck.nut_clearance *= 1.5;
+    expected.neck.relief += 1e-4;
+    expected.player.fretting.force *= 0.8;
+    expected.tuning = -0.5;
+    assert_eq!(saved, expected);
+    // It is played, and nothing is done to it twice.
+    let number = desk.params.instrument.file.value();
+    assert!(number > 0);
+    assert_eq!(desk.params.shelf.name(number as u32).as_deref(), Some("Mine 1"));
+    assert_eq!([action(&desk), desk.params.player.finger_force.value()], [1.0, 1.0]);
+    undo(&mut desk);
+    assert_eq!((desk.params.instrument.file.value(), action(&desk)), (0, 1.5));
+    redo(&mut desk);
+    // Saved again under its name, it is the same number, read anew.
+    enter(&mut desk, "Luthier", "Action", "50");
+    save(&mut desk, "Mine 1");
+    assert_eq!(desk.params.instrument.file.value(), number);
+    let text = fs::read_to_string(folder().join("Mine 1.toml")).expect("it was written");
+    assert_eq!(Setup::from_toml(&text).expect("it is a set-up").neck.action, expected.neck.action * 0.5);
+}
+
+#[test]
+fn names_that_cannot_be_are_told() {
+    let mut desk = desk();
+    for name in ["electric", "../elsewhere", " "] {
+        save(&mut desk, name);
+        let told = desk.harness.query_by_label_contains("name").is_some();
+        assert!(told, "{name:?}");
+        assert_eq!(desk.params.instrument.file.value(), 0);
+    }
+    assert!(!folder().join("electric.toml").exists());
+}
+
+#[test]
+fn every_gesture_is_one_step_back() {
+    let mut desk = desk();
+    for value in ["150", "60", "200"] {
+        enter(&mut desk, "Luthier", "Action", value);
+    }
+    undo(&mut desk);
+    assert_eq!(action(&desk), 0.6);
+    undo(&mut desk);
+    assert_eq!(action(&desk), 1.5);
+    redo(&mut desk);
+    assert_eq!(action(&desk), 0.6);
+    undo(&mut desk);
+    undo(&mut desk);
+    undo(&mut desk);
+    assert_eq!(action(&desk), 1.0, "there is nothing before the beginning");
+    redo(&mut desk);
+    enter(&mut desk, "Luthier", "Action", "70");
+    redo(&mut desk);
+    assert_eq!(action(&desk), 0.7, "what was undone is gone when something else is done");
+}
+
+#[test]
+fn what_a_host_does_is_not_undone() {
+    let mut desk = desk();
+    enter(&mut desk, "Luthier", "Action", "150");
+    let setter = ParamSetter::new(&*desk.host);
+    setter.set_parameter(&desk.params.player.variation, 0.5);
+    undo(&mut desk);
+    assert_eq!((action(&desk), desk.params.player.variation.value()), (1.0, 0.5));
+}
+
+#[test]
+fn a_and_b_are_heard_in_turn() {
+    let mut desk = desk();
+    desk.click(desk.named("B"));
+    enter(&mut desk, "Luthier", "Action", "150");
+    desk.click(desk.named("A"));
+    desk.wait(0.05);
+    assert_eq!(action(&desk), 1.0);
+    desk.click(desk.named("B"));
+    desk.wait(0.05);
+    assert_eq!(action(&desk), 1.5);
+    desk.click(desk.named("B to A"));
+    desk.wait(0.05);
+    desk.click(desk.named("A"));
+    desk.wait(0.05);
+    assert_eq!(action(&desk), 1.5);
+}
