@@ -93,6 +93,15 @@ fn the_window_is_as_large_as_it_was() {
     desk.wait(0.1);
 }
 
+#[test]
+fn a_small_window_opens_its_panels_when_asked() {
+    let mut desk = Desk::sized(0.5, 1.0);
+    desk.open("Sound");
+    assert!(desk.control("Level").is_some());
+    desk.open("Sound");
+    assert!(desk.control("Level").is_none());
+}
+
 fn down(desk: &mut Desk, key: Key, pressed: bool, modifiers: Modifiers) {
     desk.harness.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
     desk.wait(0.05);

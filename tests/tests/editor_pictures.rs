@@ -82,3 +82,8 @@ fn the_list_of_instruments() {
         desk.wait(0.2);
     });
 }
+
+#[test]
+fn a_panel_of_a_small_window() {
+    picture("small_panel", 0.5, 1.0, |desk| desk.open("Sound"));
+}

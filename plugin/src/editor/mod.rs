@@ -42,7 +42,7 @@ use crate::pointer::Pointer;
 pub use given::{Given, Plan};
 use history::{History, Noted};
 pub use link::{Link, SIZE, Window};
-use panels::Tab;
+use panels::{TABS, Tab};
 pub use strings::Sight;
 use theme::{GAP, HEADER, PANELS, SIDE};
 
@@ -112,7 +112,7 @@ impl Editor {
             self.keys.follow(ui, &given);
         }
         let window = ui.ctx().content_rect();
-        let Areas { header, strings, side, panels } = Areas::of(window);
+        let Areas { header, strings, side, panels } = Areas::of(window, self.panels.open);
         ui.set_clip_rect(window);
         ui.painter().rect_filled(window, 0.0, theme::GROUND);
         place(ui, "header", header, |ui| self.header.show(ui, &given));
@@ -121,9 +121,7 @@ impl Editor {
         if let Some(side) = side {
             place(ui, "side", side, |ui| side::show(ui, &given, watched));
         }
-        if let Some(panels) = panels {
-            place(ui, "panels", panels, |ui| self.panels.show(ui, &given));
-        }
+        place(ui, "panels", panels, |ui| self.panels.show(ui, &given));
         let panel = Tab::ALL.iter().position(|tab| *tab == self.panels.tab).unwrap_or(0);
         let (size, zoom) = (Some(window.size().into()), ui.ctx().zoom_factor());
         self.params.layout.keep(Seen { panel, string: self.strings.watched(), size, zoom });
@@ -194,31 +192,32 @@ struct Areas {
     header: Rect,
     strings: Rect,
     side: Option<Rect>,
-    panels: Option<Rect>,
+    panels: Rect,
 }
 
-/// Height that a window must have for the panels to be seen, and for the side view, points.
+/// Height that a window must have for the panels to be seen at all times, and for the side view, points.
 const FOR_PANELS: f32 = 600.0;
 const FOR_SIDE: f32 = 400.0;
 
 impl Areas {
     /// Header, panels and side view have the height they need, if there is room for them, and the strings what is left.
-    fn of(window: Rect) -> Self {
+    /// Where there is little room only the tabs of the panels are seen, until one is opened in place of the side view.
+    fn of(window: Rect, open: bool) -> Self {
         let row = |top: f32, bottom: f32| {
             let rect = Rect::from_min_max(pos2(window.left(), top), pos2(window.right(), bottom));
             rect.shrink2(egui::vec2(GAP, 0.0))
         };
         let header = row(window.top(), window.top() + HEADER);
         let mut bottom = window.bottom() - GAP;
-        let mut take = |height: f32, least: f32| {
-            (window.height() >= least).then(|| {
-                let taken = row(bottom - height, bottom);
-                bottom = taken.top() - GAP;
-                taken
-            })
+        let mut take = |height: f32| {
+            let taken = row(bottom - height, bottom);
+            bottom = taken.top() - GAP;
+            taken
         };
-        let panels = take(PANELS, FOR_PANELS);
-        let side = take(SIDE, FOR_SIDE);
+        let crowded = window.height() < FOR_PANELS;
+        let panels = take(if crowded && !open { TABS } else { PANELS });
+        let for_side = if crowded && open { FOR_PANELS } else { FOR_SIDE };
+        let side = (window.height() >= for_side).then(|| take(SIDE));
         Self { header, strings: row(header.bottom(), bottom), side, panels }
     }
 }

@@ -94,7 +94,7 @@ impl Shelf {
         lock(&self.0.files).iter().map(|file| file.name.clone()).collect()
     }
 
-    /// The name of a number's file; none if it is [`NONE`] or there is no such file.
+    /// The name of a number's file; none for 0 or if there is no such file.
     pub fn name(&self, number: u32) -> Option<String> {
         let kept = lock(&self.0.kept);
         let kept =
@@ -107,7 +107,7 @@ impl Shelf {
     ///
     /// # Errors
     /// When there are as many files as can be chosen.
-    pub(crate) fn add(&self, file: SetupFile) -> Result<u32, String> {
+    pub fn add(&self, file: SetupFile) -> Result<u32, String> {
         let mut files = lock(&self.0.files);
         let place = files.iter().position(|known| known.name == file.name).unwrap_or(files.len());
         if place == MOST_FILES {

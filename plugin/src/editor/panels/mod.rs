@@ -46,11 +46,13 @@ impl Tab {
 pub struct Panels {
     /// The one that is seen.
     pub tab: Tab,
+    /// Whether it is open where there is little room.
+    pub open: bool,
     engine: engine::Engine,
 }
 
 /// Height of the row of tabs, points.
-const TABS: f32 = 32.0;
+pub(super) const TABS: f32 = 32.0;
 /// What is narrower than this is scrolled, points.
 const NARROWEST: f32 = 880.0;
 
@@ -61,6 +63,9 @@ impl Panels {
         ui.painter().rect_filled(area, theme::ROUND, theme::SURFACE);
         let tabs = Rect::from_min_size(area.min, vec2(area.width(), TABS));
         self.show_tabs(ui, tabs);
+        if area.height() <= TABS {
+            return;
+        }
         let inside = Rect::from_min_max(pos2(area.left(), tabs.bottom()), area.max).shrink2(vec2(NEAR, NEAR));
         ui.scope_builder(UiBuilder::new().id_salt(self.tab.name()).max_rect(inside), |ui| {
             egui::ScrollArea::horizontal().show(ui, |ui| {
@@ -92,6 +97,8 @@ impl Panels {
             let chosen = self.tab == tab;
             response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Tab, true, chosen, tab.name()));
             if response.clicked() {
+                // The second time closes it again, which is seen where there is little room.
+                self.open = !(self.open && chosen);
                 self.tab = tab;
             }
             let colour = match () {
