@@ -50,7 +50,7 @@ fn a_small_window() {
 fn panel(tab: &str, name: &str, pixels: f32) {
     picture(name, 1.0, pixels, |desk| {
         desk.open(tab);
-        desk.point(pos2(500.0, 24.0));
+        desk.point(pos2(800.0, 24.0));
         chord(desk);
     });
 }

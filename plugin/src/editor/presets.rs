@@ -76,7 +76,8 @@ impl Presets {
             field.request_focus();
         }
         let known = given.params.shelf.names().iter().any(|known| known == self.name.trim());
-        let pressed = ui.button(if known { "Replace" } else { "Save it" }).clicked();
+        let button = Button::new(if known { "Replace" } else { "Save it" }).fill(theme::RAISED);
+        let pressed = ui.add(button).clicked();
         if pressed || entered {
             self.problem = save(given, self.name.trim()).err();
             ui.close();

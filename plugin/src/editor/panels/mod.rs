@@ -54,7 +54,7 @@ pub struct Panels {
 /// Height of the row of tabs, points.
 pub(super) const TABS: f32 = 32.0;
 /// What is narrower than this is scrolled, points.
-const NARROWEST: f32 = 880.0;
+const NARROWEST: f32 = 1072.0;
 
 impl Panels {
     /// Draws the tabs and the panel that is seen.

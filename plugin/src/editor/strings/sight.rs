@@ -8,8 +8,9 @@ use crate::editor::theme::{LEFT, RIGHT};
 /// Room over the board for handles and under it for numbers, points.
 const OVER: f32 = 32.0;
 const UNDER: f32 = 24.0;
-/// Widest that strings lie apart, points.
+/// Widest that strings lie apart, points, and in large windows as a part of their width.
 const WIDEST: f32 = 56.0;
+const WIDEST_PART: f32 = 0.05;
 /// How much of the distance between two strings a millimetre of motion takes.
 const LIFT: f32 = 0.3;
 
@@ -36,7 +37,8 @@ impl Sight {
         let count = setup.string.len().max(1);
         let along = (area.width() - LEFT - RIGHT).max(1.0) / setup.neck.scale_length as f32;
         // The board goes on for half a spacing beyond the outer strings.
-        let spacing = ((area.height() - OVER - UNDER).max(1.0) / count as f32).min(WIDEST);
+        let widest = WIDEST.max(WIDEST_PART * area.width());
+        let spacing = ((area.height() - OVER - UNDER).max(1.0) / count as f32).min(widest);
         let left_over = (area.height() - OVER - UNDER - spacing * count as f32).max(0.0);
         let first = (area.top() + OVER + 0.5 * (left_over + spacing)).round();
         Self { area, nut: area.left() + LEFT, along, lift: 1e3 * LIFT * spacing, first, spacing, count }
