@@ -198,6 +198,8 @@ struct Areas {
 /// Height that a window must have for the panels to be seen at all times, and for the side view, points.
 const FOR_PANELS: f32 = 600.0;
 const FOR_SIDE: f32 = 400.0;
+/// What the side view has of the height of a large window.
+const SIDE_PART: f32 = 0.19;
 
 impl Areas {
     /// Header, panels and side view have the height they need, if there is room for them, and the strings what is left.
@@ -217,7 +219,7 @@ impl Areas {
         let crowded = window.height() < FOR_PANELS;
         let panels = take(if crowded && !open { TABS } else { PANELS });
         let for_side = if crowded && open { FOR_PANELS } else { FOR_SIDE };
-        let side = (window.height() >= for_side).then(|| take(SIDE));
+        let side = (window.height() >= for_side).then(|| take(SIDE.max(SIDE_PART * window.height())));
         Self { header, strings: row(header.bottom(), bottom), side, panels }
     }
 }
