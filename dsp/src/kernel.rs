@@ -299,15 +299,26 @@ fn predict_group<S: Simd, const REACH: usize, const STRETCH: bool, const LOSS: b
 /// host. The square of such a motion's last digit is still a normal number.
 const STILL: f64 = 1e-120;
 
+/// What the last pass goes from, and where it writes.
+pub(crate) struct Advance<'a> {
+    /// ψ.
+    pub pull: f64,
+    /// w, v and u.
+    pub from: (&'a [f64], &'a [f64], &'a [f64]),
+    /// d⁺ and u⁺.
+    pub to: (&'a mut [f64], &'a mut [f64]),
+    /// Heights that the points are held against.
+    pub skyline: &'a [f64],
+    /// How far the lowest point of each group is over its own.
+    pub clearances: &'a mut [f64],
+}
+
 /// d⁺ = w − ψv and u⁺ = u + d⁺; returns the largest |d⁺|.
 #[inline(always)]
-fn advance<S: Simd, const STRETCH: bool>(
+fn advance<S: Simd, const STRETCH: bool, const SKYLINE: bool>(
     simd: S,
     unknowns: usize,
-    pull: f64,
-    (w, v, u): (&[f64], &[f64], &[f64]),
-    d_next: &mut [f64],
-    u_next: &mut [f64],
+    Advance { pull, from: (w, v, u), to: (d_next, u_next), skyline, clearances }: Advance,
 ) -> f64 {
     // Beyond the unknowns w and v are 0, and so is what is written there.
     let count = unknowns.div_ceil(LANES);
@@ -316,6 +327,8 @@ fn advance<S: Simd, const STRETCH: bool>(
     let mut largest = [zero; LANES];
     let (w, v, u) = (groups(w, FIRST, count), groups(v, FIRST, count), groups(u, FIRST, count));
     let (d_next, u_next) = (groups_mut(d_next, FIRST, count), groups_mut(u_next, FIRST, count));
+    let skyline = if SKYLINE { groups(skyline, FIRST, count) } else { &[] };
+    let clearances = if SKYLINE { &mut clearances[..count] } else { &mut [] };
     for at in 0..count {
         let [w, v, u] = [&w[at], &v[at], &u[at]].map(split::<S>);
         let (d_next, u_next) = (split_mut::<S>(&mut d_next[at]), split_mut::<S>(&mut u_next[at]));
@@ -327,29 +340,17 @@ fn advance<S: Simd, const STRETCH: bool>(
             u_next[part] = simd.add_f64s(u[part], d);
             largest[part] = simd.max_f64s(size, largest[part]);
         }
+        if SKYLINE {
+            let tops = split::<S>(&skyline[at]);
+            let mut least = simd.sub_f64s(u_next[0], tops[0]);
+            for part in 1..vectors::<S>() {
+                least = simd.min_f64s(least, simd.sub_f64s(u_next[part], tops[part]));
+            }
+            clearances[at] = simd.reduce_min_f64s(least);
+        }
     }
     let lanes: &[f64] = pulp::bytemuck::cast_slice(&largest[..vectors::<S>()]);
     lanes.iter().fold(0.0f64, |a, &b| a.max(b))
-}
-
-/// Groups of points no higher than `margin` over a skyline.
-#[inline(always)]
-fn near<S: Simd>(simd: S, unknowns: usize, u: &[f64], skyline: &[f64], margin: f64, found: &mut Vec<u32>) {
-    // Beyond the unknowns there is nothing to be near.
-    let count = unknowns.div_ceil(LANES);
-    let margin = simd.splat_f64s(margin);
-    let points = groups(u, FIRST, count).iter().zip(groups(skyline, FIRST, count));
-    found.clear();
-    for (group, (u, top)) in (0..).zip(points) {
-        let (u, top) = (split::<S>(u), split::<S>(top));
-        let mut least = simd.sub_f64s(u[0], top[0]);
-        for part in 1..vectors::<S>() {
-            least = simd.min_f64s(least, simd.sub_f64s(u[part], top[part]));
-        }
-        if simd.first_true_m64s(simd.less_than_or_equal_f64s(least, margin)) < S::F64_LANES {
-            found.push(group);
-        }
-    }
 }
 
 /// The passes of one model, on the widest instruction set of this machine.
@@ -360,6 +361,8 @@ pub(crate) struct Kernel {
     reach: usize,
     stretch: bool,
     loss: bool,
+    /// Whether points are held against a skyline.
+    skyline: bool,
 }
 
 impl Kernel {
@@ -370,7 +373,13 @@ impl Kernel {
             Stencil::Corrected => 1,
             Stencil::Wide => 2,
         };
-        Kernel { arch: Arch::new(), reach, stretch: model.stretch > 0.0, loss: model.string.loss_1 > 0.0 }
+        Kernel {
+            arch: Arch::new(),
+            reach,
+            stretch: model.stretch > 0.0,
+            loss: model.string.loss_1 > 0.0,
+            skyline: !model.contacts.is_empty(),
+        }
     }
 
     /// The same passes with scalar instructions.
@@ -423,28 +432,15 @@ impl Kernel {
         self.arch.dispatch(Predict::<REACH, STRETCH, LOSS> { unknowns, weights, u, d, v, w })
     }
 
-    /// The next motion and displacement; returns the largest motion of a point, m.
-    pub fn advance(
-        &self,
-        unknowns: usize,
-        pull: f64,
-        from: (&[f64], &[f64], &[f64]),
-        d_next: &mut [f64],
-        u_next: &mut [f64],
-    ) -> f64 {
-        if self.stretch {
-            self.arch.dispatch(Advance::<true> { unknowns, pull, from, d_next, u_next })
-        } else {
-            self.arch.dispatch(Advance::<false> { unknowns, pull, from, d_next, u_next })
+    /// The next motion and displacement, and if there is a skyline how far they are from it; returns the largest motion
+    /// of a point, m.
+    pub fn advance(&self, unknowns: usize, arrays: Advance) -> f64 {
+        match (self.stretch, self.skyline) {
+            (false, false) => self.arch.dispatch(LastPass::<false, false> { unknowns, arrays }),
+            (false, true) => self.arch.dispatch(LastPass::<false, true> { unknowns, arrays }),
+            (true, false) => self.arch.dispatch(LastPass::<true, false> { unknowns, arrays }),
+            (true, true) => self.arch.dispatch(LastPass::<true, true> { unknowns, arrays }),
         }
-    }
-}
-
-impl Kernel {
-    /// Puts the groups of [`LANES`] points that are no higher than `margin`, m, over a skyline into `found`, which has
-    /// room for all.
-    pub fn near(&self, unknowns: usize, u: &[f64], skyline: &[f64], margin: f64, found: &mut Vec<u32>) {
-        self.arch.dispatch(Near { unknowns, u, skyline, margin, found });
     }
 }
 
@@ -475,38 +471,17 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> WithSimd
 }
 
 /// The last pass, likewise.
-struct Advance<'a, const STRETCH: bool> {
+struct LastPass<'a, const STRETCH: bool, const SKYLINE: bool> {
     unknowns: usize,
-    pull: f64,
-    from: (&'a [f64], &'a [f64], &'a [f64]),
-    d_next: &'a mut [f64],
-    u_next: &'a mut [f64],
+    arrays: Advance<'a>,
 }
 
-impl<const STRETCH: bool> WithSimd for Advance<'_, STRETCH> {
+impl<const STRETCH: bool, const SKYLINE: bool> WithSimd for LastPass<'_, STRETCH, SKYLINE> {
     type Output = f64;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        advance::<S, STRETCH>(simd, self.unknowns, self.pull, self.from, self.d_next, self.u_next)
-    }
-}
-
-/// The look at the skyline, likewise.
-struct Near<'a> {
-    unknowns: usize,
-    u: &'a [f64],
-    skyline: &'a [f64],
-    margin: f64,
-    found: &'a mut Vec<u32>,
-}
-
-impl WithSimd for Near<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        near(simd, self.unknowns, self.u, self.skyline, self.margin, self.found);
+        advance::<S, STRETCH, SKYLINE>(simd, self.unknowns, self.arrays)
     }
 }
 
@@ -542,16 +517,22 @@ mod tests {
             let (u, d) = (array(), array());
             let weights = Weights { motion: 0.97, near: [0.7, -0.03, 0.001], beside: 0.01 };
             let run = |arch: Arch| {
-                let kernel = Kernel { arch, reach: 2, stretch: true, loss: true };
+                let kernel = Kernel { arch, reach: 2, stretch: true, loss: true, skyline: true };
                 let empty = || vec![0.0; grid.padded_len()];
                 let (mut v, mut w, mut d_next, mut u_next) = (empty(), empty(), empty(), empty());
                 let products = kernel.predict(unknowns, &weights, (&u, &d), &mut v, &mut w);
-                let largest = kernel.advance(unknowns, 1e-3, (&w, &v, &u), &mut d_next, &mut u_next);
+                let mut clearances = vec![0.0; unknowns.div_ceil(LANES)];
+                let arrays = Advance {
+                    pull: 1e-3,
+                    from: (&w, &v, &u),
+                    to: (&mut d_next, &mut u_next),
+                    skyline: &d,
+                    clearances: &mut clearances,
+                };
+                let largest = kernel.advance(unknowns, arrays);
                 assert!(u_next[FIRST + unknowns..].iter().all(|value| *value == 0.0), "ends move");
                 let bits: Vec<u64> = w.iter().chain(&d_next).chain(&u_next).map(|x| x.to_bits()).collect();
-                let mut near = Vec::new();
-                kernel.near(unknowns, &u_next, &u, -0.4, &mut near);
-                (format!("{products:?} {near:?}"), largest.to_bits(), bits)
+                (format!("{products:?} {clearances:?}"), largest.to_bits(), bits)
             };
             for arch in instruction_sets() {
                 assert_eq!(run(arch), run(Arch::Scalar), "{intervals} intervals, {arch:?}");

@@ -36,8 +36,8 @@ impl Blocks {
 
     /// The contacts beside a group of grid points, and others between them.
     #[inline(always)]
-    pub fn of(&self, group: u32) -> Range<usize> {
-        self.0[group as usize].clone()
+    pub fn of(&self, group: usize) -> Range<usize> {
+        self.0[group].clone()
     }
 }
 
@@ -66,8 +66,8 @@ pub(crate) fn draw(grid: &Grid, contacts: &[Contact], heights: &[f64], skyline: 
 
 /// The lowest of a group of grid points and those beside it, m.
 #[inline(always)]
-pub(crate) fn lowest(displacement: &[f64], group: u32) -> f64 {
-    let start = NUT + group as usize * LANES;
+pub(crate) fn lowest(displacement: &[f64], group: usize) -> f64 {
+    let start = NUT + group * LANES;
     displacement[start..start + LANES + 2].iter().fold(f64::INFINITY, |low, &u| low.min(u))
 }
 
@@ -122,8 +122,8 @@ mod tests {
                 ((u[at + 1] - u[at]) - (u[at] - u[at - 1])).abs()
             });
             let margin = 0.1 + SAG * bends.fold(0.0, f64::max);
-            let groups = (0..grid.unknowns().div_ceil(LANES) as u32).filter(|&group| {
-                let first = NUT + 1 + group as usize * LANES;
+            let groups = (0..grid.unknowns().div_ceil(LANES)).filter(|&group| {
+                let first = NUT + 1 + group * LANES;
                 (first..first + LANES).any(|at| u[at] - skyline[at] <= margin)
             });
             let looked_at: Vec<usize> = groups

@@ -3,7 +3,7 @@
 use crate::active::Active;
 use crate::drive::Drive;
 use crate::grid::LANES;
-use crate::kernel::{Kernel, Products, Weights};
+use crate::kernel::{Advance, Kernel, Products, Weights};
 use crate::model::{Model, Stiffness};
 use crate::skyline::SAG;
 use crate::solver::{Convergence, Solver};
@@ -28,8 +28,8 @@ pub struct Scratch {
     pub(crate) active: Vec<Active>,
     /// The step in which each contact was last solved for, one more than its index.
     pub(crate) held: Vec<u64>,
-    /// Groups of grid points near the skyline.
-    pub(crate) groups: Vec<u32>,
+    /// How far the lowest point of each group of grid points is over the skyline, m.
+    pub(crate) clearances: Vec<f64>,
     /// Sum of the sizes of all forces that led to those found, N.
     pub(crate) tried: f64,
     /// Fingers before the last step.
@@ -55,7 +55,7 @@ impl Scratch {
             solver: Solver::with_capacity(&spans, model.finger_slots),
             active: Vec::with_capacity(contacts),
             held: vec![0; model.contacts.len()],
-            groups: Vec::with_capacity(model.grid.unknowns().div_ceil(LANES)),
+            clearances: vec![0.0; model.grid.unknowns().div_ceil(LANES)],
             tried: 0.0,
             fingers: vec![None; model.finger_slots],
         }
@@ -77,16 +77,14 @@ impl Scratch {
         self.displacement.fill(0.0);
     }
 
-    /// Finds the groups of grid points that have come within `near`, m, of a skyline, or the string between them has.
-    /// None has moved by more than `largest`, m. Returns how low over the skyline points are of which that can be, m.
+    /// How near to the skyline, m, a grid point must have come where the string can have come within `near` of a contact.
+    /// None has moved by more than `largest`, m.
     #[inline(always)]
-    pub(crate) fn find_near(&mut self, model: &Model, skyline: &[f64], near: f64, largest: f64) -> f64 {
+    pub(crate) fn margin(&self, model: &Model, near: f64, largest: f64) -> f64 {
         // Second differences of u are those of uⁿ, none larger than the root of the sum of their squares, and of d.
         let squares =
             if model.stretch > 0.0 { self.products.curvature } else { 2.0 * self.products.steepness };
-        let margin = near + SAG * (squares.sqrt() + 4.0 * largest);
-        self.kernel.near(model.grid.unknowns(), &self.displacement, skyline, margin, &mut self.groups);
-        margin
+        near + SAG * (squares.sqrt() + 4.0 * largest)
     }
 
     /// The stiffness of the last step.
@@ -156,13 +154,15 @@ impl State {
     }
 
     pub(crate) fn advance(&self, model: &Model, pull: f64, scratch: &mut Scratch) -> f64 {
-        scratch.kernel.advance(
-            model.grid.unknowns(),
+        let Scratch { kernel, prediction, curvature, motion, displacement, clearances, .. } = scratch;
+        let arrays = Advance {
             pull,
-            (&scratch.prediction, &scratch.curvature, &self.displacement),
-            &mut scratch.motion,
-            &mut scratch.displacement,
-        )
+            from: (prediction, curvature, &self.displacement),
+            to: (motion, displacement),
+            skyline: &self.skyline,
+            clearances,
+        };
+        kernel.advance(model.grid.unknowns(), arrays)
     }
 }
 

@@ -167,12 +167,15 @@ impl State {
             return;
         }
         let near = AHEAD * (READING_NORM * largest + self.lifted());
-        let margin = scratch.find_near(model, &self.skyline, near, largest);
+        let margin = scratch.margin(model, near, largest);
         let mut close = std::mem::take(&mut self.close);
         close.clear();
         let mut next = 0;
-        for position in 0..scratch.groups.len() {
-            let group = scratch.groups[position];
+        for group in 0..scratch.clearances.len() {
+            let clear = scratch.clearances[group] > margin;
+            if clear {
+                continue;
+            }
             let floor = lowest(&scratch.displacement, group) - margin;
             let Range { start, end } = model.blocks.of(group);
             let start = start.max(next);
