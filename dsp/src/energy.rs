@@ -227,7 +227,11 @@ fn gross(
             + 4.0 * string.linear_density * (stiffness.kappa_2 + 4.0 * stiffness.kappa_6 / h2) / h2);
     let stretched = if string.tension_modulation {
         let product = slopes(model, now, &state.displacement);
-        string.axial_stiffness() / (4.0 * string.length * h2) * (product.abs() + f64::EPSILON * slope) * slope
+        // Where the product all but vanishes what is left of it is what the whole sum was rounded by, and its square
+        // never is negative.
+        let summed = slope * (1.0 + model.grid.intervals as f64 / (2 * LANES) as f64);
+        string.axial_stiffness() / (4.0 * string.length * h2)
+            * (product.abs() * slope + f64::EPSILON * summed * summed)
     } else {
         0.0
     };
