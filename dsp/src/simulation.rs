@@ -39,6 +39,8 @@ pub struct SceneString {
     plucks: Vec<(PluckSpec, Reading)>,
     fingers: Vec<SceneFinger>,
     tension: Curve,
+    /// The tension, N, if it stays as it is and nothing of the scene acts on the string: what most steps need not ask for.
+    steady: Option<f64>,
     listening: Option<Reading>,
     fret_count: usize,
 }
@@ -96,6 +98,7 @@ impl Simulation {
     }
 
     /// Advances every string from sample n to n + 1. Returns the sum of the ledgers' entries.
+    #[inline(always)]
     pub fn step(&mut self) -> Option<Entry> {
         self.step_under(|_, _| {})
     }
@@ -105,26 +108,38 @@ impl Simulation {
     /// above the model's limit is not allowed: the grid has no room for it.
     #[inline(always)]
     pub fn step_under(&mut self, mut act: impl FnMut(usize, &mut SceneString)) -> Option<Entry> {
-        // (A signed number of steps turns into a float in one instruction.)
-        let time = self.step.cast_signed() as f64 / self.sample_rate;
+        if self.ledgers.is_some() {
+            return Some(self.step_booked(act));
+        }
+        let clock = self.clock();
+        for (index, string) in self.strings.iter_mut().enumerate() {
+            string.prepare(clock);
+            act(index, string);
+            string.advance();
+        }
         self.step += 1;
-        let next = self.step.cast_signed() as f64 / self.sample_rate;
-        let Some(ledgers) = &mut self.ledgers else {
-            for (index, string) in self.strings.iter_mut().enumerate() {
-                string.prepare(time, next);
-                act(index, string);
-                string.advance();
-            }
-            return None;
-        };
+        None
+    }
+
+    /// The same with ledgers.
+    #[inline(never)]
+    fn step_booked(&mut self, mut act: impl FnMut(usize, &mut SceneString)) -> Entry {
+        let clock = self.clock();
         let mut sum = Entry::default();
-        for (index, (string, ledger)) in self.strings.iter_mut().zip(ledgers).enumerate() {
-            string.prepare(time, next);
+        for (index, (string, ledger)) in
+            self.strings.iter_mut().zip(self.ledgers.iter_mut().flatten()).enumerate()
+        {
+            string.prepare(clock);
             act(index, string);
             string.advance();
             sum += ledger.record(&string.model, &string.state, &string.scratch, &string.drive);
         }
-        Some(sum)
+        self.step += 1;
+        sum
+    }
+
+    fn clock(&self) -> Clock {
+        Clock { step: self.step, sample_rate: self.sample_rate }
     }
 
     /// Number of steps taken.
@@ -193,6 +208,21 @@ fn check_size(scene: &Scene) -> Result<(), Error> {
     Err(Error::range("duration", plain(scene.duration), accepted))
 }
 
+/// When a step is taken.
+#[derive(Clone, Copy)]
+struct Clock {
+    step: u64,
+    sample_rate: f64,
+}
+
+impl Clock {
+    /// Time so many samples after the one that the step leads from, s.
+    fn at(self, later: u64) -> f64 {
+        // (A signed number of steps turns into a float in one instruction.)
+        (self.step + later).cast_signed() as f64 / self.sample_rate
+    }
+}
+
 impl SceneString {
     fn new(scene: &Scene, index: usize) -> Result<SceneString, Error> {
         let spec = &scene.string[index];
@@ -214,6 +244,12 @@ impl SceneString {
                 .map_err(|error| error.under(&format!("finger[{}]", finger_index + 1)))?;
         }
         let plucks = scene.pluck.iter().filter(|pluck| pluck.string == number);
+        let steady = match spec.tension {
+            Curve::Constant(tension) if fingers.is_empty() && plucks.clone().next().is_none() => {
+                Some(tension)
+            }
+            _ => None,
+        };
         let mut drive = Drive::new(&model);
         drive.pushes.reserve(scene.pluck.len());
         Ok(SceneString {
@@ -227,6 +263,7 @@ impl SceneString {
                 })
                 .collect(),
             tension: spec.tension.clone(),
+            steady,
             fret_count: barrier.as_ref().map_or(0, |barrier| barrier.frets.len()),
             listening: match scene.output.position {
                 ListeningPoint::Bridge => None,
@@ -242,11 +279,22 @@ impl SceneString {
 
     /// Fills the drive of the next step.
     #[inline(always)]
-    fn prepare(&mut self, time: f64, next: f64) {
-        self.drive.tension = self.tension.at(time);
+    fn prepare(&mut self, clock: Clock) {
         self.drive.pushes.clear();
+        self.drive.heights.clear();
+        match self.steady {
+            Some(tension) => self.drive.tension = tension,
+            None => self.follow(clock),
+        }
+    }
+
+    /// Fills the drive by what the scene has happen.
+    #[inline(never)]
+    fn follow(&mut self, clock: Clock) {
+        let (now, next) = (clock.at(0), clock.at(1));
+        self.drive.tension = self.tension.at(now);
         for (pluck, reading) in &self.plucks {
-            let since = time - pluck.start;
+            let since = now - pluck.start;
             if since >= 0.0 && since <= pluck.duration && pluck.force != 0.0 {
                 let force = pluck.force * raised_cosine(since, pluck.duration);
                 self.drive.pushes.push(Push { reading: *reading, force });
@@ -254,9 +302,8 @@ impl SceneString {
         }
         for (hand, finger) in self.drive.hands.iter_mut().zip(&self.fingers) {
             hand.position = finger.position.at(next);
-            hand.force = finger.force.at(time);
+            hand.force = finger.force.at(now);
         }
-        self.drive.heights.clear();
     }
 
     /// Takes the step.
