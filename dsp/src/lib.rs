@@ -10,7 +10,7 @@
 //!   Both are read from TOML and refused in one line when something is impossible.
 //! - A [`Model`] holds every coefficient of one string on its grid. It never changes while it sounds.
 //! - A [`State`] holds what one sample hands to the next: displacement and motion of the string, fingers,
-//!   last forces. [`State::step`] takes it from sample n to n + 1.
+//!   the contacts that are close (`skyline`). [`State::step`] takes it from sample n to n + 1.
 //! - A [`Drive`] says what acts in that one step: tension, pushes, hands, moving frets.
 //! - A [`Scratch`] is room to work in, and the record of the last step for whoever listens or measures:
 //!   [`pickup`] makes a signal of it, [`Ledger`] an energy balance. Neither can change the motion.
