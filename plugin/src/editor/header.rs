@@ -135,7 +135,7 @@ fn show_history(ui: &mut Ui, given: &Given) {
     if ui.add_enabled(undo, Button::new("Undo")).on_hover_text("Ctrl+Z").clicked() {
         given.history.undo(given.gui);
     }
-    if ui.add_enabled(redo, Button::new("Redo")).on_hover_text("Ctrl+Shift+Z").clicked() {
+    if ui.add_enabled(redo, Button::new("Redo")).on_hover_text("Ctrl+Y").clicked() {
         given.history.redo(given.gui);
     }
 }

@@ -8,26 +8,9 @@ use egui::{Event, Key, Ui};
 use super::Given;
 use crate::performance::PlayerEvent;
 
-/// From C to E, one octave on, in semitones.
-const LOWER: [Key; 17] = [
-    Key::Z,
-    Key::S,
-    Key::X,
-    Key::D,
-    Key::C,
-    Key::V,
-    Key::G,
-    Key::B,
-    Key::H,
-    Key::N,
-    Key::J,
-    Key::M,
-    Key::Comma,
-    Key::L,
-    Key::Period,
-    Key::Semicolon,
-    Key::Slash,
-];
+/// From C to B, and from C to E, one octave on. Of the signs on the keyboard, only letters and digits arrive from the window.
+const LOWER: [Key; 12] =
+    [Key::Z, Key::S, Key::X, Key::D, Key::C, Key::V, Key::G, Key::B, Key::H, Key::N, Key::J, Key::M];
 const UPPER: [Key; 17] = [
     Key::Q,
     Key::Num2,
@@ -51,8 +34,8 @@ const UPPER: [Key; 17] = [
 const FIRST: [i32; 2] = [48, 60];
 /// Octaves that the rows can be moved, down and up.
 const OCTAVES: [i32; 2] = [-3, 3];
-/// How hard notes are, and with Shift, as parts of the hardest.
-const VELOCITIES: [f32; 2] = [0.7, 1.0];
+/// How hard notes are, 1 is the hardest.
+const VELOCITY: f32 = 0.8;
 
 /// What the keys remember.
 #[derive(Debug, Default)]
@@ -65,7 +48,8 @@ pub struct Keys {
 impl Keys {
     /// Takes what the keys have done since the last picture.
     pub fn follow(&mut self, ui: &Ui, given: &Given) {
-        if ui.ctx().text_edit_focused() || !ui.input(|input| input.focused) {
+        // With Shift, letters neither come nor go: nothing may hang on one that went so.
+        if ui.ctx().text_edit_focused() || ui.input(|input| !input.focused || input.modifiers.shift) {
             self.let_go(given);
             return;
         }
@@ -73,25 +57,25 @@ impl Keys {
         for event in events {
             let Event::Key { key, pressed, repeat, modifiers, .. } = event else { continue };
             match key {
-                Key::PageUp | Key::PageDown if pressed => {
+                Key::PageUp | Key::PageDown if pressed && !modifiers.command => {
                     self.let_go(given);
                     let way = if key == Key::PageUp { 1 } else { -1 };
                     self.octave = (self.octave + way).clamp(OCTAVES[0], OCTAVES[1]);
                 }
                 _ if !pressed => self.release(given, key),
                 _ if repeat || modifiers.command || modifiers.ctrl || modifiers.alt => {}
-                _ => self.press(given, key, VELOCITIES[usize::from(modifiers.shift)]),
+                _ => self.press(given, key),
             }
         }
     }
 
-    fn press(&mut self, given: &Given, key: Key, velocity: f32) {
+    fn press(&mut self, given: &Given, key: Key) {
         let Some(note) = note(key, self.octave) else { return };
         if self.held.iter().any(|(held, _)| *held == key) {
             return;
         }
         self.held.push((key, note));
-        given.pointer.play(PlayerEvent::NoteOn { channel: 0, key: note, velocity });
+        given.pointer.play(PlayerEvent::NoteOn { channel: 0, key: note, velocity: VELOCITY });
     }
 
     fn release(&mut self, given: &Given, key: Key) {
@@ -112,7 +96,7 @@ impl Keys {
 
 /// The MIDI key that a key plays, if any.
 fn note(key: Key, octave: i32) -> Option<u8> {
-    let rows = [LOWER, UPPER].into_iter().zip(FIRST);
+    let rows = [&LOWER[..], &UPPER].into_iter().zip(FIRST);
     let mut notes = rows.filter_map(|(row, first)| {
         let along = row.iter().position(|known| *known == key)? as i32;
         u8::try_from(first + 12 * octave + along).ok().filter(|note| *note < 128)

@@ -173,7 +173,7 @@ impl NiceEguiApp for Editor {
     }
 }
 
-/// Undo and redo.
+/// Undo, redo and zoom.
 fn follow_shortcuts(ui: &Ui, given: &Given) {
     if ui.ctx().text_edit_focused() {
         return;
@@ -185,7 +185,16 @@ fn follow_shortcuts(ui: &Ui, given: &Given) {
     } else if pressed(Modifiers::COMMAND, Key::Z) {
         given.history.undo(given.gui);
     }
+    for (key, change) in [(Key::ArrowUp, ZOOM), (Key::ArrowDown, -ZOOM)] {
+        if pressed(Modifiers::COMMAND, key) {
+            let zoom = ui.ctx().zoom_factor() + change;
+            ui.ctx().set_zoom_factor(zoom.clamp(SIZES[0], SIZES[1]));
+        }
+    }
 }
+
+/// By how much everything becomes larger or smaller at once.
+const ZOOM: f32 = 0.1;
 
 /// Where the parts of the window are.
 struct Areas {
