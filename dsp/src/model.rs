@@ -101,6 +101,8 @@ impl Stiffness {
 /// A place where the string can touch something fixed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
+    /// Where it is, m from the nut.
+    pub place: f64,
     /// The point of the string.
     pub reading: Reading,
     /// The contact law.
@@ -181,20 +183,20 @@ impl Barrier {
                 if !beyond {
                     let reading = Reading::at_node(grid, node);
                     let kind = ContactKind::Board { node };
-                    contacts.push(Contact { reading, law, height: board.at(place), kind });
+                    contacts.push(Contact { place, reading, law, height: board.at(place), kind });
                 }
             }
         }
         for (index, &[place, height]) in self.frets.iter().enumerate() {
             grid.check_place(&format!("fretboard.frets[{}]", index + 1), place)?;
-            let reading = match self.placement {
-                FretPlacement::Exact => grid.reading(place),
+            let (place, reading) = match self.placement {
+                FretPlacement::Exact => (place, grid.reading(place)),
                 FretPlacement::Nearest => {
-                    let node = (place / grid.spacing).round() as usize;
-                    Reading::at_node(grid, node.clamp(1, grid.intervals - 1))
+                    let node = ((place / grid.spacing).round() as usize).clamp(1, grid.intervals - 1);
+                    (grid.place(node), Reading::at_node(grid, node))
                 }
             };
-            let fret = Contact { reading, law: self.law, height, kind: ContactKind::Fret { index } };
+            let fret = Contact { place, reading, law: self.law, height, kind: ContactKind::Fret { index } };
             let same = contacts.iter().position(|other| other.reading == reading);
             match same {
                 Some(i) if matches!(contacts[i].kind, ContactKind::Board { .. }) => contacts[i] = fret,
@@ -203,7 +205,7 @@ impl Barrier {
                 None => contacts.push(fret),
             }
         }
-        contacts.sort_by(|a, b| a.reading.centre().total_cmp(&b.reading.centre()));
+        contacts.sort_by(|a, b| a.place.total_cmp(&b.place));
         Ok(contacts)
     }
 }

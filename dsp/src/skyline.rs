@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use crate::grid::{Grid, LANES, NUT, Reading};
+use crate::grid::{Grid, LANES, NUT};
 use crate::model::Contact;
 
 /// How much lower than its points the string may lie between them, as a part of its largest second difference.
@@ -26,7 +26,7 @@ impl Blocks {
         let nothing = Range { start: usize::MAX, end: 0 };
         let mut blocks = vec![nothing; grid.unknowns().div_ceil(LANES)];
         for (index, contact) in contacts.iter().enumerate() {
-            let beside = beside(&contact.reading, grid).0;
+            let beside = beside(contact, grid).0;
             for block in &mut blocks[(beside.start - NUT - 1) / LANES..=(beside.end - NUT - 2) / LANES] {
                 *block = block.start.min(index)..index + 1;
             }
@@ -34,29 +34,59 @@ impl Blocks {
         Blocks(blocks)
     }
 
-    /// The contacts beside a group of grid points, and others between them.
+    /// Looks at the contacts, each once and in order, at which a string of these displacements can lie no more than
+    /// `margin`, m, over what is beside it. `clearances` is how far each group is over the skyline.
     #[inline(always)]
-    pub fn of(&self, group: usize) -> Range<usize> {
-        self.0[group].clone()
+    pub fn look(
+        &self,
+        margin: f64,
+        clearances: &[f64],
+        displacement: &[f64],
+        heights: &[f64],
+        mut found: impl FnMut(usize),
+    ) {
+        let mut next = 0;
+        for (group, (block, &clearance)) in self.0.iter().zip(clearances).enumerate() {
+            if clearance > margin || block.end <= next {
+                continue;
+            }
+            let floor = lowest(displacement, group) - margin;
+            let start = block.start.max(next);
+            for (index, &height) in (start..).zip(&heights[start..block.end]) {
+                let below = height < floor;
+                if !below {
+                    found(index);
+                }
+            }
+            next = block.end;
+        }
     }
 }
 
-/// Array indices of the unknowns beside a contact, and whether it must always be looked at: at the ends the string
-/// is continued to points that are not there.
-fn beside(reading: &Reading, grid: &Grid) -> (Range<usize>, bool) {
-    let (start, end) = reading.span();
+/// The lowest of a group of grid points and those beside it, m.
+#[inline(always)]
+fn lowest(displacement: &[f64], group: usize) -> f64 {
+    let start = NUT + group * LANES;
+    displacement[start..start + LANES + 2].iter().fold(f64::INFINITY, |low, &u| low.min(u))
+}
+
+/// Array indices of the unknowns beside a contact, and whether it must always be looked at: there the string goes on to
+/// an end, which is no unknown.
+fn beside(contact: &Contact, grid: &Grid) -> (Range<usize>, bool) {
+    let (start, end) = contact.reading.span();
     if end - start == 1 {
         return (start..end, false);
     }
-    let at_an_end = reading.first == NUT || reading.first + 3 >= NUT + grid.intervals;
-    (reading.first + 1..reading.first + 3, at_an_end)
+    let cell = ((contact.place / grid.spacing) as usize).min(grid.intervals - 1);
+    let (first, last) = (cell.max(1), (cell + 1).min(grid.intervals - 1));
+    (NUT + first..NUT + last + 1, cell == 0 || cell + 1 == grid.intervals)
 }
 
 /// Puts the height of the highest contact beside each grid point into `skyline`.
 pub(crate) fn draw(grid: &Grid, contacts: &[Contact], heights: &[f64], skyline: &mut [f64]) {
     skyline.fill(f64::NEG_INFINITY);
     for (contact, &height) in contacts.iter().zip(heights) {
-        let (beside, always) = beside(&contact.reading, grid);
+        let (beside, always) = beside(contact, grid);
         let height = if always { f64::INFINITY } else { height };
         for top in &mut skyline[beside] {
             *top = top.max(height);
@@ -64,17 +94,11 @@ pub(crate) fn draw(grid: &Grid, contacts: &[Contact], heights: &[f64], skyline: 
     }
 }
 
-/// The lowest of a group of grid points and those beside it, m.
-#[inline(always)]
-pub(crate) fn lowest(displacement: &[f64], group: usize) -> f64 {
-    let start = NUT + group * LANES;
-    displacement[start..start + LANES + 2].iter().fold(f64::INFINITY, |low, &u| low.min(u))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::contact::ContactLaw;
+    use crate::grid::Reading;
     use crate::model::ContactKind;
 
     /// Numbers from −1 to 1 that look random (the constants of Knuth's MMIX generator).
@@ -92,10 +116,10 @@ mod tests {
                 let reading = if index % 3 == 0 { Reading::at_node(grid, node) } else { grid.reading(place) };
                 let law = ContactLaw::known(1e10, 1.5);
                 let kind = ContactKind::Fret { index };
-                Contact { reading, law, height: 0.5 * random(seed), kind }
+                Contact { place, reading, law, height: 0.5 * random(seed), kind }
             })
             .collect();
-        contacts.sort_by(|a, b| a.reading.centre().total_cmp(&b.reading.centre()));
+        contacts.sort_by(|a, b| a.place.total_cmp(&b.place));
         contacts
     }
 
@@ -122,16 +146,15 @@ mod tests {
                 ((u[at + 1] - u[at]) - (u[at] - u[at - 1])).abs()
             });
             let margin = 0.1 + SAG * bends.fold(0.0, f64::max);
-            let groups = (0..grid.unknowns().div_ceil(LANES)).filter(|&group| {
-                let first = NUT + 1 + group * LANES;
-                (first..first + LANES).any(|at| u[at] - skyline[at] <= margin)
-            });
-            let looked_at: Vec<usize> = groups
-                .flat_map(|group| {
-                    let floor = lowest(&u, group) - margin;
-                    blocks.of(group).filter(|&index| heights[index] >= floor).collect::<Vec<_>>()
+            let clearances: Vec<f64> = (NUT + 1..NUT + 1 + grid.unknowns())
+                .step_by(LANES)
+                .map(|first| {
+                    (first..first + LANES).map(|at| u[at] - skyline[at]).fold(f64::INFINITY, f64::min)
                 })
                 .collect();
+            let mut looked_at = Vec::new();
+            blocks.look(margin, &clearances, &u, &heights, |index| looked_at.push(index));
+            assert!(looked_at.is_sorted_by(|a, b| a < b), "run {run}: {looked_at:?}");
             for (index, contact) in contacts.iter().enumerate() {
                 if contact.reading.of(&u) - contact.height <= 0.1 {
                     found += 1;

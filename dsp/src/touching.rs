@@ -1,13 +1,10 @@
 //! Which contacts act in a step: those the string touches at n − 1 or n, or would at n + 1.
 
-use std::ops::Range;
-
 use crate::active::Active;
 use crate::contact::Before;
 use crate::drive::Drive;
 use crate::grid::{READING_NORM, Reading};
 use crate::model::{Model, STEEPEST};
-use crate::skyline::lowest;
 use crate::state::State;
 use crate::string::Scratch;
 
@@ -170,28 +167,18 @@ impl State {
         let margin = scratch.margin(model, near, largest);
         let mut close = std::mem::take(&mut self.close);
         close.clear();
-        let mut next = 0;
-        for group in 0..scratch.clearances.len() {
-            let clear = scratch.clearances[group] > margin;
-            if clear {
-                continue;
+        let (displacement, heights) = (&scratch.displacement, &self.heights_next);
+        model.blocks.look(margin, &scratch.clearances, displacement, heights, |index| {
+            if model.contacts[index].reading.of(displacement) - heights[index] <= near {
+                close.push(index as u32);
             }
-            let floor = lowest(&scratch.displacement, group) - margin;
-            let Range { start, end } = model.blocks.of(group);
-            let start = start.max(next);
-            for (index, &height) in (start..).zip(&self.heights_next[start..end.max(start)]) {
-                if height < floor {
-                    continue;
-                }
-                let gap = model.contacts[index].reading.of(&scratch.displacement) - height;
-                if gap <= near {
-                    close.push(index as u32);
-                    if gap < 0.0 && scratch.held[index] != self.steps + 1 {
-                        self.add_missed(model, index, held, free_pull, scratch);
-                    }
-                }
+        });
+        for &index in &close {
+            let index = index as usize;
+            let gap = model.contacts[index].reading.of(&scratch.displacement) - self.heights_next[index];
+            if gap < 0.0 && scratch.held[index] != self.steps + 1 {
+                self.add_missed(model, index, held, free_pull, scratch);
             }
-            next = next.max(end);
         }
         self.close = close;
     }
