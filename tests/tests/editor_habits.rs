@@ -94,6 +94,27 @@ fn the_window_is_as_large_as_it_was() {
 }
 
 #[test]
+fn everything_becomes_larger_and_smaller() {
+    let mut desk = Desk::new();
+    let zoom = |desk: &mut Desk, key: Key, times: usize| {
+        for _ in 0..times {
+            desk.harness.key_press_modifiers(Modifiers::COMMAND, key);
+            desk.wait(0.05);
+        }
+        desk.harness.ctx.zoom_factor()
+    };
+    assert!((zoom(&mut desk, Key::ArrowUp, 3) - 1.3).abs() < 1e-3);
+    // It comes back with the session.
+    let mut other = Desk::new();
+    other.params.deserialize_fields(&desk.params.serialize_fields());
+    other.harness.state_mut().open();
+    other.wait(0.1);
+    assert_eq!(other.harness.ctx.zoom_factor(), desk.harness.ctx.zoom_factor());
+    assert_eq!(zoom(&mut desk, Key::ArrowUp, 30), 3.0);
+    assert_eq!(zoom(&mut desk, Key::ArrowDown, 40), 0.5);
+}
+
+#[test]
 fn a_small_window_opens_its_panels_when_asked() {
     let mut desk = Desk::sized(0.5, 1.0);
     desk.open("Sound");
