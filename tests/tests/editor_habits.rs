@@ -1,10 +1,9 @@
 //! Promise: text can be read against everything it stands on; Tab reaches every control; the editor comes back as it was
-//! left; and where there is no host the computer's keys play, unless something is typed.
+//! left.
 
-use egui::{Color32, Event, Key, Modifiers};
+use egui::{Color32, Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use low_action::editor::theme;
-use low_action::performance::PlayerEvent;
 use low_action_tests::desk::Desk;
 use nice_plug::prelude::Params;
 
@@ -121,46 +120,4 @@ fn a_small_window_opens_its_panels_when_asked() {
     assert!(desk.control("Level").is_some());
     desk.open("Sound");
     assert!(desk.control("Level").is_none());
-}
-
-fn down(desk: &mut Desk, key: Key, pressed: bool, modifiers: Modifiers) {
-    desk.harness.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
-    desk.wait(0.05);
-}
-
-#[test]
-fn keys_play_where_there_is_no_host() {
-    let mut desk = Desk::alone();
-    desk.wait(0.05);
-    down(&mut desk, Key::Q, true, Modifiers::NONE);
-    assert!(
-        matches!(desk.played[..], [PlayerEvent::NoteOn { channel: 0, key: 60, .. }]),
-        "{:?}",
-        desk.played
-    );
-    desk.wait(0.2);
-    assert!(desk.sound.iter().any(|sample| sample.abs() > 1e-3), "it is heard");
-    down(&mut desk, Key::Q, false, Modifiers::NONE);
-    assert!(matches!(desk.played[1..], [PlayerEvent::NoteOff { channel: 0, key: 60 }]));
-    desk.played.clear();
-    down(&mut desk, Key::PageDown, true, Modifiers::NONE);
-    down(&mut desk, Key::S, true, Modifiers::NONE);
-    assert!(matches!(desk.played[..], [PlayerEvent::NoteOn { key: 37, .. }]), "{:?}", desk.played);
-    // While a number is typed they are letters.
-    desk.open("Sound");
-    let number = desk.control("Type Level").expect("it has a number");
-    desk.played.clear();
-    desk.click(number);
-    desk.wait(0.05);
-    down(&mut desk, Key::W, true, Modifiers::NONE);
-    let only_off = desk.played.iter().all(|event| matches!(event, PlayerEvent::NoteOff { .. }));
-    assert!(only_off, "{:?}", desk.played);
-}
-
-#[test]
-fn keys_are_the_hosts_where_there_is_one() {
-    let mut desk = Desk::new();
-    desk.wait(0.05);
-    down(&mut desk, Key::Q, true, Modifiers::NONE);
-    assert!(desk.played.is_empty());
 }

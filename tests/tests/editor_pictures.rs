@@ -3,8 +3,9 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test -p low-action-tests --features pictures --test editor_pictures` draws them anew.
 #![cfg(feature = "pictures")]
 
-use egui::pos2;
+use egui::{Event, Key, Modifiers, pos2};
 use low_action::performance::PlayerEvent;
+use low_action::plugin::layout::{KeyMap, Keyboard};
 use low_action_tests::desk::Desk;
 use low_action_tests::pictures::{assert_looks, can_draw};
 
@@ -86,4 +87,19 @@ fn the_list_of_instruments() {
 #[test]
 fn a_panel_of_a_small_window() {
     picture("small_panel", 0.5, 1.0, |desk| desk.open("Sound"));
+}
+
+#[test]
+fn the_keys_of_the_computer() {
+    if can_draw() {
+        let mut desk = Desk::alone();
+        desk.params.layout.set_keys(Keyboard { map: KeyMap::Frets, fret: 2, ..Keyboard::default() });
+        desk.open("Player");
+        for key in [Key::W, Key::F] {
+            let (repeat, modifiers) = (false, Modifiers::NONE);
+            desk.harness.event(Event::Key { key, physical_key: None, pressed: true, repeat, modifiers });
+        }
+        desk.wait(0.1);
+        assert_looks(&mut desk, "keys");
+    }
 }

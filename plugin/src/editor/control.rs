@@ -21,7 +21,7 @@ pub use switch::switch;
 /// Height of a control, points.
 pub const HEIGHT: f32 = 32.0;
 /// Height of the row with its name, points.
-const NAME: f32 = 16.0;
+pub const NAME: f32 = 16.0;
 
 /// Sets a parameter in one gesture, 0 to 1.
 fn set<P: Param>(given: &Given, param: &P, normalized: f32) {

@@ -9,6 +9,7 @@ use super::history::History;
 use crate::display::Snapshot;
 use crate::params::LowActionParams;
 use crate::params::words::Words;
+use crate::plugin::layout::Keyboard;
 use crate::plugin::meters::Meters;
 use crate::plugin::order::{self, Order};
 use crate::pointer::Pointer;
@@ -35,6 +36,8 @@ pub struct Given<'a> {
     pub gui: &'a GuiContext,
     /// What a musician hears of each parameter.
     pub words: &'a Words,
+    /// What the computer's keys play, where there is no host that wants them for itself.
+    pub keyboard: Option<Keyboard>,
 }
 
 /// The set-up that the parameters ask for, whether it sounds already or not.

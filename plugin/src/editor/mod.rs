@@ -106,11 +106,10 @@ impl Editor {
             words: &self.words,
             history: &self.history,
             gui,
+            keyboard: (gui.plugin_api() == PluginApi::Standalone).then(|| self.params.layout.seen().keys),
         };
         follow_shortcuts(ui, &given);
-        if gui.plugin_api() == PluginApi::Standalone {
-            self.keys.follow(ui, &given);
-        }
+        self.keys.follow(ui, &given);
         let window = ui.ctx().content_rect();
         let Areas { header, strings, side, panels } = Areas::of(window, self.panels.open);
         ui.set_clip_rect(window);
@@ -124,7 +123,8 @@ impl Editor {
         place(ui, "panels", panels, |ui| self.panels.show(ui, &given));
         let panel = Tab::ALL.iter().position(|tab| *tab == self.panels.tab).unwrap_or(0);
         let (size, zoom) = (Some(window.size().into()), ui.ctx().zoom_factor());
-        self.params.layout.keep(Seen { panel, string: self.strings.watched(), size, zoom });
+        let seen = self.params.layout.seen();
+        self.params.layout.keep(Seen { panel, string: self.strings.watched(), size, zoom, ..seen });
     }
 
     /// A window opens, which is to become as it was left.

@@ -1,6 +1,7 @@
 //! All strings over the fretboard, seen from above: places along the strings to scale, their motion magnified.
 
 mod board;
+mod caps;
 mod glow;
 mod handles;
 mod motion;
@@ -12,6 +13,7 @@ use egui::{Align2, Sense, Stroke, Ui, pos2};
 
 use super::Given;
 use super::theme::{self, NEAR, TIGHT};
+use crate::plugin::layout::KeyMap;
 use glow::Glow;
 use play::Play;
 pub use sight::Sight;
@@ -48,6 +50,9 @@ impl Strings {
         motion::paint(&painter, &sight, setup, given.snapshot);
         touch::paint(&painter, &sight, given.snapshot);
         self.glow.paint_plucks(&painter, &sight);
+        if let Some(keyboard) = given.keyboard.filter(|keyboard| keyboard.map == KeyMap::Frets) {
+            caps::paint(&painter, &sight, setup, keyboard);
+        }
         paint_names(ui, &sight, setup);
         paint_scale(ui, &sight);
         let response = ui.interact(area, ui.scope_id().with("strings"), Sense::click_and_drag());

@@ -10,6 +10,31 @@ pub const SIZE: [f32; 2] = [1120.0, 760.0];
 /// Least and largest size of the window, and of everything in it, as parts of the usual one.
 pub const SIZES: [f32; 2] = [0.5, 3.0];
 
+/// What the computer's keys are, where there is no host that wants them for itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum KeyMap {
+    /// A piano.
+    #[default]
+    Piano,
+    /// Frets along strings.
+    Frets,
+}
+
+/// What the computer's keys play.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Keyboard {
+    /// What they are.
+    pub map: KeyMap,
+    /// Octaves by which the piano is moved up.
+    pub octave: i32,
+    /// The string of the upper row, counted from 0.
+    pub string: usize,
+    /// The fret of the first key of each row, 0 for the open string.
+    pub fret: usize,
+}
+
 /// What was seen.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -22,11 +47,13 @@ pub struct Seen {
     pub size: Option<[f32; 2]>,
     /// Of everything in it, 1 as usual.
     pub zoom: f32,
+    /// What the computer's keys play.
+    pub keys: Keyboard,
 }
 
 impl Default for Seen {
     fn default() -> Self {
-        Self { panel: 0, string: 0, size: None, zoom: 1.0 }
+        Self { panel: 0, string: 0, size: None, zoom: 1.0, keys: Keyboard::default() }
     }
 }
 
@@ -56,6 +83,11 @@ impl Layout {
     /// Keeps what is seen now.
     pub fn keep(&self, seen: Seen) {
         *self.lock() = seen.admitted();
+    }
+
+    /// Has the computer's keys play something else.
+    pub fn set_keys(&self, keys: Keyboard) {
+        self.keep(Seen { keys, ..self.seen() });
     }
 
     /// There is nothing in it that a panicking thread could have left half-done.

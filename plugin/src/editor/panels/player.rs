@@ -1,12 +1,13 @@
 //! How the hands act: where and how hard they pluck, how firmly fingers press, how notes are taken.
 
-use egui::Ui;
+use egui::{Align2, Button, Rect, RichText, Ui, pos2, vec2};
 use nice_plug::prelude::Enum;
 
 use super::cells::Cells;
-use crate::editor::Given;
-use crate::editor::control::{choice, slider, switch};
+use crate::editor::control::{NAME, choice, slider, switch};
+use crate::editor::{Given, theme};
 use crate::params::{ControlParams, InputChoice, LegatoChoice, PlayerParams, StringOrder};
+use crate::plugin::layout::{KeyMap, Keyboard};
 
 /// Draws the panel.
 pub fn show(ui: &mut Ui, given: &Given) {
@@ -50,4 +51,39 @@ pub fn show(ui: &mut Ui, given: &Given) {
     slider(ui, given, bend_range, cells.next());
     switch(ui, given, ignore_rpn, cells.next());
     slider(ui, given, keyswitches, cells.next());
+    if let Some(keyboard) = given.keyboard {
+        show_keys(ui, given, keyboard, cells.next());
+    }
+}
+
+/// What the computer's keys can be, and what is said of each.
+const MAPS: [(KeyMap, &str, &str); 2] = [
+    (
+        KeyMap::Piano,
+        "Piano",
+        "Two rows of letters are white keys, the rows above them the black ones. Page Up and Page Down: octaves.",
+    ),
+    (
+        KeyMap::Frets,
+        "Frets",
+        "Four rows are four strings, the keys along them frets. Page Up and Page Down: other strings. Ctrl with \
+         the arrows to the sides: other frets.",
+    ),
+];
+
+/// Chooses what the computer's keys are.
+fn show_keys(ui: &mut Ui, given: &Given, keyboard: Keyboard, area: Rect) {
+    let name = pos2(area.left(), area.top() + 0.5 * NAME);
+    ui.painter().text(name, Align2::LEFT_CENTER, "Computer keys", theme::SMALL, theme::SOFT_TEXT);
+    let row = area.with_min_y(area.top() + NAME);
+    let width = 0.5 * (row.width() - theme::TIGHT);
+    for (index, (map, text, explanation)) in MAPS.into_iter().enumerate() {
+        let left = row.left() + index as f32 * (width + theme::TIGHT);
+        let place = Rect::from_min_size(pos2(left, row.top()), vec2(width, row.height()));
+        let text = RichText::new(text).font(theme::SMALL);
+        let response = ui.put(place, Button::selectable(keyboard.map == map, text));
+        if response.on_hover_text(explanation).clicked() {
+            given.params.layout.set_keys(Keyboard { map, ..keyboard });
+        }
+    }
 }
