@@ -7,6 +7,7 @@ pub mod display;
 #[cfg(feature = "editor")]
 pub mod editor;
 pub mod engine;
+mod files;
 pub mod midi_file;
 pub mod params;
 pub mod performance;

@@ -8,6 +8,8 @@ use anyhow::{Context, Result, ensure};
 use etcetera::BaseStrategy;
 use low_action_dsp::Setup;
 
+use crate::files;
+
 /// Names of the set-ups that come with the program, the usual one first. Hosts number them in this order.
 pub const SHIPPED: [&str; Setup::BUILTIN.len() + Setup::PRESETS.len()] = {
     let mut names = [""; Setup::BUILTIN.len() + Setup::PRESETS.len()];
@@ -49,8 +51,13 @@ pub fn folder() -> Option<PathBuf> {
     if let Some(folder) = std::env::var_os(FOLDER_VARIABLE).filter(|folder| !folder.is_empty()) {
         return Some(folder.into());
     }
+    Some(data_folder()?.join("instruments"))
+}
+
+/// The folder `low-action` among the user's data; nothing if the system knows no such place.
+pub(crate) fn data_folder() -> Option<PathBuf> {
     let strategy = etcetera::base_strategy::choose_native_strategy().ok()?;
-    Some(strategy.data_dir().join("low-action").join("instruments"))
+    Some(strategy.data_dir().join("low-action"))
 }
 
 /// The set-up files in a folder, in the order of their names; none if there is no folder.
@@ -114,15 +121,7 @@ pub fn save(setup: &Setup, folder: &Path) -> Result<SetupFile> {
 
 /// Writes a set-up file.
 fn put(name: &str, text: &str, folder: &Path) -> Result<SetupFile> {
-    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let target = folder.join(name).with_extension(EXTENSION);
-    // Beside it and then renamed, so that nobody ever reads half of it.
-    let write = || -> std::io::Result<()> {
-        let mut draft = tempfile::NamedTempFile::new_in(folder)?;
-        std::io::Write::write_all(&mut draft, text.as_bytes())?;
-        draft.persist(&target)?;
-        Ok(())
-    };
-    write().with_context(|| format!("cannot write {}", target.display()))?;
-    Ok(SetupFile { name: name.to_owned(), path: target })
+    let path = folder.join(name).with_extension(EXTENSION);
+    files::put(&path, text)?;
+    Ok(SetupFile { name: name.to_owned(), path })
 }

@@ -3,6 +3,8 @@
 //! The plugin framework opens the devices and plays. Here it is told which, and what to begin with; where it would
 //! go on without any sound, this ends with an error.
 
+pub(crate) mod window;
+
 use anyhow::{Result, bail, ensure};
 use cpal::traits::{DeviceTrait, HostTrait};
 use midir::MidiInput;
@@ -28,14 +30,6 @@ const NOTHING: &str = "dummy";
 /// What stands for JACK if a server runs, and for the system's own way otherwise.
 const AUTO: &str = "auto";
 
-/// How long it plays, and what there is to hear where there is no keyboard.
-const UNTIL: &str = if cfg!(feature = "editor") { "until its window is closed" } else { "until Ctrl+C" };
-const WITHOUT_KEYBOARD: &str = if cfg!(feature = "editor") {
-    "there is no MIDI keyboard: mouse and computer keys play"
-} else {
-    "there is no MIDI keyboard: nothing will be heard"
-};
-
 /// A port that leads programs to each other and is no keyboard.
 const THROUGH: &str = "Midi Through";
 
@@ -56,11 +50,14 @@ pub struct Devices {
     pub others: Vec<String>,
 }
 
-/// Opens the instrument and plays what arrives on MIDI until it is interrupted.
+/// Opens the instrument and plays what arrives on MIDI until its window is closed or it is interrupted.
 ///
 /// # Errors
 /// When no device can be opened, or not the one that was named; the log says more.
-pub fn open(start: Start, devices: &Devices) -> Result<()> {
+pub fn open(mut start: Start, devices: &Devices) -> Result<()> {
+    let windowed = cfg!(feature = "editor") && window::prepare(&mut start);
+    let until = if windowed { "until its window is closed" } else { "until Ctrl+C" };
+    let layout = start.layout.clone();
     begin_with(start);
     let way = match devices.backend.as_deref().unwrap_or(AUTO) {
         AUTO if jack_runs() => JACK,
@@ -74,21 +71,25 @@ pub fn open(start: Start, devices: &Devices) -> Result<()> {
         arguments.push(format!("--period-size={}", devices.period));
     }
     if way == JACK {
-        say("low-action", &format!("plays what arrives at its JACK port, {UNTIL}"));
+        say("low-action", &format!("plays what arrives at its JACK port, {until}"));
     } else if way == NOTHING {
-        say("low-action", &format!("plays to nobody, {UNTIL}"));
+        say("low-action", &format!("plays to nobody, {until}"));
     } else {
         arguments.extend(devices.output.as_ref().map(|name| format!("--output-device={name}")));
         match keyboard(devices)? {
             Some(name) => {
-                say("low-action", &format!("plays what {name} sends, {UNTIL}"));
+                say("low-action", &format!("plays what {name} sends, {until}"));
                 arguments.push(format!("--midi-input={name}"));
             }
-            None => say("warning", WITHOUT_KEYBOARD),
+            None if windowed => say("warning", "there is no MIDI keyboard: mouse and computer keys play"),
+            None => say("warning", "there is no MIDI keyboard: nothing will be heard"),
         }
     }
     arguments.extend(devices.others.iter().cloned());
     if nice_export_standalone_with_args::<LowAction, _>(arguments) {
+        if windowed {
+            window::keep(&layout);
+        }
         return Ok(());
     }
     bail!("no sound can be played by {way}: `low-action --list-devices` shows what there is")

@@ -121,3 +121,21 @@ fn a_small_window_opens_its_panels_when_asked() {
     desk.open("Sound");
     assert!(desk.control("Level").is_none());
 }
+
+#[test]
+fn without_a_session_a_file_keeps_how_it_was_left() {
+    let folder = tempfile::tempdir().expect("there is room");
+    let path = folder.path().join("not made yet").join("window.json");
+    let mut desk = Desk::new();
+    assert!(desk.params.layout.load(&path).is_ok(), "the first time there is none");
+    desk.open("Sound");
+    desk.params.layout.save(&path).expect("it can be written");
+    let other = Desk::new();
+    other.params.layout.load(&path).expect("it can be read");
+    assert_eq!(other.params.layout.seen(), desk.params.layout.seen());
+    assert_eq!(other.params.layout.seen().panel, 2);
+    std::fs::write(&path, "{").expect("it can be written");
+    let told = format!("{:#}", desk.params.layout.load(&path).expect_err("it is damaged"));
+    assert!(told.contains("window.json") && !told.contains('\n'), "{told}");
+    assert_eq!(other.params.layout.seen(), desk.params.layout.seen(), "and nothing is changed by it");
+}

@@ -8,7 +8,7 @@ use nice_plug_egui::{EguiEditor, EguiEditorState, EguiNiceSettings, RepaintNotif
 
 use super::Editor;
 use crate::display::Reader;
-use crate::params::LowActionParams;
+use crate::params::{LowActionParams, start};
 pub use crate::plugin::layout::SIZE;
 use crate::plugin::layout::SIZES;
 use crate::plugin::meters::Meters;
@@ -21,7 +21,7 @@ pub type Window = EguiEditor<Editor>;
 pub struct Link {
     state: Arc<EguiEditorState>,
     repaint: RepaintNotifier,
-    /// Until the framework has asked for it.
+    /// Until the framework has asked for it; none where there can be no window.
     editor: Option<Editor>,
 }
 
@@ -31,7 +31,7 @@ impl Link {
         Self {
             state: EguiEditorState::from_size(LogicalSize::new(SIZE[0], SIZE[1]), 1.0),
             repaint: RepaintNotifier::new(),
-            editor: Some(Editor::new(params, meters, reader, pointer)),
+            editor: (!start().windowless).then(|| Editor::new(params, meters, reader, pointer)),
         }
     }
 
@@ -45,7 +45,7 @@ impl Link {
         self.repaint.request_repaint();
     }
 
-    /// The window, the first time it is asked for.
+    /// The window, the first time it is asked for, if there can be one.
     pub fn window(&mut self) -> Option<Window> {
         let size = |part: f32| Some(LogicalSize::new(part * SIZE[0], part * SIZE[1]));
         let hint = ResizeHint {

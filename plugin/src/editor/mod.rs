@@ -161,6 +161,10 @@ impl NiceEguiApp for Editor {
         _frame: &mut nice_plug_egui::Frame,
     ) -> Result<(), nice_plug_egui::baseview::HandlerError> {
         Self::dress(&context);
+        #[cfg(all(feature = "standalone", unix))]
+        if gui.plugin_api() == PluginApi::Standalone {
+            crate::standalone::window::close_on_signals(context);
+        }
         self.gui = Some(gui);
         self.open();
         Ok(())

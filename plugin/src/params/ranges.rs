@@ -10,7 +10,6 @@ use super::{
     QualityChoice, RenderChoice, SetupParams, StringOrder, StringParams,
 };
 use crate::engine::EngineOptions;
-use crate::plugin::layout::Layout;
 use crate::plugin::shelf::{MOST_FILES, Shelf};
 use crate::plugin::state::Marked;
 
@@ -35,7 +34,7 @@ impl LowActionParams {
     pub(crate) fn new(shelf: Shelf, start: &Start) -> Self {
         Self {
             mark: Marked,
-            layout: Layout::default(),
+            layout: start.layout.clone(),
             instrument: InstrumentParams::new(&shelf, start),
             shelf,
             setup: SetupParams::default(),

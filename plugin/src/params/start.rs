@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use super::InstrumentChoice;
 use crate::engine::Quality;
+use crate::plugin::layout::Layout;
 
 /// What to begin with.
 #[derive(Debug, Clone, Default)]
@@ -14,6 +15,10 @@ pub struct Start {
     pub file: Option<(String, String)>,
     /// How much computing.
     pub quality: Quality,
+    /// Whether there is no display to open a window on.
+    pub windowless: bool,
+    /// How the window was left; all that are made share it.
+    pub layout: Layout,
 }
 
 static START: OnceLock<Start> = OnceLock::new();
@@ -24,6 +29,6 @@ pub fn begin_with(start: Start) {
 }
 
 /// What to begin with: what is usual, unless something else was said.
-pub(super) fn start() -> Start {
+pub(crate) fn start() -> Start {
     START.get().cloned().unwrap_or_default()
 }

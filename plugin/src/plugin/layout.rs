@@ -1,9 +1,15 @@
-//! How the editor was left: its size, what was seen in it. A session keeps it, and nothing of the sound depends on it.
+//! How the editor was left: its size, what was seen in it. A session keeps it, or a file where there is none, and
+//! nothing of the sound depends on it.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::fs;
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use anyhow::{Context, Result};
 use nice_plug::params::persist::PersistentField;
 use serde::{Deserialize, Serialize};
+
+use crate::files;
 
 /// Usual size of the window, in points.
 pub const SIZE: [f32; 2] = [1120.0, 760.0];
@@ -70,9 +76,9 @@ impl Seen {
     }
 }
 
-/// Keeps it; the audio thread never looks.
-#[derive(Debug, Default)]
-pub struct Layout(Mutex<Seen>);
+/// Keeps it, for all that share it; the audio thread never looks.
+#[derive(Debug, Clone, Default)]
+pub struct Layout(Arc<Mutex<Seen>>);
 
 impl Layout {
     /// What was seen last.
@@ -88,6 +94,28 @@ impl Layout {
     /// Has the computer's keys play something else.
     pub fn set_keys(&self, keys: Keyboard) {
         self.keep(Seen { keys, ..self.seen() });
+    }
+
+    /// Becomes what [`save`](Self::save) has written; stays as it is where there is no such file.
+    ///
+    /// # Errors
+    /// When the file cannot be read.
+    pub fn load(&self, path: &Path) -> Result<()> {
+        let describe = || format!("cannot read how the window was left in {}", path.display());
+        if path.exists() {
+            let text = fs::read_to_string(path).with_context(describe)?;
+            self.keep(serde_json::from_str(&text).with_context(describe)?);
+        }
+        Ok(())
+    }
+
+    /// Writes it, for the next time, in a folder that is made if need be.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn save(&self, path: &Path) -> Result<()> {
+        let text = serde_json::to_string_pretty(&self.seen())?;
+        files::put(path, &text).context("cannot keep how the window was left")
     }
 
     /// There is nothing in it that a panicking thread could have left half-done.
