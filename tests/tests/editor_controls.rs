@@ -2,6 +2,9 @@
 //! without its unit and moved by the keyboard, and the host is told of one whole gesture each time.
 
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, vec2};
+use egui_kittest::kittest::Queryable;
+use low_action::engine::Quality;
+use low_action::params::words::heard_of;
 use low_action_tests::desk::{Desk, is_gesture};
 use nice_plug::prelude::Params;
 
@@ -170,4 +173,21 @@ fn choices_open_and_switches_turn() {
     desk.click(place);
     assert!(!desk.params.instrument.relax.value());
     assert!(is_gesture(&desk.host.take(), "relax"));
+}
+
+#[test]
+fn a_list_says_what_each_of_it_is() {
+    let mut desk = Desk::new();
+    let place = at(&mut desk, "Engine", "Quality");
+    let says =
+        |desk: &Desk, quality: Quality| desk.harness.query_by_label_contains(heard_of(quality)).is_some();
+    desk.point(place);
+    desk.wait(1.0);
+    assert!(says(&desk, Quality::Live) && !says(&desk, Quality::Reference), "the one that is chosen");
+    desk.click(place);
+    desk.wait(0.1);
+    let line = desk.harness.get_by_label_contains("Reference: ").rect().center();
+    desk.point(line);
+    desk.wait(1.0);
+    assert!(says(&desk, Quality::Reference), "the one under the mouse");
 }

@@ -1,6 +1,9 @@
-//! Promise: the table of parameters in docs/plugin.md is what hosts see.
+//! Promise: the table of parameters in docs/plugin.md is what hosts see, and what the editor says of qualities is what was
+//! measured in docs/trade.md.
 
+use low_action::engine::Quality;
 use low_action::params::LowActionParams;
+use low_action::params::words::heard_of;
 use nice_plug::prelude::{ParamPtr, Params};
 
 /// Name, ends of the range and default of a parameter, as hosts show them.
@@ -13,10 +16,50 @@ fn row(id: &str, param: ParamPtr, group: &str) -> String {
     format!("| `{id}` | {group} | {name} | {low} | {high} | {usual} |")
 }
 
+fn document(name: &str) -> String {
+    let path = format!("{}/../docs/{name}", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).expect("the document is there")
+}
+
+/// The numbers of the row of a table that begins so.
+fn numbers(document: &str, row: &str) -> Vec<f64> {
+    let begins = format!("| {row} |");
+    let line = document.lines().find(|line| line.starts_with(&begins));
+    let cells = line.unwrap_or_else(|| panic!("there is no row {row:?}"))[begins.len()..].split('|');
+    // A cell may have a unit after its number.
+    cells.filter_map(|cell| cell.split_whitespace().next()?.parse().ok()).collect()
+}
+
+#[test]
+fn what_is_said_of_qualities_was_measured() {
+    let trade = document("trade.md");
+    // The second number of these rows is what was found, the first what is allowed.
+    let found = |row: &str| numbers(&trade, row)[1];
+    let said = |quality: Quality, words: &str| assert!(heard_of(quality).contains(words), "{words}");
+    said(Quality::Draft, "Three quarters of the work");
+    assert!((0.7..0.8).contains(&found("`live`: price over that of `draft`").recip()));
+    said(Quality::Draft, "two or three times as long");
+    let buzz = numbers(&trade[trade.find("Buzz, and the spacing of the grid").expect("a table")..], "E4, %");
+    assert!((200.0..350.0).contains(&buzz[0]));
+    said(Quality::Live, "within a cent");
+    assert!(found("`live`: partials of every open string, up to 4 kHz, cents") < 1.0);
+    assert!(found("`live`: pitch of stopped strings, cents") < 1.0);
+    said(Quality::Live, "within a half at worst");
+    assert!(found("`live`: buzz, %") < 50.0);
+    said(Quality::Studio, "Three times the work");
+    assert!((2.7..3.4).contains(&found("`studio`: price over that of `live`")));
+    said(Quality::Studio, "within a quarter");
+    assert!(found("`studio`: buzz, %") < 25.0);
+    said(Quality::Reference, "Nine times the work");
+    assert!((8.3..9.7).contains(&found("`reference`: price over that of `live`")));
+    said(Quality::Reference, "more than there is time for");
+    let chord = &trade[trade.find("Six strings fretted and ringing").expect("a table")..];
+    assert!(numbers(chord, "`reference`, 48 kHz")[0] < 1.0);
+}
+
 #[test]
 fn the_table_of_parameters_is_what_hosts_see() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/plugin.md");
-    let document = std::fs::read_to_string(path).expect("the document is there");
+    let document = document("plugin.md");
     let params = LowActionParams::default();
     let rows: Vec<String> =
         params.param_map().into_iter().map(|(id, param, group)| row(&id, param, &group)).collect();

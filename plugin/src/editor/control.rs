@@ -84,6 +84,11 @@ fn explain<P: Param>(given: &Given, param: &P, response: Response) -> Response {
         ui.set_max_width(280.0);
         ui.label(format!("{}: {}", param.name(), shown(param)));
         ui.colored_label(theme::SOFT_TEXT, given.words.heard(param));
+        let steps = param.step_count().unwrap_or_default() as f32;
+        let index = (param.unmodulated_normalized_value() * steps).round() as usize;
+        if let Some(heard) = given.words.heard_of(param, index) {
+            ui.colored_label(theme::SOFT_TEXT, heard);
+        }
     })
 }
 

@@ -6,6 +6,7 @@ use nice_plug::params::internals::ParamPtr;
 use nice_plug::prelude::{Param, Params};
 
 use super::LowActionParams;
+use crate::engine::Quality;
 
 /// What is heard of a parameter, by its [identifier](LowActionParams). All strings' tunings share one.
 const HEARD: [(&str, &str); 37] = [
@@ -69,20 +70,66 @@ pub fn heard(id: &str) -> Option<&'static str> {
     HEARD.iter().find(|(known, _)| *known == id).map(|(_, heard)| *heard)
 }
 
+/// What a musician hears of a quality, and what it costs: `docs/trade.md` in a few words, for a host's rate of 48 kHz.
+pub fn heard_of(quality: Quality) -> &'static str {
+    match quality {
+        Quality::Draft => {
+            "Three quarters of the work of Live, for many tracks at once. Open strings and clean notes on low frets \
+             are as good. Thin strings plucked hard rattle two or three times as long as they should; above fret 12 \
+             they ring too short and some cents off."
+        }
+        Quality::Live => {
+            "To play with. Every open string and every stopped note is within a cent. Buzz is about as hard and as \
+             long as it should be: within a half at worst, usually within a quarter."
+        }
+        Quality::Studio => {
+            "Three times the work of Live, for the bounce. Buzz is within a quarter, the highest frets are within a \
+             cent."
+        }
+        Quality::Reference => {
+            "Nine times the work of Live: more than there is time for when six strings ring. There to compare with; \
+             one cannot hear what it adds."
+        }
+    }
+}
+
+/// The same for each value of a parameter that chooses a quality, in order; none for other parameters.
+fn of_each(id: &str) -> Vec<&'static str> {
+    let qualities = Quality::ALL.map(heard_of);
+    match id {
+        "quality" => qualities.to_vec(),
+        "render_quality" => [
+            &["What is heard while playing, bit for bit."],
+            &qualities[..],
+            &["Studio, or Quality if that is more."],
+        ]
+        .concat(),
+        _ => Vec::new(),
+    }
+}
+
 /// Tells of the parameters of one plugin.
 #[derive(Debug)]
-pub struct Words(HashMap<ParamPtr, &'static str>);
+pub struct Words(HashMap<ParamPtr, (&'static str, Vec<&'static str>)>);
 
 impl Words {
     /// Of these parameters.
     pub fn of(params: &LowActionParams) -> Self {
-        let told = params.param_map().into_iter().filter_map(|(id, param, _)| Some((param, heard(&id)?)));
+        let told = params
+            .param_map()
+            .into_iter()
+            .filter_map(|(id, param, _)| Some((param, (heard(&id)?, of_each(&id)))));
         Self(told.collect())
     }
 
     /// What a musician hears of a parameter.
     pub fn heard(&self, param: &impl Param) -> &'static str {
-        self.0.get(&param.as_ptr()).copied().unwrap_or_default()
+        self.0.get(&param.as_ptr()).map_or("", |(heard, _)| heard)
+    }
+
+    /// What a musician hears of the value of a parameter, counted from 0, where that is told of each.
+    pub fn heard_of(&self, param: &impl Param, index: usize) -> Option<&'static str> {
+        self.0.get(&param.as_ptr())?.1.get(index).copied()
     }
 }
 

@@ -31,7 +31,13 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
                 let value = index as f32 / steps;
                 let text = param.normalized_value_to_string(value, true);
                 let is_chosen = (value - chosen).abs() < 0.5 / steps;
-                let line = ui.add(Button::selectable(is_chosen, text).min_size(vec2(area.width(), 0.0)));
+                let mut line = ui.add(Button::selectable(is_chosen, text).min_size(vec2(area.width(), 0.0)));
+                if let Some(heard) = given.words.heard_of(param, index) {
+                    line = line.on_hover_ui(|ui| {
+                        ui.set_max_width(280.0);
+                        ui.label(heard);
+                    });
+                }
                 if line.clicked() {
                     set(given, param, value);
                     ui.close();
