@@ -18,8 +18,12 @@ pub use snapshot::{FingerSeen, FretSeen, POINTS, PluckSeen, Snapshot, StringSeen
 /// Snapshots a second at most: as many as a screen shows.
 pub const RATE: f64 = 60.0;
 
-/// Snapshots a second of strings at rest, which look the same in all of them.
-const RESTING_RATE: f64 = 4.0;
+/// Snapshots a second of strings that are still, which look the same in all of them.
+const STILL_RATE: f64 = 4.0;
+
+/// Level of the sound, 1 is full scale, below which strings are still: what moves them is seen no more, and the meter shows
+/// nothing.
+const STILL: f64 = 1e-4;
 
 /// Snapshots on their way at once: one being filled, one waiting and one on its way back.
 const UNDER_WAY: usize = 3;
@@ -50,8 +54,8 @@ pub struct Writer {
     /// Samples since the last snapshot.
     waited: f64,
     written: u64,
-    /// Whether all strings were at rest in the last snapshot.
-    at_rest: bool,
+    /// Whether all strings were still in the last snapshot.
+    still: bool,
 }
 
 /// The side of the editor.
@@ -68,13 +72,8 @@ pub fn display() -> (Writer, Reader) {
         // There is room for exactly so many.
         queues.seen.push(Box::default()).ok();
     }
-    let writer = Writer {
-        queues: queues.clone(),
-        looked_at: false,
-        waited: f64::INFINITY,
-        written: 0,
-        at_rest: false,
-    };
+    let writer =
+        Writer { queues: queues.clone(), looked_at: false, waited: f64::INFINITY, written: 0, still: false };
     (writer, Reader { queues, latest: Box::default() })
 }
 
@@ -92,8 +91,8 @@ impl Writer {
     /// did.
     pub fn write(&mut self, engine: &mut Engine, samples: usize, health: Health) -> bool {
         self.waited += samples as f64;
-        let at_rest = engine.is_silent();
-        let rate = if at_rest && self.at_rest { RESTING_RATE } else { RATE };
+        let still = engine.level() < STILL;
+        let rate = if still && self.still { STILL_RATE } else { RATE };
         if !self.looked_at || self.waited * rate < engine.instrument().sample_rate() {
             return false;
         }
@@ -102,7 +101,7 @@ impl Writer {
             return false;
         };
         self.written += 1;
-        (self.waited, self.at_rest) = (0.0, at_rest);
+        (self.waited, self.still) = (0.0, still);
         snapshot.fill(engine, self.written, health);
         engine.observe_anew();
         if let Err(snapshot) = self.queues.filled.push(snapshot) {

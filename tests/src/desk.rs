@@ -5,10 +5,11 @@ mod recorder;
 
 use std::sync::Arc;
 
-use egui::{Event, Modifiers, PointerButton, Pos2, pos2, vec2};
+use egui::{Event, LayerId, Modifiers, PointerButton, Pos2, Ui, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use low_action::display::{Health, Writer, display};
+use low_action::editor::theme::GROUND;
 use low_action::editor::{Editor, SIZE, Sight};
 use low_action::engine::{Engine, EngineOptions};
 use low_action::params::LowActionParams;
@@ -44,6 +45,13 @@ pub struct Desk {
     pub sound: Vec<f32>,
     queue: Played,
     writer: Writer,
+}
+
+/// Shows the editor on the ground that its window has.
+fn show(ui: &mut Ui, editor: &mut Editor, gui: &GuiContext) {
+    let ground = ui.ctx().layer_painter(LayerId::background());
+    ground.rect_filled(ui.ctx().content_rect(), 0.0, GROUND);
+    editor.show(ui, gui);
 }
 
 impl Default for Desk {
@@ -87,7 +95,7 @@ impl Desk {
         let harness = builder
             .with_step_dt(1.0 / PICTURES as f32)
             .with_context_setup(Editor::dress)
-            .build_ui_state(move |ui, editor: &mut Editor| editor.show(ui, &gui), editor);
+            .build_ui_state(move |ui, editor: &mut Editor| show(ui, editor, &gui), editor);
         let (played, sound) = (Vec::new(), Vec::new());
         Self { harness, host, params, meters, engine, played, sound, queue, writer }
     }

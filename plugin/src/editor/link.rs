@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use nice_plug::editor::dpi::LogicalSize;
 use nice_plug::editor::{ResizeHint, SizeConstraints};
-use nice_plug_egui::{EguiEditor, EguiEditorState, EguiNiceSettings, RepaintNotifier, create_egui_editor};
+use nice_plug_egui::{
+    EguiEditor, EguiEditorState, EguiNiceSettings, GraphicsConfig, RepaintNotifier, create_egui_editor,
+};
 
 use super::Editor;
 use crate::display::Reader;
@@ -52,7 +54,12 @@ impl Link {
             size_constraints: SizeConstraints::logical(size(SIZES[0]), size(SIZES[1])),
             ..ResizeHint::RESIZABLE
         };
-        let settings = EguiNiceSettings::new().with_tile("Low Action").with_resize_hint(hint);
+        // Costs a fifth of the drawing by software, and no picture here is smooth enough to show it.
+        let graphics = GraphicsConfig { dithering: false, ..GraphicsConfig::default() };
+        let settings = EguiNiceSettings::new()
+            .with_tile("Low Action")
+            .with_graphics_config(graphics)
+            .with_resize_hint(hint);
         create_egui_editor(self.state.clone(), self.repaint.clone(), settings, self.editor.take()?)
     }
 }

@@ -113,7 +113,6 @@ impl Editor {
         let window = ui.ctx().content_rect();
         let Areas { header, strings, side, panels } = Areas::of(window, self.panels.open);
         ui.set_clip_rect(window);
-        ui.painter().rect_filled(window, 0.0, theme::GROUND);
         place(ui, "header", header, |ui| self.header.show(ui, &given));
         place(ui, "strings", strings, |ui| self.strings.show(ui, &given));
         let watched = self.strings.watched();
@@ -158,9 +157,12 @@ impl NiceEguiApp for Editor {
         &mut self,
         context: egui::Context,
         gui: GuiContext,
-        _frame: &mut nice_plug_egui::Frame,
+        frame: &mut nice_plug_egui::Frame,
     ) -> Result<(), nice_plug_egui::baseview::HandlerError> {
         Self::dress(&context);
+        // Cheaper than to paint it. The window takes the values as they are, whatever they are called.
+        let [red, green, blue, _] = theme::GROUND.to_normalized_gamma_f32();
+        frame.set_clear_color(egui::Rgba::from_rgb(red, green, blue));
         #[cfg(all(feature = "standalone", unix))]
         if gui.plugin_api() == PluginApi::Standalone {
             crate::standalone::window::close_on_signals(context);
