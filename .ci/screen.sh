@@ -1,0 +1,37 @@
+# For scripts that look at windows, to be sourced: a screen that nobody sees, of the size that is given, and how to look at
+# it. Needs Xvfb, xdotool and ImageMagick, and an OpenGL driver, if only one of software. What is started here or in
+# `$started` is ended with the script; pictures go to `$folder`.
+
+for tool in Xvfb xdotool import convert compare; do
+    command -v "$tool" >/dev/null || { echo "$0: $tool is missing" >&2; exit 1; }
+done
+mkdir -p "$folder"
+scratch="$(mktemp -d)"
+started=
+trap 'kill $started 2>/dev/null || true; rm -rf "$scratch"' EXIT
+
+Xvfb -displayfd 3 -screen 0 "${1}x24" -nolisten tcp 3>"$scratch/display" 2>"$folder/xvfb.log" &
+started=$!
+for _ in $(seq 100); do [ -s "$scratch/display" ] && break; sleep 0.1; done
+DISPLAY=":$(cat "$scratch/display")"
+# What programs keep of their windows is not to go among the user's own data.
+XDG_DATA_HOME="$scratch"
+export DISPLAY XDG_DATA_HOME LIBGL_ALWAYS_SOFTWARE=1
+
+# Of the meter, below full scale and at it, and of the strings, as the theme has them.
+sound='#7fb28a' clipped='#e86a4f' strings='#e6e4de'
+
+fail() { echo "$0: $*" >&2; exit 1; }
+# The window of that title, for which it waits half a minute while a process lives; nothing if none comes.
+find_window() {
+    for _ in $(seq 150); do
+        xdotool search --name "^$1\$" 2>/dev/null | head -n 1 | grep . && return
+        kill -0 "$2" 2>/dev/null || break
+        sleep 0.2
+    done
+    true
+}
+capture() { import -window "$window" "$folder/$1.png"; }
+# How many pixels of a picture have a colour.
+count() { convert "$folder/$1.png" -fuzz 4% -fill black +opaque "$2" -fill white -opaque "$2" -format '%[fx:int(mean*w*h)]' info:; }
+size() { xdotool getwindowgeometry --shell "$window" | grep -E 'WIDTH|HEIGHT' | tr '\n' ' '; }
