@@ -61,7 +61,7 @@ impl Default for Desk {
 }
 
 impl Desk {
-    /// The electric guitar at the usual size, one pixel a point.
+    /// The electric guitar at the usual size, one pixel a point, seen for the first time.
     pub fn new() -> Self {
         Self::sized(1.0, 1.0)
     }
@@ -97,7 +97,9 @@ impl Desk {
             .with_context_setup(Editor::dress)
             .build_ui_state(move |ui, editor: &mut Editor| show(ui, editor, &gui), editor);
         let (played, sound) = (Vec::new(), Vec::new());
-        Self { harness, host, params, meters, engine, played, sound, queue, writer }
+        let mut desk = Self { harness, host, params, meters, engine, played, sound, queue, writer };
+        desk.picture();
+        desk
     }
 
     /// Time passes, picture by picture.

@@ -21,6 +21,14 @@ fn write(desk: &mut Desk, text: &str) {
     desk.wait(0.05);
 }
 
+/// Clicks on the number of the level and writes over it.
+fn write_level(desk: &mut Desk, text: &str) {
+    let number = at(desk, "Sound", "Type Level");
+    desk.click(number);
+    desk.wait(0.05);
+    write(desk, text);
+}
+
 #[test]
 fn every_parameter_has_its_place() {
     let mut desk = Desk::new();
@@ -103,10 +111,7 @@ fn the_wheel_moves_by_steps() {
 fn numbers_are_typed_with_or_without_unit() {
     let mut desk = Desk::new();
     for (text, decibels) in [("-6", -6.0), ("-12 dB", -12.0)] {
-        let typed = at(&mut desk, "Sound", "Type Level");
-        desk.click(typed);
-        desk.wait(0.05);
-        write(&mut desk, text);
+        write_level(&mut desk, text);
         assert!(desk.host.take().is_empty(), "nothing is set before it is entered");
         desk.key(Key::Enter);
         assert_eq!(desk.params.output.level.value(), decibels);
@@ -118,17 +123,11 @@ fn numbers_are_typed_with_or_without_unit() {
 #[test]
 fn what_is_no_number_is_not_taken() {
     let mut desk = Desk::new();
-    let typed = at(&mut desk, "Sound", "Type Level");
-    desk.click(typed);
-    desk.wait(0.05);
-    write(&mut desk, "loud");
+    write_level(&mut desk, "loud");
     desk.key(Key::Enter);
     write(&mut desk, "and more");
     assert!(desk.host.take().is_empty());
-    let typed = at(&mut desk, "Sound", "Type Level");
-    desk.click(typed);
-    desk.wait(0.05);
-    write(&mut desk, "-6");
+    write_level(&mut desk, "-6");
     desk.key(Key::Escape);
     assert!(desk.host.take().is_empty());
     assert_eq!(desk.params.output.level.value(), 0.0);

@@ -87,15 +87,30 @@ fn shift_is_finer_and_a_double_click_brings_back() {
 }
 
 #[test]
-fn the_keyboard_moves_them_too() {
+fn arrows_move_them_where_they_point() {
     let mut desk = Desk::new();
-    desk.wait(0.1);
-    let at = desk.named("Action");
-    desk.drag(&[at], 0.0);
-    desk.host.take();
-    let before = desk.params.setup.action.unmodulated_plain_value();
-    desk.harness.key_press(Key::ArrowRight);
-    desk.wait(0.05);
-    assert!(desk.params.setup.action.value() > before);
-    assert!(is_gesture(&desk.host.take(), "action"));
+    let ways = [
+        ("Pluck position", "pluck_position", Key::ArrowRight, vec2(1.0, 0.0)),
+        ("Pickup position", "pickup_position", Key::ArrowLeft, vec2(-1.0, 0.0)),
+        ("Action", "action", Key::ArrowDown, vec2(0.0, 1.0)),
+        ("Relief", "relief", Key::ArrowUp, vec2(0.0, -1.0)),
+    ];
+    for (name, id, key, way) in ways {
+        desk.wait(0.1);
+        let before = desk.named(name);
+        desk.click(before);
+        desk.host.take();
+        for _ in 0..3 {
+            desk.key(key);
+        }
+        let told = desk.host.take();
+        assert!(told.chunks(3).count() == 3 && told.chunks(3).all(|told| is_gesture(told, id)), "{told:?}");
+        desk.wait(0.1);
+        let moved = desk.named(name) - before;
+        assert!(moved.dot(way) > 0.0, "{name} went {moved:?}");
+    }
+    let action = desk.named("Action");
+    desk.click(action);
+    desk.key(Key::Delete);
+    assert_eq!(desk.params.setup.action.value(), 1.0);
 }

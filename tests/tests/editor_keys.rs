@@ -69,7 +69,6 @@ fn stopped(desk: &mut Desk) -> Option<(u8, usize)> {
 #[test]
 fn they_are_a_piano() {
     let mut desk = Desk::alone();
-    desk.wait(0.05);
     down(&mut desk, Key::Q, true, Modifiers::NONE);
     assert!(
         matches!(desk.played[..], [PlayerEvent::NoteOn { channel: 0, key: 60, .. }]),

@@ -9,7 +9,6 @@ const LATE: &str = "Over budget: contacts are solved less exactly";
 #[test]
 fn too_little_time() {
     let mut desk = Desk::new();
-    desk.picture();
     assert!(desk.harness.query_by_label(LATE).is_none());
     desk.meters.see_load(0.95, true);
     desk.picture();

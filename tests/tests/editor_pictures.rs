@@ -47,33 +47,21 @@ fn a_small_window() {
     picture("small", 0.5, 1.0, chord);
 }
 
-/// A panel while a chord rings, with so many pixels a point.
-fn panel(tab: &str, name: &str, pixels: f32) {
-    picture(name, 1.0, pixels, |desk| {
-        desk.open(tab);
-        desk.point(pos2(800.0, 24.0));
-        chord(desk);
-    });
-}
-
 #[test]
-fn the_luthier() {
-    panel("Luthier", "luthier", 1.0);
-}
-
-#[test]
-fn the_sound() {
-    panel("Sound", "sound", 1.0);
-}
-
-#[test]
-fn the_engine() {
-    panel("Engine", "engine", 1.0);
-}
-
-#[test]
-fn the_engine_finely() {
-    panel("Engine", "engine_fine", 2.0);
+fn the_panels() {
+    let panels = [
+        ("Luthier", "luthier", 1.0),
+        ("Sound", "sound", 1.0),
+        ("Engine", "engine", 1.0),
+        ("Engine", "engine_fine", 2.0),
+    ];
+    for (tab, name, pixels) in panels {
+        picture(name, 1.0, pixels, |desk| {
+            desk.open(tab);
+            desk.point(pos2(800.0, 24.0));
+            chord(desk);
+        });
+    }
 }
 
 #[test]

@@ -25,9 +25,7 @@ fn folder() -> &'static PathBuf {
 
 fn desk() -> Desk {
     folder();
-    let mut desk = Desk::new();
-    desk.wait(0.05);
-    desk
+    Desk::new()
 }
 
 /// Types a value into the control of a parameter.

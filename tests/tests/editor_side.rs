@@ -42,7 +42,6 @@ fn a_stopped_string_is_pressed_into_its_fret() {
 #[test]
 fn another_string_is_shown_where_the_mouse_was() {
     let mut desk = Desk::new();
-    desk.wait(0.1);
     for (string, name) in [(2, "G3"), (5, "E2")] {
         let at = desk.at(0.5, string as f32);
         desk.point(at);

@@ -4,6 +4,7 @@ use nice_plug::params::internals::ParamPtr;
 use nice_plug::prelude::Params;
 
 use super::Given;
+use super::history::put;
 
 /// Parameters and their values, 0 to 1.
 pub type Values = Vec<(ParamPtr, f32)>;
@@ -49,12 +50,8 @@ pub fn change(given: &Given, values: &[(ParamPtr, f32)]) {
     given.history.together(|| {
         for &(param, value) in values {
             // SAFETY: the pointers lead into the parameters, which outlive this.
-            unsafe {
-                if param.unmodulated_normalized_value() != value {
-                    host.raw_begin_set_parameter(param);
-                    host.raw_set_parameter_normalized(param, value);
-                    host.raw_end_set_parameter(param);
-                }
+            if unsafe { param.unmodulated_normalized_value() } != value {
+                put(host, param, value);
             }
         }
     });

@@ -1,20 +1,23 @@
-//! Controls of the panels: one for each kind of parameter, all with the same habits.
+//! Controls: one for each kind of parameter in the panels, and one for those in the pictures, all with the same habits.
 //!
-//! The name stands over each, the value with its unit beside it or under it. Tab reaches a control, arrows move it,
-//! Home and End bring it to its ends, Delete to its usual value. The host is told where each gesture begins and ends.
+//! In the panels the name stands over each, the value with its unit beside it or under it. Dragging moves a number, ten
+//! times as finely with Shift, and a double click brings it back to its usual value. Tab reaches a control, arrows move
+//! it, Home and End bring it to its ends, Delete to its usual value. The host is told where each gesture begins and ends.
 
 mod choice;
+mod handle;
 mod number;
 mod slider;
 mod switch;
 
 use egui::{
-    Align2, Color32, EventFilter, Key, Modifiers, Rect, Response, Stroke, StrokeKind, Ui, pos2, vec2,
+    Align2, Color32, EventFilter, Key, Modifiers, Rect, Response, Stroke, StrokeKind, Ui, Vec2, pos2, vec2,
 };
 use nice_plug::prelude::Param;
 
 use super::{Given, theme};
 pub use choice::choice;
+pub use handle::Handle;
 pub use slider::slider;
 pub use switch::switch;
 
@@ -22,6 +25,9 @@ pub use switch::switch;
 pub const HEIGHT: f32 = 32.0;
 /// Height of the row with its name, points.
 pub const NAME: f32 = 16.0;
+
+/// How much finer a drag is with Shift.
+const FINE: f32 = 0.1;
 
 /// Sets a parameter in one gesture, 0 to 1.
 fn set<P: Param>(given: &Given, param: &P, normalized: f32) {
@@ -45,8 +51,44 @@ fn step<P: Param>(given: &Given, param: &P, steps: i32, fine: bool) {
     }
 }
 
+/// Has a parameter follow the mouse while it is dragged. `value` is the present one and how much it grows for a point to
+/// the right and for a point down, in any unit; `normalized` makes it what the host is told, 0 to 1.
+fn drag<P: Param>(
+    ui: &Ui,
+    given: &Given,
+    param: &P,
+    response: &Response,
+    (value, growth): (f32, Vec2),
+    normalized: impl FnOnce(f32) -> f32,
+) {
+    let (id, setter) = (response.id, &given.setter);
+    let growth = if ui.input(|input| input.modifiers.shift) { FINE * growth } else { growth };
+    if response.drag_started() {
+        setter.begin_set_parameter(param);
+        // What it moved until it was known to be a drag counts too.
+        let before = response.total_drag_delta().unwrap_or_default() - response.drag_delta();
+        ui.data_mut(|data| data.insert_temp(id, value + growth.dot(before)));
+    }
+    if response.dragged() {
+        let held = ui.data(|data| data.get_temp(id)).unwrap_or(value) + growth.dot(response.drag_delta());
+        // Beyond the end the mouse has to come back before anything moves again.
+        ui.data_mut(|data| data.insert_temp(id, held));
+        setter.set_parameter_normalized(param, normalized(held));
+    }
+    if response.drag_stopped() {
+        setter.end_set_parameter(param);
+    }
+}
+
+/// Which way arrows move a value: up by those to the right and upwards, or the other way.
+#[derive(Debug, Clone, Copy, Default)]
+struct Arrows {
+    right_is_less: bool,
+    up_is_less: bool,
+}
+
 /// Takes what the keyboard does to a control that has the focus.
-fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response) {
+fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response, arrows: Arrows) {
     if response.clicked() {
         response.request_focus();
     }
@@ -61,8 +103,10 @@ fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response)
             input.count_and_consume_key(Modifiers::NONE, key)
                 + input.count_and_consume_key(Modifiers::SHIFT, key)
         };
-        let up = pressed(Key::ArrowRight) + pressed(Key::ArrowUp);
-        let down = pressed(Key::ArrowLeft) + pressed(Key::ArrowDown);
+        let right = pressed(Key::ArrowRight) as i32 - pressed(Key::ArrowLeft) as i32;
+        let up = pressed(Key::ArrowUp) as i32 - pressed(Key::ArrowDown) as i32;
+        let steps =
+            if arrows.right_is_less { -right } else { right } + if arrows.up_is_less { -up } else { up };
         let ends = [
             (Key::Home, 0.0),
             (Key::End, 1.0),
@@ -70,7 +114,7 @@ fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response)
             (Key::Backspace, param.default_normalized_value()),
         ];
         let end = ends.into_iter().filter(|(key, _)| pressed(*key) > 0).map(|(_, value)| value).last();
-        (up as i32 - down as i32, fine, end)
+        (steps, fine, end)
     });
     step(given, param, steps, fine);
     if let Some(end) = end {

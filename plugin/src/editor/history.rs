@@ -66,8 +66,10 @@ impl History {
     /// Takes the last entry back.
     pub fn undo(&self, gui: &GuiContext) {
         let Some(entry) = self.inside().done.pop_back() else { return };
+        // Past the history, which notes nothing of it.
+        let host = gui.param_setter().raw_context;
         for change in entry.iter().rev() {
-            put(gui, change.param, change.before);
+            put(host, change.param, change.before);
         }
         self.inside().undone.push(entry);
     }
@@ -75,8 +77,9 @@ impl History {
     /// Does again what was taken back last.
     pub fn redo(&self, gui: &GuiContext) {
         let Some(entry) = self.inside().undone.pop() else { return };
+        let host = gui.param_setter().raw_context;
         for change in &entry {
-            put(gui, change.param, change.after);
+            put(host, change.param, change.after);
         }
         self.inside().done.push_back(entry);
     }
@@ -127,13 +130,13 @@ impl Inside {
     }
 }
 
-/// Sets a parameter in one gesture that nobody notes.
-fn put(gui: &GuiContext, param: ParamPtr, value: f32) {
+/// Sets one of the plugin's parameters in one gesture, 0 to 1.
+pub fn put(host: &dyn GuiContextInner, param: ParamPtr, value: f32) {
     // SAFETY: the parameter is the plugin's, and lives as long as its history.
     unsafe {
-        gui.raw_begin_set_parameter(param);
-        gui.raw_set_parameter_normalized(param, value);
-        gui.raw_end_set_parameter(param);
+        host.raw_begin_set_parameter(param);
+        host.raw_set_parameter_normalized(param, value);
+        host.raw_end_set_parameter(param);
     }
 }
 

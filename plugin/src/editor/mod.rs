@@ -14,13 +14,13 @@
 mod compare;
 pub mod control;
 mod given;
-mod handle;
 mod header;
 mod history;
 mod keys;
 mod link;
 pub mod panels;
 mod presets;
+mod shapes;
 mod side;
 mod strings;
 pub mod theme;

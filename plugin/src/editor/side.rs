@@ -1,10 +1,11 @@
 //! One string from the side: what a luthier looks at. Heights are magnified far more than lengths.
 
-use egui::{Align2, Mesh, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
+use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 use low_action_dsp::Setup;
 
 use super::Given;
-use super::handle::Handle;
+use super::control::Handle;
+use super::shapes::band;
 use super::theme::{self, GAP, LEFT, NEAR, RIGHT, TIGHT};
 use crate::display::{POINTS, StringSeen};
 
@@ -115,36 +116,20 @@ fn paint_ground(
     [above, below]: [egui::Color32; 2],
 ) {
     const PIECES: u32 = 48;
-    let mut mesh = Mesh::default();
-    for piece in 0..=PIECES {
+    painter.add(band((0..=PIECES).map(|piece| {
         let place = from + (to - from) * f64::from(piece) / f64::from(PIECES);
         let top = profile.at(place as f32, curve(place));
-        mesh.colored_vertex(top, above);
-        mesh.colored_vertex(pos2(top.x, profile.area.bottom()), below);
-        if let Some(before) = piece.checked_sub(1) {
-            let corner = 2 * before;
-            mesh.add_triangle(corner, corner + 1, corner + 2);
-            mesh.add_triangle(corner + 1, corner + 3, corner + 2);
-        }
-    }
-    painter.add(Shape::mesh(mesh));
+        [(top, above), (pos2(top.x, profile.area.bottom()), below)]
+    })));
 }
 
 /// The string as it is, the blur of where it has been, and the fingers on it.
 fn paint_string(painter: &Painter, profile: &Profile, seen: &StringSeen) {
-    let mut mesh = Mesh::default();
-    for point in 0..POINTS {
-        let place = seen.place(point);
-        for height in [seen.highest[point], seen.lowest[point]] {
-            mesh.colored_vertex(profile.at(place, height), theme::faint(theme::PLAIN, 0.2));
-        }
-        if let Some(before) = (point as u32).checked_sub(1) {
-            let corner = 2 * before;
-            mesh.add_triangle(corner, corner + 1, corner + 2);
-            mesh.add_triangle(corner + 1, corner + 3, corner + 2);
-        }
-    }
-    painter.add(Shape::mesh(mesh));
+    let colour = theme::faint(theme::PLAIN, 0.2);
+    painter.add(band((0..POINTS).map(|point| {
+        let at = |height| (profile.at(seen.place(point), height), colour);
+        [at(seen.highest[point]), at(seen.lowest[point])]
+    })));
     let line = (0..POINTS).map(|point| profile.at(seen.place(point), seen.displacement[point]));
     painter.line(line.collect(), Stroke::new(1.5, theme::PLAIN));
     for finger in seen.fingers.iter().flatten() {

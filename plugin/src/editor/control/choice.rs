@@ -5,7 +5,7 @@ use egui::{
 };
 use nice_plug::prelude::Param;
 
-use super::{NAME, explain, follow_keys, is_taken, paint_name, set, shown};
+use super::{Arrows, NAME, explain, follow_keys, is_taken, paint_name, set, shown};
 use crate::editor::{Given, theme};
 
 /// Highest that a list is, points; what is longer scrolls.
@@ -20,7 +20,7 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
         info.current_text_value = Some(shown(param));
         info
     });
-    follow_keys(ui, given, param, &response);
+    follow_keys(ui, given, param, &response, Arrows::default());
     paint_name(ui, param, area, &response);
     paint_value(ui, &shown(param), area, &response);
     let steps = param.step_count().unwrap_or(1).max(1) as f32;

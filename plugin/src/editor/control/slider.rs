@@ -1,16 +1,13 @@
 //! A number on a line.
 //!
-//! Dragging anywhere over it moves it, ten times as finely with Shift, and the wheel by steps; a double click brings it
-//! back to its usual value. A click on the number, or Enter, types one.
+//! The wheel moves it by steps. A click on the number, or Enter, types one.
 
 use egui::{CursorIcon, Event, Id, MouseWheelUnit, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 use nice_plug::prelude::Param;
 
-use super::{NAME, explain, follow_keys, is_taken, number, paint_name, set, step, strength};
+use super::{Arrows, NAME, drag, explain, follow_keys, is_taken, number, paint_name, set, step, strength};
 use crate::editor::{Given, theme};
 
-/// How much finer a drag is with Shift.
-const FINE: f32 = 0.1;
 /// Points of a wheel without notches that are as much as a notch.
 const NOTCH: f32 = 24.0;
 
@@ -20,12 +17,15 @@ pub fn slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect) -> Re
     let mut response = ui.interact(area, id, Sense::click_and_drag());
     let value = param.unmodulated_normalized_value();
     response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(value), param.name()));
-    drag(ui, given, param, &response);
+    let growth = vec2(1.0 / area.width().max(1.0), 0.0);
+    drag(ui, given, param, &response, (value, growth), |held| {
+        param.preview_normalized(param.preview_plain(held.clamp(0.0, 1.0)))
+    });
     if response.double_clicked() {
         set(given, param, param.default_normalized_value());
     }
     step(given, param, notches(ui, id, area), ui.input(|input| input.modifiers.shift));
-    follow_keys(ui, given, param, &response);
+    follow_keys(ui, given, param, &response, Arrows::default());
     paint_name(ui, param, area, &response);
     paint_line(ui, param, area, &response);
     response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
@@ -33,30 +33,6 @@ pub fn slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect) -> Re
     let row = Rect::from_min_size(area.min, vec2(area.width(), NAME));
     number::show(ui, given, param, row, &response);
     response
-}
-
-fn drag<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response) {
-    let (id, setter) = (response.id, &given.setter);
-    let growth = 1.0 / response.rect.width().max(1.0);
-    let value = param.unmodulated_normalized_value();
-    let fine = if ui.input(|input| input.modifiers.shift) { FINE } else { 1.0 };
-    if response.drag_started() {
-        setter.begin_set_parameter(param);
-        // What it moved until it was known to be a drag counts too.
-        let before = response.total_drag_delta().unwrap_or_default() - response.drag_delta();
-        ui.data_mut(|data| data.insert_temp(id, value + fine * growth * before.x));
-    }
-    if response.dragged() {
-        let held =
-            ui.data(|data| data.get_temp(id)).unwrap_or(value) + fine * growth * response.drag_delta().x;
-        // Beyond the end the mouse has to come back before anything moves again.
-        ui.data_mut(|data| data.insert_temp(id, held));
-        let whole = param.preview_normalized(param.preview_plain(held.clamp(0.0, 1.0)));
-        setter.set_parameter_normalized(param, whole);
-    }
-    if response.drag_stopped() {
-        setter.end_set_parameter(param);
-    }
 }
 
 /// Notches that the wheel has turned over an area.

@@ -3,7 +3,7 @@
 use egui::{Align2, CursorIcon, Rect, Response, Sense, Ui, pos2, vec2};
 use nice_plug::prelude::{BoolParam, Param};
 
-use super::{NAME, explain, follow_keys, is_taken, paint_name, set, shown, strength};
+use super::{Arrows, NAME, explain, follow_keys, is_taken, paint_name, set, shown, strength};
 use crate::editor::{Given, theme};
 
 /// Shows it. A click turns it over.
@@ -15,7 +15,7 @@ pub fn switch(ui: &mut Ui, given: &Given, param: &BoolParam, area: Rect) -> Resp
     if response.clicked() {
         set(given, param, if on { 0.0 } else { 1.0 });
     }
-    follow_keys(ui, given, param, &response);
+    follow_keys(ui, given, param, &response, Arrows::default());
     paint_name(ui, param, area, &response);
     let painter = ui.painter();
     let slot = Rect::from_min_size(pos2(area.left(), area.top() + NAME + 1.0), vec2(28.0, 14.0));

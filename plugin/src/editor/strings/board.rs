@@ -1,10 +1,11 @@
 //! The fretboard and what is beyond it: what does not move.
 
-use egui::{Align2, Color32, Mesh, Painter, Rect, Shape, Stroke, pos2, vec2};
+use egui::{Align2, Color32, Painter, Rect, Stroke, pos2, vec2};
 use low_action_dsp::Setup;
 use low_action_dsp::setup::Pickup;
 
 use super::Sight;
+use crate::editor::shapes::band;
 use crate::editor::theme;
 
 /// Frets with a dot, and those with two.
@@ -78,18 +79,8 @@ fn paint_pickup(painter: &Painter, sight: &Sight, setup: &Setup) {
 
 /// Fills with one colour above that becomes another below.
 fn shade(painter: &Painter, rect: Rect, [above, below]: [Color32; 2]) {
-    let mut mesh = Mesh::default();
-    for (corner, colour) in [
-        (rect.left_top(), above),
-        (rect.right_top(), above),
-        (rect.right_bottom(), below),
-        (rect.left_bottom(), below),
-    ] {
-        mesh.colored_vertex(corner, colour);
-    }
-    mesh.add_triangle(0, 1, 2);
-    mesh.add_triangle(0, 2, 3);
-    painter.add(Shape::mesh(mesh));
+    let sides = [[rect.left_top(), rect.left_bottom()], [rect.right_top(), rect.right_bottom()]];
+    painter.add(band(sides.into_iter().map(|[top, bottom]| [(top, above), (bottom, below)])));
 }
 
 /// Faint lines along the wood, always the same.

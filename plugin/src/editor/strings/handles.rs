@@ -5,7 +5,7 @@ use low_action_dsp::Setup;
 use low_action_dsp::setup::Pickup;
 
 use super::Sight;
-use crate::editor::handle::Handle;
+use crate::editor::control::Handle;
 use crate::editor::{Given, theme};
 
 /// Size of a handle, points: enough for a finger.

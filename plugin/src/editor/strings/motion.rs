@@ -1,11 +1,12 @@
 //! The strings as they move: where each is now, and the blur of where it has been since the last picture.
 
-use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke, pos2};
+use egui::{Color32, Painter, Pos2, Stroke, pos2};
 use low_action_dsp::Setup;
 use low_action_dsp::setup::SetupString;
 
 use super::Sight;
 use crate::display::{POINTS, Snapshot, StringSeen};
+use crate::editor::shapes::band;
 use crate::editor::theme;
 
 /// Densities of what strings are made of, kg/m³: steel, and nylon where the core is soft.
@@ -57,16 +58,8 @@ fn paint_blur(painter: &Painter, sight: &Sight, seen: &StringSeen, y: f32, colou
         return;
     }
     let colour = theme::faint(colour, 0.22);
-    let mut mesh = Mesh::default();
-    for point in 0..POINTS {
+    painter.add(band((0..POINTS).map(|point| {
         let x = sight.x(seen.place(point));
-        mesh.colored_vertex(pos2(x, y - seen.highest[point] * sight.lift), colour);
-        mesh.colored_vertex(pos2(x, y - seen.lowest[point] * sight.lift), colour);
-        if let Some(before) = (point as u32).checked_sub(1) {
-            let corner = 2 * before;
-            mesh.add_triangle(corner, corner + 1, corner + 2);
-            mesh.add_triangle(corner + 1, corner + 3, corner + 2);
-        }
-    }
-    painter.add(Shape::mesh(mesh));
+        [seen.highest[point], seen.lowest[point]].map(|height| (pos2(x, y - height * sight.lift), colour))
+    })));
 }
