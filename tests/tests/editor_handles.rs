@@ -3,7 +3,6 @@
 
 use egui::{Event, Key, Modifiers, Pos2, vec2};
 use low_action_tests::desk::{Desk, Told, is_gesture};
-use nice_plug::prelude::Param;
 
 /// Drags something with a name by so much.
 fn drag(desk: &mut Desk, name: &str, way: egui::Vec2) -> Vec<Told> {
