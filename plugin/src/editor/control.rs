@@ -16,7 +16,7 @@ use egui::{
 use nice_plug::prelude::Param;
 
 use super::{Given, theme};
-pub use choice::choice;
+pub use choice::{choice, line};
 pub use handle::Handle;
 pub use slider::slider;
 pub use switch::switch;

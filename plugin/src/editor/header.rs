@@ -1,6 +1,6 @@
 //! The top of the window: what is played, what can be compared and undone, what is wrong, how loud it is.
 
-use egui::{Align, Align2, Button, Layout, Rect, Ui, UiBuilder, pos2, vec2};
+use egui::{Align, Align2, Button, Layout, Rect, Sense, Ui, UiBuilder, pos2, vec2};
 
 use super::Given;
 use super::compare::Compare;
@@ -38,8 +38,7 @@ impl Header {
     pub fn show(&mut self, ui: &mut Ui, given: &Given) {
         let area = ui.max_rect();
         let middle = area.center().y;
-        let painter = ui.painter();
-        let title = painter.text(
+        let title = ui.painter().text(
             pos2(area.left(), middle),
             Align2::LEFT_CENTER,
             "Low Action",
@@ -72,7 +71,7 @@ impl Header {
     /// Two sets of values to hear one after the other.
     fn show_compare(&mut self, ui: &mut Ui, given: &Given) {
         for (b, name) in [(false, "A"), (true, "B")] {
-            let button = Button::selectable(self.compare.is_b == b, name);
+            let button = Button::selectable(self.compare.is_b == b, name).frame_when_inactive(true);
             if ui.add(button).on_hover_text("Hear one set of values, then the other").clicked() {
                 self.compare.hear(given, b);
             }
@@ -84,7 +83,9 @@ impl Header {
     }
 
     /// Both channels, one over the other.
-    fn show_meter(&mut self, ui: &Ui, given: &Given, area: Rect) {
+    fn show_meter(&mut self, ui: &mut Ui, given: &Given, area: Rect) {
+        let response = ui.interact(area.expand(TIGHT), ui.scope_id().with("meter"), Sense::hover());
+        response.on_hover_text("Level of both channels, from 60 dB below full scale; red at full scale");
         let seconds = ui.input(|input| input.stable_dt).min(0.1);
         let painter = ui.painter();
         for (row, (level, peak)) in self.levels.iter_mut().zip(given.meters.take_peaks()).enumerate() {

@@ -7,8 +7,10 @@ use egui::{Button, Popup, ScrollArea, TextEdit, Ui, vec2};
 use low_action_dsp::Setup;
 use nice_plug::prelude::{Enum, Param};
 
+use super::Given;
 use super::compare::{Values, change};
-use super::{Given, theme};
+use super::control::line;
+use super::theme::{self, NEAR};
 use crate::params::{InstrumentChoice, LowActionParams};
 use crate::setups::{self, SHIPPED};
 
@@ -91,27 +93,32 @@ impl Presets {
 /// Everything there is, to be chosen from.
 fn list(ui: &mut Ui, given: &Given, chosen: Option<usize>) {
     let line = |ui: &mut Ui, index: usize, title: &str| {
-        let button = Button::selectable(chosen == Some(index), title).min_size(vec2(LIST, 0.0));
-        let response = ui.add(button);
+        let response = line(ui, chosen == Some(index), title, LIST);
         if response.clicked() {
             choose(given, index);
             ui.close();
         }
         response
     };
-    ui.colored_label(theme::ACCENT, "With the program");
+    let heading = |ui: &mut Ui, text: &str, colour| {
+        ui.horizontal(|ui| {
+            ui.add_space(NEAR);
+            ui.colored_label(colour, text);
+        });
+    };
+    heading(ui, "With the program", theme::ACCENT);
     for (index, title) in InstrumentChoice::variants().iter().enumerate() {
         line(ui, index, title).on_hover_ui(|ui| {
             ui.label(Setup::shipped(SHIPPED[index]).map(|setup| setup.description).unwrap_or_default());
         });
     }
-    ui.colored_label(theme::ACCENT, "Your own");
+    heading(ui, "Your own", theme::ACCENT);
     let names = given.params.shelf.names();
     for (index, name) in names.iter().enumerate() {
         line(ui, SHIPPED.len() + index, name);
     }
     if names.is_empty() {
-        ui.colored_label(theme::SOFT_TEXT, "none yet: Save makes one");
+        heading(ui, "none yet: Save makes one", theme::SOFT_TEXT);
     }
 }
 

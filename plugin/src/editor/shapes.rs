@@ -1,6 +1,21 @@
 //! Shapes that egui has no words for.
 
-use egui::{Color32, Mesh, Pos2, Shape};
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Shape};
+
+/// Paints a line of text beside or around a point, and no more of it than `width` has room for, points.
+pub fn fit_text(
+    painter: &Painter,
+    (at, anchor): (Pos2, Align2),
+    text: &str,
+    (font, colour): (FontId, Color32),
+    width: f32,
+) {
+    let mut job = LayoutJob::simple_singleline(text.into(), font, colour);
+    job.wrap = TextWrapping::truncate_at_width(width);
+    let galley = painter.layout_job(job);
+    painter.galley(anchor.anchor_size(at, galley.size()).min, galley, colour);
+}
 
 /// A band between pairs of points, each with its colour: one colour may pass over into another across it.
 pub fn band(pairs: impl Iterator<Item = [(Pos2, Color32); 2]>) -> Shape {

@@ -5,7 +5,7 @@ use low_action_dsp::Setup;
 
 use super::Given;
 use super::control::Handle;
-use super::shapes::band;
+use super::shapes::{band, fit_text};
 use super::theme::{self, GAP, LEFT, NEAR, RIGHT, TIGHT};
 use crate::display::{POINTS, StringSeen};
 
@@ -58,17 +58,12 @@ pub fn show(ui: &mut Ui, given: &Given, string: usize) {
         show_contact(response, &profile, seen);
     }
     show_handles(ui, given, &profile, setup);
-    painter.text(
-        pos2(area.left() + GAP, profile.at(0.0, 0.0).y),
-        Align2::LEFT_CENTER,
-        name,
-        theme::BODY_FONT,
-        theme::TEXT,
-    );
+    let place = (pos2(area.left() + GAP, profile.at(0.0, 0.0).y), Align2::LEFT_CENTER);
+    fit_text(&painter, place, name, (theme::BODY_FONT, theme::TEXT), LEFT - GAP);
     let text = format!("from the side, heights magnified {:.0} times", profile.lift / profile.along);
     painter.text(
-        area.right_bottom() - vec2(NEAR, NEAR),
-        Align2::RIGHT_BOTTOM,
+        area.right_top() + vec2(-NEAR, NEAR),
+        Align2::RIGHT_TOP,
         text,
         theme::SMALL,
         theme::SOFT_TEXT,

@@ -12,6 +12,7 @@ mod touch;
 use egui::{Align2, Sense, Stroke, Ui, pos2};
 
 use super::Given;
+use super::shapes::fit_text;
 use super::theme::{self, NEAR, TIGHT};
 use crate::plugin::layout::KeyMap;
 use glow::Glow;
@@ -55,7 +56,8 @@ impl Strings {
         }
         paint_names(ui, &sight, setup);
         paint_scale(ui, &sight);
-        let response = ui.interact(area, ui.scope_id().with("strings"), Sense::click_and_drag());
+        // Not to be reached by Tab: keys do nothing to the picture as a whole.
+        let response = ui.interact(area, ui.scope_id().with("strings"), Sense::CLICK | Sense::DRAG);
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Strings"));
         if let Some(at) = response.hover_pos().filter(|_| !self.play.is_busy()) {
             self.watched = sight.nearest(at.y);
@@ -74,8 +76,9 @@ fn paint_names(ui: &Ui, sight: &Sight, setup: &low_action_dsp::Setup) {
         return;
     }
     for (index, string) in setup.string.iter().enumerate() {
-        let place = pos2(sight.x(0.0) - 3.0 * TIGHT, sight.y(index));
-        ui.painter().text(place, Align2::RIGHT_CENTER, &string.name, theme::BODY_FONT, theme::SOFT_TEXT);
+        let place = (pos2(sight.x(0.0) - 3.0 * TIGHT, sight.y(index)), Align2::RIGHT_CENTER);
+        let look = (theme::BODY_FONT, theme::SOFT_TEXT);
+        fit_text(ui.painter(), place, &string.name, look, theme::LEFT - 3.0 * TIGHT);
     }
 }
 

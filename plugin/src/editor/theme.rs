@@ -1,6 +1,6 @@
 //! Colours, fonts and spacings of the editor, in one place. Everything stands on a grid of 4 points.
 
-use egui::style::WidgetVisuals;
+use egui::style::{ScrollStyle, WidgetVisuals};
 use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, TextStyle, Visuals};
 
 /// Between neighbours that belong together, points.
@@ -91,6 +91,13 @@ pub fn dress(context: &egui::Context) {
         .into();
         style.spacing.item_spacing = egui::vec2(NEAR, TIGHT);
         style.spacing.button_padding = egui::vec2(NEAR, TIGHT);
+        // Seen at all times where there is more than fits, and never bright.
+        style.spacing.scroll = ScrollStyle {
+            dormant_handle_opacity: 0.25,
+            active_handle_opacity: 0.35,
+            interact_handle_opacity: 0.6,
+            ..ScrollStyle::floating()
+        };
         style.interaction.selectable_labels = false;
         style.visuals = visuals();
     });

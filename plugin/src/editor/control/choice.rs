@@ -6,6 +6,7 @@ use egui::{
 use nice_plug::prelude::Param;
 
 use super::{Arrows, NAME, explain, follow_keys, is_taken, paint_name, set, shown};
+use crate::editor::shapes::fit_text;
 use crate::editor::{Given, theme};
 
 /// Highest that a list is, points; what is longer scrolls.
@@ -31,7 +32,7 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
                 let value = index as f32 / steps;
                 let text = param.normalized_value_to_string(value, true);
                 let is_chosen = (value - chosen).abs() < 0.5 / steps;
-                let mut line = ui.add(Button::selectable(is_chosen, text).min_size(vec2(area.width(), 0.0)));
+                let mut line = line(ui, is_chosen, &text, area.width());
                 if let Some(heard) = given.words.heard_of(param, index) {
                     line = line.on_hover_ui(|ui| {
                         ui.set_max_width(280.0);
@@ -48,17 +49,20 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
     explain(given, param, response.on_hover_cursor(CursorIcon::PointingHand))
 }
 
+/// A line of a list.
+pub fn line(ui: &mut Ui, is_chosen: bool, text: &str, width: f32) -> Response {
+    ui.spacing_mut().button_padding = vec2(theme::NEAR, 0.0);
+    ui.add(Button::selectable(is_chosen, text).min_size(vec2(width, 0.0)))
+}
+
 /// The value in a box with a mark that there are others, cut off where there is no room.
 fn paint_value(ui: &Ui, text: &str, area: Rect, response: &Response) {
     let painter = ui.painter();
     let row = Rect::from_min_max(pos2(area.left(), area.top() + NAME), area.max);
     painter.rect_filled(row, 4.0, if is_taken(response) { theme::LIFTED } else { theme::RAISED });
     let inside = row.shrink2(vec2(6.0, 0.0)).with_max_x(row.right() - 16.0);
-    let mut job = egui::text::LayoutJob::simple_singleline(text.into(), theme::SMALL, theme::TEXT);
-    job.wrap = egui::text::TextWrapping::truncate_at_width(inside.width());
-    let galley = painter.layout_job(job);
-    let place = Align2::LEFT_CENTER.anchor_size(inside.left_center(), galley.size());
-    painter.galley(place.min, galley, theme::TEXT);
+    let place = (inside.left_center(), Align2::LEFT_CENTER);
+    fit_text(painter, place, text, (theme::SMALL, theme::TEXT), inside.width());
     let middle = pos2(row.right() - 10.0, row.center().y);
     let corners = [vec2(-3.5, -2.0), vec2(3.5, -2.0), vec2(0.0, 2.5)].map(|corner| middle + corner);
     painter.add(Shape::convex_polygon(corners.to_vec(), theme::SOFT_TEXT, Stroke::NONE));

@@ -2,6 +2,7 @@
 
 use egui::{Align2, Color32, Pos2, Rect, Ui, pos2};
 
+use crate::editor::shapes::fit_text;
 use crate::editor::theme;
 
 /// Highest that a row is, points.
@@ -28,7 +29,11 @@ pub(super) fn paint(ui: &Ui, area: Rect, part: f32, number: &str, colour: Color3
     }
 }
 
+/// Room for the name of a row, left of its bars, points.
+pub(super) const LEFT: f32 = 40.0;
+
 /// The name of a row.
 pub(super) fn paint_name(ui: &Ui, at: Pos2, name: &str) {
-    ui.painter().text(at, Align2::LEFT_CENTER, name, theme::SMALL, theme::SOFT_TEXT);
+    let look = (theme::SMALL, theme::SOFT_TEXT);
+    fit_text(ui.painter(), (at, Align2::LEFT_CENTER), name, look, LEFT - theme::TIGHT);
 }

@@ -8,7 +8,7 @@ use super::bar;
 use super::cells::Cells;
 use crate::display::StringSeen;
 use crate::editor::Given;
-use crate::editor::control::{choice, slider, switch};
+use crate::editor::control::{NAME, choice, slider, switch};
 use crate::editor::theme::{self, GAP};
 use crate::params::{QualityChoice, RenderChoice};
 
@@ -72,18 +72,20 @@ impl Engine {
         }
     }
 
-    fn show_load(&self, ui: &Ui, area: Rect) {
-        let name = pos2(area.left(), area.top() + 8.0);
+    fn show_load(&self, ui: &mut Ui, area: Rect) {
+        let response = ui.interact(area, ui.scope_id().with("load"), egui::Sense::hover());
+        response.on_hover_text("How much of the time there is goes into the sound");
+        let name = pos2(area.left(), area.top() + 0.5 * NAME);
         ui.painter().text(name, Align2::LEFT_CENTER, "CPU", theme::SMALL, theme::SOFT_TEXT);
         let colour = if self.load > 0.85 { theme::ALARM } else { theme::CALM };
-        let row = area.with_min_y(area.top() + 16.0);
+        let row = area.with_min_y(area.top() + NAME);
         bar::paint(ui, row, self.load, &format!("{:.0} %", 100.0 * self.load), colour);
     }
 
     /// A row for each string, under the names of the columns.
     fn show_strings(&self, ui: &mut Ui, area: Rect, setup: &Setup) {
         let row = bar::row_height(area, setup.string.len());
-        let left = area.left() + 40.0;
+        let left = area.left() + bar::LEFT;
         let width = ((area.right() - left + GAP) / COLUMNS.len() as f32 - GAP).max(8.0);
         for (column, (name, hint)) in COLUMNS.into_iter().enumerate() {
             let from = left + column as f32 * (width + GAP);

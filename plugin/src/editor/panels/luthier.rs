@@ -1,6 +1,6 @@
 //! What a luthier changes: the instrument, action, relief, frets, pickup and the tuning of the strings.
 
-use egui::{Ui, text::LayoutJob};
+use egui::{Ui, text::LayoutJob, vec2};
 use nice_plug::prelude::Enum;
 
 use super::cells::Cells;
@@ -31,7 +31,14 @@ pub fn show(ui: &mut Ui, given: &Given) {
         slider(ui, given, param, cells.next());
     }
     cells.group(ui, "OPEN STRINGS", 2);
-    for string in &given.params.strings {
-        slider(ui, given, &string.tuning, cells.next());
+    let count = given.plan.setup().map_or(0, |setup| setup.string.len());
+    for (index, string) in given.params.strings.iter().enumerate() {
+        let place = cells.next();
+        slider(ui, given, &string.tuning, place);
+        if index >= count {
+            // This instrument has no such string.
+            let veil = place.expand2(vec2(theme::NEAR, 0.0));
+            ui.painter().rect_filled(veil, 0.0, theme::faint(theme::SURFACE, 0.7));
+        }
     }
 }

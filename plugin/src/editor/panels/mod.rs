@@ -39,6 +39,16 @@ impl Tab {
             Self::Engine => "Engine",
         }
     }
+
+    /// What is in it.
+    fn hint(self) -> &'static str {
+        match self {
+            Self::Player => "What hands do, and how notes are taken",
+            Self::Luthier => "Instrument, neck, pickup and tuning",
+            Self::Sound => "Level, pitch and losses",
+            Self::Engine => "How exactly it is computed, and what the strings do",
+        }
+    }
 }
 
 /// What the panels remember.
@@ -94,6 +104,7 @@ impl Panels {
             let place = Rect::from_min_size(pos2(left, area.top()), vec2(width, area.height()));
             left += width;
             let response = ui.interact(place, ui.scope_id().with(tab.name()), Sense::click());
+            let response = response.on_hover_text(tab.hint());
             let chosen = self.tab == tab;
             response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Tab, true, chosen, tab.name()));
             if response.clicked() {

@@ -81,7 +81,7 @@ fn show_keys(ui: &mut Ui, given: &Given, keyboard: Keyboard, area: Rect) {
         let left = row.left() + index as f32 * (width + theme::TIGHT);
         let place = Rect::from_min_size(pos2(left, row.top()), vec2(width, row.height()));
         let text = RichText::new(text).font(theme::SMALL);
-        let response = ui.put(place, Button::selectable(keyboard.map == map, text));
+        let response = ui.put(place, Button::selectable(keyboard.map == map, text).frame_when_inactive(true));
         if response.on_hover_text(explanation).clicked() {
             given.params.layout.set_keys(Keyboard { map, ..keyboard });
         }

@@ -42,21 +42,24 @@ fn ringing_time(setup: &Setup, string: usize, partial: u32) -> f64 {
 }
 
 /// A row for each string: its first and its tenth partial.
-fn show_times(ui: &Ui, area: Rect, setup: &Setup) {
+fn show_times(ui: &mut Ui, area: Rect, setup: &Setup) {
+    let response = ui.interact(area, ui.scope_id().with("times"), egui::Sense::hover());
+    response
+        .on_hover_text("The time in which an open string falls by 60 dB, its lowest partial and its tenth");
     let row = bar::row_height(area, setup.string.len());
-    let width = (0.5 * (area.width() - 40.0 - GAP)).max(8.0);
+    let width = (0.5 * (area.width() - bar::LEFT - GAP)).max(8.0);
     for (index, string) in setup.string.iter().enumerate() {
         let middle = area.top() + (index as f32 + 0.5) * row;
         bar::paint_name(ui, pos2(area.left(), middle), &string.name);
         for (column, partial) in PARTIALS.into_iter().enumerate() {
             let time = ringing_time(setup, index, partial);
-            let left = area.left() + 40.0 + column as f32 * (width + GAP);
+            let left = area.left() + bar::LEFT + column as f32 * (width + GAP);
             let place = Rect::from_min_size(pos2(left, middle - 0.5 * row), vec2(width, row));
             bar::paint(ui, place, (time / LONGEST).sqrt() as f32, &format!("{time:.1} s"), theme::CALM);
         }
     }
     for (column, partial) in PARTIALS.into_iter().enumerate() {
-        let left = area.left() + 40.0 + column as f32 * (width + GAP);
+        let left = area.left() + bar::LEFT + column as f32 * (width + GAP);
         let text = if partial == 1 { "fundamental".to_owned() } else { format!("partial {partial}") };
         let place = pos2(left + width, area.top() - theme::TIGHT);
         ui.painter().text(place, Align2::RIGHT_BOTTOM, text, theme::SMALL, theme::SOFT_TEXT);

@@ -31,7 +31,10 @@ pub(super) fn paint(painter: &Painter, sight: &Sight, setup: &Setup) {
         painter.circle_filled(pos2(x, y), 0.11 * sight.spacing, theme::faint(theme::BONE, 0.55));
     };
     for fret in 1..=frets.len() {
-        let (middle, away) = (board.center().y, 0.25 * board.height());
+        // Between strings, where that can be: on both sides of the middle ones.
+        let count = setup.string.len();
+        let away = ((count / 4).max(1) as f32 - if count % 2 == 0 { 0.0 } else { 0.5 }) * sight.spacing;
+        let middle = board.center().y;
         if DOUBLE.contains(&fret) {
             dot(between(fret), middle - away);
             dot(between(fret), middle + away);
