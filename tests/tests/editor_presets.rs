@@ -10,7 +10,7 @@ use egui_kittest::kittest::Queryable;
 use low_action::setups::FOLDER_VARIABLE;
 use low_action_dsp::Setup;
 use low_action_tests::desk::Desk;
-use nice_plug::prelude::ParamSetter;
+use nice_plug::prelude::{ParamSetter, Params};
 
 /// The folder of the user this test is.
 fn folder() -> &'static PathBuf {
@@ -81,6 +81,25 @@ fn one_is_chosen_as_its_maker_left_it() {
     desk.click(desk.named("›"));
     desk.wait(0.05);
     assert_eq!(desk.params.instrument.instrument.to_string(), "Classical");
+}
+
+#[test]
+fn nothing_of_the_last_one_is_left() {
+    let mut desk = desk();
+    let setter = ParamSetter::new(&*desk.host);
+    for (_, param, group) in desk.params.param_map() {
+        if ["Set-up", "Strings", "Player"].iter().any(|of| group.starts_with(of)) {
+            // SAFETY: the pointers lead into the parameters, which the desk keeps.
+            unsafe { setter.raw_context.raw_set_parameter_normalized(param, 0.3) };
+        }
+    }
+    desk.click(desk.named("›"));
+    desk.wait(0.1);
+    save(&mut desk, "As it comes");
+    let text = fs::read_to_string(folder().join("As it comes.toml")).expect("it was written");
+    let saved = Setup::from_toml(&text).expect("it is a set-up");
+    let classical = Setup::builtin("classical").expect("it is built in");
+    assert_eq!(saved, Setup { name: "As it comes".into(), ..classical });
 }
 
 #[test]
