@@ -45,8 +45,6 @@ pub(crate) struct Active {
     pub required: f64,
     /// Its slope, N/m.
     pub slope: f64,
-    /// The prediction under the contact before its force was spread.
-    pub saved: [f64; 4],
 }
 
 impl Active {

@@ -16,7 +16,7 @@ enum Power {
     Two,
     FiveHalves,
     Three,
-    General(f64),
+    General,
 }
 
 /// A power-law spring: Φ(η) = K/(α+1)·\[η\]₊^(α+1), straight beyond the [`knee`](ContactLaw::knee).
@@ -52,7 +52,7 @@ impl ContactLaw {
             2.0 => Power::Two,
             2.5 => Power::FiveHalves,
             3.0 => Power::Three,
-            alpha => Power::General(alpha),
+            _ => Power::General,
         };
         ContactLaw { stiffness, exponent, power, share: 1.0 / (exponent + 1.0), knee: f64::INFINITY }
     }
@@ -93,22 +93,30 @@ impl ContactLaw {
         if penetration > self.knee { self.straight(penetration).0 } else { self.power(penetration) }
     }
 
+    /// K\[η\]₊^α and K\[η\]₊^(α+1)/(α+1).
+    #[inline(always)]
+    fn curved(&self, penetration: f64) -> (f64, f64) {
+        if penetration <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let e = penetration;
+        // (What takes long, a root or a power, is multiplied by last: nothing else then waits for it.)
+        let (whole, last) = match self.power {
+            Power::One => (e, 1.0),
+            Power::ThreeHalves => (e, e.sqrt()),
+            Power::Two => (e * e, 1.0),
+            Power::FiveHalves => (e * e, e.sqrt()),
+            Power::Three => (e * e * e, 1.0),
+            Power::General => (1.0, libm::pow(e, self.exponent)),
+        };
+        let force = self.stiffness * whole;
+        (force * last, force * (e * self.share) * last)
+    }
+
     /// K\[η\]₊^α.
     #[inline(always)]
     fn power(&self, penetration: f64) -> f64 {
-        if penetration <= 0.0 {
-            return 0.0;
-        }
-        let e = penetration;
-        let power = match self.power {
-            Power::One => e,
-            Power::ThreeHalves => e * e.sqrt(),
-            Power::Two => e * e,
-            Power::FiveHalves => e * e * e.sqrt(),
-            Power::Three => e * e * e,
-            Power::General(alpha) => libm::pow(e, alpha),
-        };
-        self.stiffness * power
+        self.curved(penetration).0
     }
 
     /// φ′ at the knee and beyond, N/m.
@@ -141,7 +149,7 @@ impl ContactLaw {
         if penetration > self.knee {
             return self.straight(penetration).1;
         }
-        self.power(penetration) * penetration.max(0.0) * self.share
+        self.curved(penetration).1
     }
 
     /// The penetration at which the static force is `force`, m.
@@ -161,7 +169,7 @@ impl ContactLaw {
     #[inline(always)]
     pub fn gradient(&self, before: &Before, r: f64) -> (f64, f64) {
         let after = before.penetration + r;
-        if after <= 0.0 && before.penetration <= 0.0 {
+        if after <= NOTHING && before.penetration <= NOTHING {
             return (0.0, 0.0);
         }
         if after > self.knee || before.penetration > self.knee {
@@ -185,11 +193,11 @@ impl ContactLaw {
             let slope = force / middle * (0.5 * alpha + curved * x * (1.0 / 12.0 + (alpha - 2.0) / 48.0 * x));
             return (lambda, slope);
         }
-        let force = self.power(after);
-        let energy = force * after.max(0.0) * self.share;
-        let lambda = (energy - before.energy) / r;
-        // (A second division need not wait for the first.)
-        (lambda, ((force - lambda) * (1.0 / r)).max(0.0))
+        let (force, energy) = self.curved(after);
+        // (A division need not wait for the root.)
+        let inverse = 1.0 / r;
+        let lambda = (energy - before.energy) * inverse;
+        (lambda, ((force - lambda) * inverse).max(0.0))
     }
 
     /// The same where the change begins or ends beyond the knee.
@@ -217,6 +225,9 @@ impl ContactLaw {
         (lambda, slope)
     }
 }
+
+/// A penetration, m, that is none: for smaller ones the inverse of a change is no number.
+const NOTHING: f64 = 1e-300;
 
 /// The smallest knee, m: far below anything there is, and no power of it is 0.
 const LEAST_KNEE: f64 = 1e-50;

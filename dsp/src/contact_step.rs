@@ -1,8 +1,11 @@
 //! One step of a string that may touch something: find the contacts, solve for their forces, advance, and look
 //! whether the string was driven into others.
 
+use pulp::Simd;
+
 use crate::active::Active;
 use crate::drive::Drive;
+use crate::field::Field;
 use crate::kernel::Products;
 use crate::model::Model;
 use crate::response::ONE_BLOCK;
@@ -23,15 +26,17 @@ const CREATED_AT_MOST: f64 = 1e-12;
 
 impl State {
     /// The part of a step that follows the prediction.
-    pub(crate) fn contact_step(
+    #[inline(always)]
+    pub(crate) fn contact_step<S: Simd>(
         &mut self,
+        simd: S,
         model: &Model,
         drive: &Drive,
         products: &Products,
         resting: bool,
         scratch: &mut Scratch,
-        convergence: &mut Convergence,
-    ) {
+    ) -> Convergence {
+        let mut convergence = Convergence::default();
         if !drive.heights.is_empty() && !resting {
             self.heights_next.copy_from_slice(&drive.heights);
             draw(&model.grid, &model.contacts, &self.heights_next, &mut self.skyline);
@@ -42,11 +47,11 @@ impl State {
         self.find_fixed(model, free_pull, scratch);
         self.find_fingers(model, drive, free_pull, resting, scratch);
         let mut created = 0.0;
-        loop {
+        for attempt in 0.. {
             let mut largest = 0.0;
             scratch.tried = 0.0;
             if scratch.active.is_empty() {
-                largest = self.advance(model, free_pull, scratch);
+                largest = self.advance(simd, free_pull, scratch);
             } else {
                 in_order(&mut scratch.active);
                 // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
@@ -59,12 +64,12 @@ impl State {
                         factor,
                         &model.settings,
                         scale,
-                        convergence,
+                        &mut convergence,
                     );
                     let spread = spread(model, &mut scratch.active, &mut scratch.prediction);
                     products.curvature_change += spread.along;
                     scratch.tried += spread.sum;
-                    largest = self.advance(model, pull(model, &products), scratch);
+                    largest = self.advance(simd, pull(model, &products), scratch);
                     let rounding = f64::EPSILON * model.mobility * spread.sum * spread.sum;
                     let exact = rounding <= ROUNDING * self.energy_scale && created <= scale.credit;
                     if exact || round == REFINEMENTS {
@@ -73,19 +78,19 @@ impl State {
                     products.curvature_change = self.recentre(scratch);
                 }
             }
-            let before = scratch.active.len();
-            self.find_missed(model, largest, free_pull, scratch);
-            if scratch.active.len() == before {
+            if !self.find_missed(simd, model, largest, attempt > 0, scratch) {
                 break;
             }
             // Something was driven into a contact that was not in the solution: take the forces back
             // and solve again with it.
             convergence.repeats += 1;
-            self.take_back(before, free_pull, scratch);
+            self.predict(simd, model, drive, scratch);
+            self.begin_again(model, free_pull, scratch);
         }
         convergence.active = scratch.active.len() as u32;
         self.solver_balance = (self.solver_balance + created).max(0.0);
         self.finish(model, scratch);
+        convergence
     }
 
     /// Takes the string as it has come out for the place from which forces are solved for. Returns vᵀ(w − d) as it
@@ -98,37 +103,35 @@ impl State {
             let moved = active.sign * active.reading.of(&scratch.motion);
             active.centre = -(moved + active.rest + active.own_mobility * active.base);
         }
-        let changes = scratch.prediction.iter().zip(&self.motion).map(|(w, d)| w - d);
+        let changes = scratch.prediction.iter().zip(&*self.motion).map(|(w, d)| w - d);
         scratch.curvature.iter().zip(changes).map(|(v, change)| v * change).sum()
     }
 
-    /// Takes the forces of the first contacts off the prediction again.
+    /// Starts from no forces again, with the contacts that were missed.
     #[cold]
-    fn take_back(&self, count: usize, free_pull: f64, scratch: &mut Scratch) {
-        for active in &mut scratch.active[..count] {
-            let at = active.reading.first;
-            scratch.prediction[at..at + 4].copy_from_slice(&active.saved);
-            active.base = 0.0;
-            active.expected = active.change;
-        }
-        for index in 0..count {
+    fn begin_again(&mut self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
+        for index in 0..scratch.active.len() {
             let free = scratch.free_motion(&scratch.active[index].reading, free_pull);
             let active = &mut scratch.active[index];
+            active.base = 0.0;
+            active.expected = active.change;
             active.centre = -(active.sign * free + active.rest);
         }
+        self.add_missed(model, free_pull, scratch);
     }
 
     /// The energy against which this sample's errors are judged: of the string as a linear one, of the
     /// contacts, of the fingers.
+    #[inline(always)]
     fn energy_scale(&mut self, model: &Model, scratch: &Scratch) -> EnergyScale {
         let k = model.grid.time_step;
         let contacts: f64 = scratch.active.iter().map(|active| active.before.energy).sum();
-        let fingers: f64 = scratch
-            .fingers
-            .iter()
-            .flatten()
-            .map(|finger| 0.5 * finger.touch.mass * (finger.motion / k) * (finger.motion / k))
-            .sum();
+        let mut fingers = 0.0;
+        for (finger, before) in self.fingers.iter().zip(&scratch.fingers) {
+            if let (Some(finger), Some(before)) = (finger, before) {
+                fingers += 0.5 * finger.touch.mass * (before.motion / k) * (before.motion / k);
+            }
+        }
         let present = scratch.string_energy(model) + contacts + fingers;
         self.energy_scale = self.energy_scale.max(present);
         let credit = CREATED_AT_MOST * self.energy_scale - self.solver_balance;
@@ -136,6 +139,7 @@ impl State {
     }
 
     /// Moves fingers by their forces, and keeps heights for the next step.
+    #[inline(always)]
     fn finish(&mut self, model: &Model, scratch: &mut Scratch) {
         scratch.solver.aside.clear();
         let contacts = model.contacts.len();
@@ -175,7 +179,7 @@ struct Spread {
 
 /// Adds the forces beyond the base to a prediction.
 #[inline(always)]
-fn spread(model: &Model, rows: &mut [Active], prediction: &mut [f64]) -> Spread {
+fn spread(model: &Model, rows: &mut [Active], prediction: &mut Field) -> Spread {
     let mut done = Spread { along: 0.0, sum: 0.0 };
     for row in rows {
         let force = row.force - row.base;

@@ -5,9 +5,10 @@
 //! balance 𝔥ⁿ⁺½ − 𝔥ⁿ⁻½ + k(𝔮 − 𝔭) = 0 holds exactly in exact arithmetic, whatever the solver's cap.
 
 use crate::drive::Drive;
-use crate::grid::{LANES, NUT};
+use crate::field::{Field, LANES};
+use crate::finger::Finger;
 use crate::model::{Model, Stiffness};
-use crate::state::{Finger, State};
+use crate::state::State;
 use crate::string::Scratch;
 
 /// Stored energies at n + ½, J.
@@ -80,6 +81,31 @@ pub struct Ledger {
     /// How well the balance can be known at all, J: what a unit in the last place of every number that enters
     /// it is worth, summed over all steps.
     pub rounding: f64,
+    shapes: Shapes,
+}
+
+/// The string at the samples n and n + 1, at the nodes in order of place.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Shapes {
+    now: Vec<f64>,
+    motion_now: Vec<f64>,
+    next: Vec<f64>,
+    motion: Vec<f64>,
+}
+
+impl Shapes {
+    /// Takes uⁿ and dⁿ, and what the state holds at n + 1. Allocates the first time.
+    fn take(&mut self, model: &Model, now: &Field, motion_now: &Field, state: &State) {
+        let arrays = [
+            (&mut self.now, now),
+            (&mut self.motion_now, motion_now),
+            (&mut self.next, &state.displacement),
+            (&mut self.motion, &state.motion),
+        ];
+        for (array, field) in arrays {
+            field.unfold(model.grid.intervals, array);
+        }
+    }
 }
 
 impl Ledger {
@@ -96,6 +122,7 @@ impl Ledger {
             residual_sum: 0.0,
             worst_residual: 0.0,
             rounding: 0.0,
+            shapes: Shapes::default(),
         };
         ledger.look(model, state, tension);
         let initial = ledger.energies.total();
@@ -104,9 +131,10 @@ impl Ledger {
 
     /// Looks at what there is, without a step that would lead to it.
     fn look(&mut self, model: &Model, state: &State, tension: f64) {
-        let past: Vec<f64> = state.displacement.iter().zip(&state.motion).map(|(u, d)| u - d).collect();
+        let past = before(&state.displacement, &state.motion);
         let stiffness = model.stiffness(tension);
-        let (string, stretched) = string_energy(model, &stiffness, &past, state);
+        self.shapes.take(model, &past, &state.motion, state);
+        let (string, stretched) = string_energy(model, &stiffness, &self.shapes);
         self.board = board_energy(model, &state.heights, &state.displacement, &past, state);
         let contact = self.board + fingers_energy(&state.fingers, &state.displacement, &past);
         let finger = fingers_motion(model, &state.fingers);
@@ -124,20 +152,22 @@ impl Ledger {
         let mut entered = 0.0;
         if state.finger_changes != self.finger_changes {
             self.finger_changes = state.finger_changes;
-            let past: Vec<f64> = now.iter().zip(motion_now).map(|(u, d)| u - d).collect();
-            let before = self.energies.total();
-            self.energies.contact = self.board + fingers_energy(&scratch.fingers, now, &past);
-            self.energies.finger = fingers_motion(model, &scratch.fingers);
-            entered = self.energies.total() - before;
+            let before_that = self.energies.total();
+            let past = state.fingers.iter().zip(&scratch.fingers);
+            let past: Vec<_> = past.map(|(now, past)| Some((*now)?.back(past.as_ref()?))).collect();
+            self.energies.contact = self.board + fingers_energy(&past, now, &before(now, motion_now));
+            self.energies.finger = fingers_motion(model, &past);
+            entered = self.energies.total() - before_that;
         }
         let stiffness = *scratch.stiffness();
-        let (string, stretched) = string_energy(model, &stiffness, now, state);
+        self.shapes.take(model, now, motion_now, state);
+        let (string, stretched) = string_energy(model, &stiffness, &self.shapes);
         self.board = board_energy(model, &state.heights, &state.displacement, now, state);
         let contact = self.board + fingers_energy(&state.fingers, &state.displacement, now);
         let finger = fingers_motion(model, &state.fingers);
         let energies = Energies { string, tension: stretched, contact, finger };
 
-        let mut loss = string_loss(model, motion_now, &state.motion);
+        let mut loss = string_loss(model, &self.shapes);
         let mut input = entered / k;
         for push in &drive.pushes {
             let motion = push.reading.of(&state.motion) + push.reading.of(motion_now);
@@ -168,10 +198,10 @@ impl Ledger {
         }
         if stiffness.tension != self.tension {
             let old = model.stiffness(self.tension);
-            input += stiffness_change(model, &stiffness, &old, now, motion_now) / k;
+            input += stiffness_change(model, &stiffness, &old, &self.shapes) / k;
             self.tension = stiffness.tension;
         }
-        self.rounding += f64::EPSILON * gross(model, &stiffness, (now, motion_now), state, scratch);
+        self.rounding += f64::EPSILON * gross(model, &stiffness, &self.shapes, state, scratch);
         let residual =
             energies.total() - (self.energies.total() - entered) + k * (lost_elsewhere + taken - input);
         self.energies = energies;
@@ -201,24 +231,17 @@ impl Ledger {
 
 /// What is added and taken off in a step's balance, J, each part as large as it is however much of it cancels:
 /// a unit in the last place of this is what rounding may do to the balance.
-fn gross(
-    model: &Model,
-    stiffness: &Stiffness,
-    (now, motion_now): (&[f64], &[f64]),
-    state: &State,
-    scratch: &Scratch,
-) -> f64 {
+fn gross(model: &Model, stiffness: &Stiffness, shapes: &Shapes, state: &State, scratch: &Scratch) -> f64 {
+    let (now, next) = (&shapes.now, &shapes.next);
     let (k, h) = (model.grid.time_step, model.grid.spacing);
     let string = &model.string;
     let square = |array: &[f64]| -> f64 { array.iter().map(|d| d * d).sum() };
-    let kinetic = 0.5 * string.linear_density * h / (k * k) * (square(motion_now) + square(&state.motion));
+    let kinetic =
+        0.5 * string.linear_density * h / (k * k) * (square(&shapes.motion_now) + square(&shapes.motion));
     // A difference of neighbours is known no better than they are.
-    let size = |i: usize| now[i].abs() + state.displacement[i].abs();
-    let slope: f64 = (NUT..NUT + model.grid.intervals)
-        .map(|i| {
-            (size(i) + size(i + 1))
-                * ((now[i + 1] - now[i]).abs() + (state.displacement[i + 1] - state.displacement[i]).abs())
-        })
+    let size = |i: usize| now[i].abs() + next[i].abs();
+    let slope: f64 = (0..model.grid.intervals)
+        .map(|i| (size(i) + size(i + 1)) * ((now[i + 1] - now[i]).abs() + (next[i + 1] - next[i]).abs()))
         .sum();
     // Differences of higher order are at most four times as large each.
     let h2 = h * h;
@@ -226,7 +249,7 @@ fn gross(
         * (stiffness.tension
             + 4.0 * string.linear_density * (stiffness.kappa_2 + 4.0 * stiffness.kappa_6 / h2) / h2);
     let stretched = if string.tension_modulation {
-        let product = slopes(model, now, &state.displacement);
+        let product = slopes(now, next);
         // Where the product all but vanishes what is left of it is what the whole sum was rounded by, and its square
         // never is negative.
         let summed = slope * (1.0 + model.grid.intervals as f64 / (2 * LANES) as f64);
@@ -241,7 +264,9 @@ fn gross(
     for active in &scratch.active {
         let (before, after) = (active.before.penetration, active.before.penetration + active.change);
         let place = before.abs() + active.change.abs() + active.raised.abs();
-        let place = place + active.reading.of(&state.displacement).abs() + active.reading.of(now).abs();
+        let place = place
+            + active.reading.of(&state.displacement).abs()
+            + active.reading.of(&scratch.displacement).abs();
         contacts += (active.law.force(before) + active.law.force(after) + active.force.abs()) * place;
         // A finger's own motion without contact and its answer to the force may all but cancel.
         let answer = active.own_mobility * active.force.abs();
@@ -276,21 +301,21 @@ fn sum(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// Σ of products of neighbours' differences, (δa)ᵀδb over all intervals.
-fn slopes(model: &Model, a: &[f64], b: &[f64]) -> f64 {
-    sum((NUT..NUT + model.grid.intervals).map(|i| (a[i + 1] - a[i]) * (b[i + 1] - b[i])))
+fn slopes(a: &[f64], b: &[f64]) -> f64 {
+    sum((1..a.len()).map(|i| (a[i] - a[i - 1]) * (b[i] - b[i - 1])))
 }
 
-/// The undivided second difference at an interior index.
+/// The undivided second difference at an interior node.
 #[inline(always)]
 fn second(u: &[f64], i: usize) -> f64 {
     (u[i + 1] - u[i]) - (u[i] - u[i - 1])
 }
 
 /// Σ(δ²a)(δ²b) over the unknowns, and Σ(δ³a)(δ³b) over the intervals, δ²u vanishing at both ends.
-fn curvatures(model: &Model, a: &[f64], b: &[f64]) -> (f64, f64) {
+fn curvatures(a: &[f64], b: &[f64]) -> (f64, f64) {
     let (mut second_sum, mut third_sum) = (Sum::default(), Sum::default());
     let (mut a_before, mut b_before) = (0.0, 0.0);
-    for i in NUT + 1..NUT + model.grid.intervals {
+    for i in 1..a.len() - 1 {
         let (va, vb) = (second(a, i), second(b, i));
         second_sum.add(i, va * vb);
         third_sum.add(i, (va - a_before) * (vb - b_before));
@@ -303,24 +328,24 @@ fn curvatures(model: &Model, a: &[f64], b: &[f64]) -> (f64, f64) {
 fn stiffness_energy(model: &Model, stiffness: &Stiffness, a: &[f64], b: &[f64], slope: f64) -> f64 {
     let h = model.grid.spacing;
     let rho = model.string.linear_density;
-    let (second, third) = curvatures(model, a, b);
+    let (second, third) = curvatures(a, b);
     let h3 = h * h * h;
     0.5 * stiffness.tension / h * slope
         + 0.5 * rho * stiffness.kappa_2 / h3 * second
         + 0.5 * rho * stiffness.kappa_6 / (h3 * h * h) * third
 }
 
-/// Energies of the string and of tension modulation between uⁿ and the state's uⁿ⁺¹, J.
-fn string_energy(model: &Model, stiffness: &Stiffness, now: &[f64], state: &State) -> (f64, f64) {
+/// Energies of the string and of tension modulation between uⁿ and uⁿ⁺¹, J.
+fn string_energy(model: &Model, stiffness: &Stiffness, shapes: &Shapes) -> (f64, f64) {
     let (k, h) = (model.grid.time_step, model.grid.spacing);
     let string = &model.string;
-    let (next, motion) = (&state.displacement, &state.motion);
-    let slope = slopes(model, now, next);
+    let Shapes { now, next, motion, .. } = shapes;
+    let slope = slopes(now, next);
     let kinetic = sum(motion.iter().map(|d| d * d));
     let mut energy = 0.5 * string.linear_density * h / (k * k) * kinetic
         + stiffness_energy(model, stiffness, now, next, slope);
     if string.loss_1 > 0.0 {
-        let shear = slopes(model, motion, motion);
+        let shear = slopes(motion, motion);
         energy -= 0.5 * string.linear_density * string.loss_1 / (h * k) * shear;
     }
     let stretched = if string.tension_modulation {
@@ -331,10 +356,18 @@ fn string_energy(model: &Model, stiffness: &Stiffness, now: &[f64], state: &Stat
     (energy, stretched)
 }
 
+/// A displacement u less its motion d: that of the sample before.
+fn before(displacement: &Field, motion: &Field) -> Field {
+    let mut past = displacement.clone();
+    past.iter_mut().zip(&**motion).for_each(|(u, d)| *u -= d);
+    past
+}
+
 /// Energy that a change of stiffness puts into the string between uⁿ⁻¹ and uⁿ, J.
-fn stiffness_change(model: &Model, new: &Stiffness, old: &Stiffness, now: &[f64], motion: &[f64]) -> f64 {
-    let past: Vec<f64> = now.iter().zip(motion).map(|(u, d)| u - d).collect();
-    let slope = slopes(model, now, &past);
+fn stiffness_change(model: &Model, new: &Stiffness, old: &Stiffness, shapes: &Shapes) -> f64 {
+    let Shapes { now, motion_now, .. } = shapes;
+    let past: Vec<f64> = now.iter().zip(motion_now).map(|(u, d)| u - d).collect();
+    let slope = slopes(now, &past);
     let change = Stiffness {
         tension: new.tension - old.tension,
         kappa_2: new.kappa_2 - old.kappa_2,
@@ -344,7 +377,8 @@ fn stiffness_change(model: &Model, new: &Stiffness, old: &Stiffness, now: &[f64]
 }
 
 /// Power lost in the string, W, from its motions dⁿ and dⁿ⁺¹.
-fn string_loss(model: &Model, now: &[f64], next: &[f64]) -> f64 {
+fn string_loss(model: &Model, shapes: &Shapes) -> f64 {
+    let (now, next) = (&shapes.motion_now, &shapes.motion);
     let (k, h) = (model.grid.time_step, model.grid.spacing);
     let string = &model.string;
     let mut loss = 0.0;
@@ -353,8 +387,8 @@ fn string_loss(model: &Model, now: &[f64], next: &[f64]) -> f64 {
         loss += 2.0 * string.linear_density * string.loss_0 * h * square / (4.0 * k * k);
     }
     if string.loss_1 > 0.0 {
-        let square = sum((NUT..NUT + model.grid.intervals).map(|i| {
-            let shear = (now[i + 1] - now[i]) + (next[i + 1] - next[i]);
+        let square = sum((1..now.len()).map(|i| {
+            let shear = (now[i] - now[i - 1]) + (next[i] - next[i - 1]);
             shear * shear
         }));
         loss += 2.0 * string.linear_density * string.loss_1 * square / (4.0 * k * k * h);
@@ -363,7 +397,7 @@ fn string_loss(model: &Model, now: &[f64], next: &[f64]) -> f64 {
 }
 
 /// Σ½(Φⁿ + Φⁿ⁺¹) over board and frets, J.
-fn board_energy(model: &Model, heights: &[f64], next: &[f64], now: &[f64], state: &State) -> f64 {
+fn board_energy(model: &Model, heights: &[f64], next: &Field, now: &Field, state: &State) -> f64 {
     // Heights at n are only apart from those at n + 1 while the barrier moves.
     model
         .contacts
@@ -378,7 +412,7 @@ fn board_energy(model: &Model, heights: &[f64], next: &[f64], now: &[f64], state
 }
 
 /// Σ½(Φⁿ + Φⁿ⁺¹) over fingers' pads, J; fingers as they are at n + 1.
-fn fingers_energy(fingers: &[Option<Finger>], next: &[f64], now: &[f64]) -> f64 {
+fn fingers_energy(fingers: &[Option<Finger>], next: &Field, now: &Field) -> f64 {
     fingers
         .iter()
         .flatten()

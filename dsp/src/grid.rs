@@ -1,13 +1,7 @@
 //! The grid of one string, and how a point between grid points is read and driven.
 
 use crate::error::{Error, plain};
-
-/// Where node 0 (the nut) stands in an array over the grid, so that node 1, the first unknown, is at
-/// index 4 and there is room for the two odd ghost points beyond each end.
-pub const NUT: usize = 3;
-
-/// Lanes of the widest vector the kernels are written for; loops run over whole groups of lanes.
-pub const LANES: usize = 8;
+use crate::field::{BEFORE, Field, cell};
 
 /// A string of `intervals` equal spacings in space and a step in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,9 +27,10 @@ impl Grid {
         self.intervals - 1
     }
 
-    /// Length of a padded array over the grid: ghosts at both ends, whole groups of lanes.
-    pub fn padded_len(&self) -> usize {
-        NUT + 1 + self.unknowns().next_multiple_of(LANES) + LANES
+    /// Where the number of grid point `node`, 0 to `intervals`, stands in a [`Field`].
+    #[inline(always)]
+    pub fn cell(&self, node: usize) -> usize {
+        cell(self.intervals, BEFORE + node)
     }
 
     /// The place of grid point `node`, m from the nut.
@@ -65,12 +60,17 @@ impl Grid {
 /// to the string is exactly force times the velocity that is read. Beyond the ends the string
 /// continues oddly (u₋₁ = −u₁), which is folded into the weights; the fixed end points weigh nothing.
 /// At a grid point all but one weight vanish.
+///
+/// (Aligned so that it is copied in whole vectors: one that overlaps two others waits until they are in memory.)
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(align(32))]
 pub struct Reading {
-    /// Array index (see [`NUT`]) of the first of the four nodes.
+    /// The first of the four nodes.
     pub first: usize,
     /// hg on the four nodes.
     pub weights: [f64; 4],
+    /// Where they stand in a field.
+    cells: [u32; 4],
 }
 
 /// The largest Σ|hg| of any reading: cubic interpolation half way between nodes weighs
@@ -111,7 +111,7 @@ impl Reading {
                 weights[(node - window) as usize] += sign * weight;
             }
         }
-        Reading { first: NUT + window as usize, weights }
+        Reading::over(grid, window as usize, weights)
     }
 
     /// The reading of a grid point; the ends of the string read nothing.
@@ -122,16 +122,26 @@ impl Reading {
         if node != 0 && node != grid.intervals {
             weights[node - window] = 1.0;
         }
-        Reading { first: NUT + window, weights }
+        Reading::over(grid, window, weights)
     }
 
-    /// The place read, in nodes from the start of the array (exact away from the ends of the string).
+    fn over(grid: &Grid, first: usize, weights: [f64; 4]) -> Self {
+        Reading { first, weights, cells: [0, 1, 2, 3].map(|offset| grid.cell(first + offset) as u32) }
+    }
+
+    /// The place read, in nodes from the nut (exact away from the ends of the string).
     pub(crate) fn centre(&self) -> f64 {
         let w = &self.weights;
         self.first as f64 + (w[1] + 2.0 * w[2] + 3.0 * w[3])
     }
 
-    /// The interval of array indices whose weights matter, end not included.
+    /// Whether the other reads the same nodes alike.
+    #[inline(always)]
+    pub(crate) fn same_place(&self, other: &Reading) -> bool {
+        self.first == other.first && self.weights == other.weights
+    }
+
+    /// The interval of nodes whose weights matter, end not included.
     #[inline]
     pub(crate) fn span(&self) -> (usize, usize) {
         let weighs = |weight: &f64| *weight != 0.0;
@@ -140,32 +150,18 @@ impl Reading {
         (self.first + start, self.first + end)
     }
 
-    /// The value hgᵀv of an array over the grid.
+    /// The value hgᵀv of a field.
     #[inline(always)]
-    pub fn of(&self, v: &[f64]) -> f64 {
-        self.of_window(&self.window(v))
-    }
-
-    /// The four values that are read of an array over the grid.
-    #[inline(always)]
-    pub(crate) fn window(&self, v: &[f64]) -> [f64; 4] {
-        let v = &v[self.first..self.first + 4];
-        [v[0], v[1], v[2], v[3]]
-    }
-
-    /// The value read of them.
-    #[inline(always)]
-    pub(crate) fn of_window(&self, v: &[f64; 4]) -> f64 {
-        let w = &self.weights;
+    pub fn of(&self, v: &Field) -> f64 {
+        let (w, v) = (&self.weights, self.cells.map(|cell| v[cell as usize]));
         (w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3])
     }
 
-    /// Adds `amount` times the weights to an array over the grid.
+    /// Adds `amount` times the weights to a field.
     #[inline(always)]
-    pub fn spread(&self, v: &mut [f64], amount: f64) {
-        let v = &mut v[self.first..self.first + 4];
-        for (value, weight) in v.iter_mut().zip(self.weights) {
-            *value += weight * amount;
+    pub fn spread(&self, v: &mut Field, amount: f64) {
+        for (cell, weight) in self.cells.iter().zip(self.weights) {
+            v[*cell as usize] += weight * amount;
         }
     }
 

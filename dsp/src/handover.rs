@@ -13,8 +13,9 @@
 use std::ops::Range;
 
 use crate::energy::Ledger;
+use crate::field::Ends;
+use crate::finger::Inertia;
 use crate::gesture::FINGERS_PER_STRING;
-use crate::grid::NUT;
 use crate::hands::Hands;
 use crate::instrument::{Instrument, heard};
 use crate::model::{Contact, ContactKind, Model};
@@ -148,13 +149,15 @@ impl State {
             self.motion.fill(0.0);
             for node in 1..grid.intervals {
                 let reading = old_grid.reading(grid.place(node) / scale);
-                self.displacement[NUT + node] = reading.of(&old.displacement);
-                self.motion[NUT + node] = share * reading.of(&old.motion);
+                self.displacement[grid.cell(node)] = reading.of(&old.displacement);
+                self.motion[grid.cell(node)] = share * reading.of(&old.motion);
             }
+            self.displacement.close_ends(&Ends::new(grid));
         }
         for slot in 0..self.fingers.len() {
             self.fingers[slot] = old.fingers[slot].and_then(|mut finger| {
                 finger.law = model.finger_law(&finger.touch).ok()?;
+                finger.inertia = Inertia::new(&finger.touch, grid.time_step);
                 if same_grid {
                     return Some(finger);
                 }

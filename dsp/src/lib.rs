@@ -10,7 +10,8 @@
 //!   Both are read from TOML and refused in one line when something is impossible.
 //! - A [`Model`] holds every coefficient of one string on its grid. It never changes while it sounds.
 //! - A [`State`] holds what one sample hands to the next: displacement and motion of the string, fingers,
-//!   the contacts that are close (`skyline`). [`State::step`] takes it from sample n to n + 1.
+//!   the contacts that are close (`skyline`). [`State::step`] takes it from sample n to n + 1. Numbers over the grid lie
+//!   in a [`field::Field`], in the order in which vectors take them.
 //! - A [`Drive`] says what acts in that one step: tension, pushes, hands, moving frets.
 //! - A [`Scratch`] is room to work in, and the record of the last step for whoever listens or measures:
 //!   [`pickup`] makes a signal of it, [`Ledger`] an energy balance. Neither can change the motion.
@@ -57,7 +58,7 @@
 //! | λ(r), P | `lambda`, `lossy` | N, N/m | force that the stored energy explains; the lossy part is P r |
 //! | f | `force` | N | force of a contact, never below 0 |
 //! | M | `Response` | m/N | answer of the penetrations to the forces: r = −c − M f |
-//! | u_f, d_f | `height`, `motion` of [`state::Finger`] | m | height of a finger's pad, and its last change |
+//! | u_f, d_f | `height`, `motion` of [`finger::Finger`] | m | height of a finger's pad, and its last change |
 //! | M_f, R_f | `mass`, `hand_damping` | kg, N s/m | a finger, and the hand behind it |
 //! | f₀ | `force` of [`drive::Hand`] | N | push of the hand, towards the board |
 //! | f_e | `force` of [`drive::Push`] | N | a pluck |
@@ -71,11 +72,14 @@ mod decimate;
 pub mod drive;
 pub mod energy;
 pub mod error;
+pub mod field;
 mod filter;
+pub mod finger;
 pub mod gesture;
 pub mod grid;
 mod handover;
 mod hands;
+mod instructions;
 pub mod instrument;
 pub mod intonation;
 mod kernel;

@@ -3,6 +3,7 @@
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, OneOrEach};
 use crate::error::{Error, plain};
+use crate::finger::Inertia;
 use crate::grid::{Grid, Reading};
 use crate::scene::{FretPlacement, FretboardSpec, SolverSettings, Stencil, StringSpec};
 use crate::skyline::Blocks;
@@ -338,8 +339,7 @@ impl Model {
     /// When the pad is too stiff to be told from rounding at this rate.
     pub fn finger_law(&self, touch: &crate::gesture::Touch) -> Result<ContactLaw, Error> {
         let law = ContactLaw::new("finger", touch.stiffness, touch.exponent)?;
-        let k = self.grid.time_step;
-        let mobility = self.mobility + k * k / (touch.mass + 0.5 * touch.hand_damping * k);
+        let mobility = self.mobility + Inertia::new(touch, self.grid.time_step).mobility;
         conditioned("finger.stiffness", law, mobility)
     }
 }

@@ -59,8 +59,11 @@ impl Observed {
 
     /// Forgets what has been looked at.
     pub(crate) fn begin_anew(&mut self, state: &State) {
-        self.lowest.copy_from_slice(state.displacement());
-        self.highest.copy_from_slice(state.displacement());
+        for ((lowest, highest), now) in
+            self.lowest.iter_mut().zip(&mut self.highest).zip(state.displacement())
+        {
+            (*lowest, *highest) = (now, now);
+        }
         self.forces.fill(0.0);
         (self.steps, self.iterations, self.pluck) = (0, 0, None);
     }
@@ -92,7 +95,7 @@ impl Observed {
         if !self.looking {
             return;
         }
-        for ((lowest, highest), &now) in
+        for ((lowest, highest), now) in
             self.lowest.iter_mut().zip(&mut self.highest).zip(state.displacement())
         {
             *lowest = lowest.min(now);

@@ -1,7 +1,7 @@
 //! What is heard of a string.
 
+use crate::field::Field;
 use crate::filter::Biquad;
-use crate::grid::NUT;
 use crate::model::{Model, StringParameters};
 use crate::setup::{Pickup, Setup};
 use crate::state::State;
@@ -13,10 +13,10 @@ use crate::string::Scratch;
 pub fn bridge_force(model: &Model, scratch: &Scratch) -> f64 {
     let h = model.grid.spacing;
     // After a step the scratch holds uⁿ.
-    let u = &scratch.displacement;
-    let end = NUT + model.grid.intervals;
-    let slope = (u[end] - u[end - 1]) / h;
-    let last_curvature = ((u[end] - u[end - 1]) - (u[end - 1] - u[end - 2])) / (h * h);
+    let [end, last, before] =
+        [0, 1, 2].map(|away| scratch.displacement[model.grid.cell(model.grid.intervals - away)]);
+    let slope = (end - last) / h;
+    let last_curvature = ((end - last) - (last - before)) / (h * h);
     let stiffness = scratch.stiffness();
     // ∂ₓₓu vanishes at the bridge, so ∂ₓₓₓu there is minus the last curvature over h.
     -(stiffness.tension + stretch_tension(model, scratch)) * slope
@@ -75,11 +75,8 @@ struct Ear {
 
 #[derive(Debug, Clone)]
 enum Source {
-    /// Velocity averaged over the coil's field: weights from a grid index on, 1/s each.
-    Field {
-        first: usize,
-        weights: Vec<f64>,
-    },
+    /// Velocity averaged over the coil's field: points of the string, each with its weight, 1/s.
+    Coil(Vec<(usize, f64)>),
     Bridge,
 }
 
@@ -149,17 +146,17 @@ impl Ear {
             Pickup::Magnetic { position, aperture, resonance, quality } => {
                 let end = model.grid.length;
                 let middle = end - position;
-                let mut sum = vec![0.0; model.grid.padded_len()];
+                let mut sum = Field::new(&model.grid);
                 for (offset, weight) in FIELD {
                     let place = (middle + 0.5 * aperture * offset).clamp(1e-6 * end, (1.0 - 1e-6) * end);
                     let share = 0.5 * weight / model.grid.time_step;
                     model.grid.reading(place).spread(&mut sum, share);
                 }
-                let first = sum.iter().position(|w| *w != 0.0).unwrap_or(0);
-                let last = sum.iter().rposition(|w| *w != 0.0).unwrap_or(0);
-                let weights = sum[first..=last].to_vec();
+                let cells = (1..model.grid.intervals).map(|node| model.grid.cell(node));
+                let weights =
+                    cells.map(|cell| (cell, sum[cell])).filter(|(_, weight)| *weight != 0.0).collect();
                 let coil = Biquad::resonance(resonance, quality, sample_rate);
-                Ear { source: Source::Field { first, weights }, share, coil, block }
+                Ear { source: Source::Coil(weights), share, coil, block }
             }
         }
     }
@@ -168,10 +165,7 @@ impl Ear {
     fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch) -> f64 {
         let signal = match &self.source {
             Source::Bridge => bridge_force(model, scratch),
-            Source::Field { first, weights } => {
-                let motion = &state.motion[*first..*first + weights.len()];
-                motion.iter().zip(weights).map(|(d, w)| d * w).sum()
-            }
+            Source::Coil(weights) => weights.iter().map(|&(cell, weight)| state.motion[cell] * weight).sum(),
         };
         self.share * self.block.next(self.coil.next(signal))
     }

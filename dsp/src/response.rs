@@ -244,9 +244,9 @@ impl<const N: usize> Answer for Few<N> {
 }
 
 /// Solves (1 + D M) x = D g by elimination without pivots. None are needed: where a slope is 0 its row is done, and
-/// the others are those of the positive D⁻¹ + M, scaled, so that every pivot is at least 1. The last two unknowns are
-/// found together, which takes one division after another less. (For so few unknowns what counts is how long each
-/// operation waits for the one before.)
+/// the others are those of the positive D⁻¹ + M, scaled, so that every pivot is at least 1. Rows are multiplied by the
+/// pivot and not divided by it, and the last two unknowns are found together, so that only one division is waited
+/// for. (For so few unknowns what counts is how long each operation waits for the one before.)
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "indices are how the formulas are written")]
 fn springs_of_few<const N: usize>(entry: impl Fn(usize, usize) -> f64, slopes: &[f64], x: &mut [f64]) {
@@ -266,11 +266,10 @@ fn springs_of_few<const N: usize>(entry: impl Fn(usize, usize) -> f64, slopes: &
     for j in 0..pair {
         inverses[j] = 1.0 / a[j][j];
         for i in j + 1..N {
-            let factor = a[i][j] * inverses[j];
             for k in j + 1..N {
-                a[i][k] -= factor * a[j][k];
+                a[i][k] = a[j][j] * a[i][k] - a[i][j] * a[j][k];
             }
-            x[i] -= factor * x[j];
+            x[i] = a[j][j] * x[i] - a[i][j] * x[j];
         }
     }
     let last = pair + 1;

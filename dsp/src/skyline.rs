@@ -7,8 +7,26 @@
 
 use std::ops::Range;
 
-use crate::grid::{Grid, LANES, NUT};
+use crate::field::{BEFORE, Field, LANES, rows};
+use crate::grid::Grid;
 use crate::model::Contact;
+
+/// Neighbouring grid points that are held against the skyline as one.
+pub(crate) const CLEARED: usize = 8;
+
+/// What is known of [`CLEARED`] neighbouring points in each lane of a field.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Clearance {
+    /// How far the one nearest to the skyline is over it, m.
+    pub over: [f64; LANES],
+    /// The lowest displacement, m.
+    pub lowest: [f64; LANES],
+}
+
+/// Groups of neighbouring points in each lane of a field.
+pub(crate) fn groups(grid: &Grid) -> usize {
+    rows(grid.intervals).div_ceil(CLEARED)
+}
 
 /// How much lower than its points the string may lie between them, as a part of its largest second difference.
 pub(crate) const SAG: f64 = 0.125;
@@ -24,53 +42,70 @@ impl Blocks {
             return Blocks::default();
         }
         let nothing = Range { start: usize::MAX, end: 0 };
-        let mut blocks = vec![nothing; grid.unknowns().div_ceil(LANES)];
+        let (rows, groups) = (rows(grid.intervals), groups(grid));
+        let group = |node: usize| (BEFORE + node) / rows * groups + (BEFORE + node) % rows / CLEARED;
+        let mut ranges = vec![nothing; LANES * groups];
         for (index, contact) in contacts.iter().enumerate() {
             let beside = beside(contact, grid).0;
-            for block in &mut blocks[(beside.start - NUT - 1) / LANES..=(beside.end - NUT - 2) / LANES] {
-                *block = block.start.min(index)..index + 1;
+            for range in &mut ranges[group(beside.start)..=group(beside.end - 1)] {
+                *range = range.start.min(index)..index + 1;
             }
         }
-        Blocks(blocks)
+        Blocks(ranges)
     }
 
-    /// Looks at the contacts, each once and in order, at which a string of these displacements can lie no more than
-    /// `margin`, m, over what is beside it. `clearances` is how far each group is over the skyline.
+    /// Looks at the contacts, each once and in order, at which a string can lie no more than `margin`, m, over what is
+    /// beside it.
     #[inline(always)]
-    pub fn look(
-        &self,
-        margin: f64,
-        clearances: &[f64],
-        displacement: &[f64],
-        heights: &[f64],
-        mut found: impl FnMut(usize),
-    ) {
+    pub fn look(&self, margin: f64, clearances: &[Clearance], heights: &[f64], mut found: impl FnMut(usize)) {
+        let mut least = [f64::INFINITY; LANES];
+        for clearance in clearances {
+            for (least, over) in least.iter_mut().zip(&clearance.over) {
+                *least = if *over < *least { *over } else { *least };
+            }
+        }
         let mut next = 0;
-        for (group, (block, &clearance)) in self.0.iter().zip(clearances).enumerate() {
-            if clearance > margin || block.end <= next {
+        for (lane, ranges) in self.0.chunks_exact(clearances.len().max(1)).enumerate() {
+            if least[lane] > margin {
                 continue;
             }
-            let floor = lowest(displacement, group) - margin;
-            let start = block.start.max(next);
-            for (index, &height) in (start..).zip(&heights[start..block.end]) {
-                let below = height < floor;
-                if !below {
-                    found(index);
+            for (group, (range, clearance)) in ranges.iter().zip(clearances).enumerate() {
+                if clearance.over[lane] > margin || range.end <= next {
+                    continue;
                 }
+                // A contact between two groups may be nearer to the other.
+                let floor = clearance.lowest[lane].min(beside_group(clearances, lane, group)) - margin;
+                let start = range.start.max(next);
+                for (index, &height) in (start..).zip(&heights[start..range.end]) {
+                    let below = height < floor;
+                    if !below {
+                        found(index);
+                    }
+                }
+                next = range.end;
             }
-            next = block.end;
         }
     }
 }
 
-/// The lowest of a group of grid points and those beside it, m.
+/// The lowest displacement in the groups before and after one, m.
 #[inline(always)]
-fn lowest(displacement: &[f64], group: usize) -> f64 {
-    let start = NUT + group * LANES;
-    displacement[start..start + LANES + 2].iter().fold(f64::INFINITY, |low, &u| low.min(u))
+fn beside_group(clearances: &[Clearance], lane: usize, group: usize) -> f64 {
+    let last = clearances.len() - 1;
+    let before = match (lane, group) {
+        (0, 0) => f64::INFINITY,
+        (_, 0) => clearances[last].lowest[lane - 1],
+        _ => clearances[group - 1].lowest[lane],
+    };
+    let after = match clearances.get(group + 1) {
+        Some(next) => next.lowest[lane],
+        None if lane + 1 < LANES => clearances[0].lowest[lane + 1],
+        None => f64::INFINITY,
+    };
+    before.min(after)
 }
 
-/// Array indices of the unknowns beside a contact, and whether it must always be looked at: there the string goes on to
+/// The unknown nodes beside a contact, and whether it must always be looked at: there the string goes on to
 /// an end, which is no unknown.
 fn beside(contact: &Contact, grid: &Grid) -> (Range<usize>, bool) {
     let (start, end) = contact.reading.span();
@@ -79,16 +114,17 @@ fn beside(contact: &Contact, grid: &Grid) -> (Range<usize>, bool) {
     }
     let cell = ((contact.place / grid.spacing) as usize).min(grid.intervals - 1);
     let (first, last) = (cell.max(1), (cell + 1).min(grid.intervals - 1));
-    (NUT + first..NUT + last + 1, cell == 0 || cell + 1 == grid.intervals)
+    (first..last + 1, cell == 0 || cell + 1 == grid.intervals)
 }
 
 /// Puts the height of the highest contact beside each grid point into `skyline`.
-pub(crate) fn draw(grid: &Grid, contacts: &[Contact], heights: &[f64], skyline: &mut [f64]) {
+pub(crate) fn draw(grid: &Grid, contacts: &[Contact], heights: &[f64], skyline: &mut Field) {
     skyline.fill(f64::NEG_INFINITY);
     for (contact, &height) in contacts.iter().zip(heights) {
         let (beside, always) = beside(contact, grid);
         let height = if always { f64::INFINITY } else { height };
-        for top in &mut skyline[beside] {
+        for node in beside {
+            let top = &mut skyline[grid.cell(node)];
             *top = top.max(height);
         }
     }
@@ -132,28 +168,32 @@ mod tests {
             let contacts = contacts(&grid, &mut seed);
             let heights: Vec<f64> = contacts.iter().map(|contact| contact.height).collect();
             let blocks = Blocks::new(&grid, &contacts);
-            let mut skyline = vec![0.0; grid.padded_len()];
+            let mut skyline = Field::new(&grid);
             draw(&grid, &contacts, &heights, &mut skyline);
             // From smooth to as rough as can be.
             let roughness = 0.5 * (1.0 + random(&mut seed));
-            let mut u = vec![0.0; grid.padded_len()];
+            let mut u = Field::new(&grid);
             for node in 1..grid.intervals {
                 let smooth = (6.0 * grid.place(node)).sin();
-                u[NUT + node] = (1.0 - roughness) * smooth + roughness * random(&mut seed);
+                u[grid.cell(node)] = (1.0 - roughness) * smooth + roughness * random(&mut seed);
             }
-            let bends = (1..grid.intervals).map(|node| {
-                let at = NUT + node;
-                ((u[at + 1] - u[at]) - (u[at] - u[at - 1])).abs()
-            });
+            let point = |node: usize| u[grid.cell(node)];
+            let bends = (1..grid.intervals)
+                .map(|node| ((point(node + 1) - point(node)) - (point(node) - point(node - 1))).abs());
             let margin = 0.1 + SAG * bends.fold(0.0, f64::max);
-            let clearances: Vec<f64> = (NUT + 1..NUT + 1 + grid.unknowns())
-                .step_by(LANES)
-                .map(|first| {
-                    (first..first + LANES).map(|at| u[at] - skyline[at]).fold(f64::INFINITY, f64::min)
+            let over: Vec<f64> = u.iter().zip(&*skyline).map(|(u, top)| u - top).collect();
+            let least = |field: &[f64], group: usize, lane: usize| {
+                let rows = field.chunks(LANES).skip(group * CLEARED).take(CLEARED);
+                rows.map(|row| row[lane]).fold(f64::INFINITY, f64::min)
+            };
+            let clearances: Vec<Clearance> = (0..groups(&grid))
+                .map(|group| Clearance {
+                    over: std::array::from_fn(|lane| least(&over, group, lane)),
+                    lowest: std::array::from_fn(|lane| least(&u, group, lane)),
                 })
                 .collect();
             let mut looked_at = Vec::new();
-            blocks.look(margin, &clearances, &u, &heights, |index| looked_at.push(index));
+            blocks.look(margin, &clearances, &heights, |index| looked_at.push(index));
             assert!(looked_at.is_sorted_by(|a, b| a < b), "run {run}: {looked_at:?}");
             for (index, contact) in contacts.iter().enumerate() {
                 if contact.reading.of(&u) - contact.height <= 0.1 {

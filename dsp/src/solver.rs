@@ -92,9 +92,9 @@ struct Demands<'a> {
 }
 
 /// Force errors may do at most this part of the present energy as work in a converged sample.
-const WORK_TOLERANCE: f64 = 1e-13;
+const WORK_TOLERANCE: f64 = 1e-15;
 
-/// As much more as the tolerance is wider, 1/m: 1e-13 at 1e-12 m, where both are about what rounding allows.
+/// As much more as the tolerance is wider, 1/m: 1e-13 at 1e-12 m.
 const WORK_PER_METRE: f64 = 0.1;
 
 /// Attempts at a shorter step before it is taken as it is; the secant guard still stands behind it.
@@ -113,6 +113,7 @@ impl Solver {
 
     /// Solves for the forces of `rows`, starting from the changes they expect. Returns the energy, J, that the
     /// solution's inexactness gives to the string (negative: takes from it).
+    #[inline(always)]
     pub fn solve(
         &mut self,
         rows: &mut [Active],
@@ -139,6 +140,7 @@ impl Solver {
     }
 }
 
+#[inline(always)]
 fn solve_few<const N: usize>(
     rows: &mut [Active],
     pull_factor: f64,

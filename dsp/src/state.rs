@@ -1,39 +1,31 @@
 //! The state of one string: all that must be remembered from one sample to the next.
 
-use crate::contact::ContactLaw;
 use crate::curve::Curve;
 use crate::error::Error;
+use crate::field::{Ends, Field};
+use crate::finger::{Finger, Inertia};
 use crate::gesture::Touch;
-use crate::grid::{NUT, Reading};
+use crate::grid::Reading;
 use crate::model::Model;
 use crate::skyline::draw;
 
-/// A finger near the string.
+/// A fixed contact that the string may touch soon.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Finger {
-    /// Its parameters.
-    pub touch: Touch,
-    /// Contact law of its pad.
-    pub law: ContactLaw,
-    /// Height of the pad uⁿ, m.
-    pub height: f64,
-    /// Motion in the last step uⁿ − uⁿ⁻¹, m.
-    pub motion: f64,
-    /// Place at n, m from the nut.
-    pub position: f64,
-    /// Reading of the string under it at n.
-    pub reading: Reading,
-    /// Reading of the string under it at n − 1.
-    pub reading_before: Reading,
+pub(crate) struct Close {
+    /// Its index.
+    pub index: u32,
+    /// The displacement of the string there, now and a step ago, m.
+    pub displacement: f64,
+    pub before: f64,
 }
 
 /// The state of one string, its fingers and its contacts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    /// uⁿ over the padded grid, m.
-    pub(crate) displacement: Vec<f64>,
-    /// uⁿ − uⁿ⁻¹ over the padded grid, m.
-    pub(crate) motion: Vec<f64>,
+    /// uⁿ, oddly continued beyond both ends, m.
+    pub(crate) displacement: Field,
+    /// uⁿ − uⁿ⁻¹, m.
+    pub(crate) motion: Field,
     /// Fingers, by slot.
     pub(crate) fingers: Vec<Option<Finger>>,
     /// Heights bⁿ and bⁿ⁻¹ of the fixed contacts, m.
@@ -46,9 +38,13 @@ pub struct State {
     /// How often a finger has been placed or removed.
     pub(crate) finger_changes: u64,
     /// The highest of the fixed contacts beside each grid point, m, by `heights_next`.
-    pub(crate) skyline: Vec<f64>,
-    /// Fixed contacts to be looked at in the next step, in order: those that are touched or near.
-    pub(crate) close: Vec<u32>,
+    pub(crate) skyline: Field,
+    /// Fixed contacts that are touched or near, in order.
+    pub(crate) close: Vec<Close>,
+    /// By how much the string may still come nearer to a contact before those that are close are looked for anew, m.
+    pub(crate) sure: f64,
+    /// By how much it may have come nearer to any in the last step, m.
+    pub(crate) nearer: f64,
     /// Number of steps taken.
     pub(crate) steps: u64,
     /// Energy that inexact solutions have put in and not yet taken out again, J; kept tiny.
@@ -64,16 +60,18 @@ impl State {
         let heights: Vec<f64> = model.contacts.iter().map(|contact| contact.height).collect();
         let contacts = heights.len();
         let mut state = State {
-            displacement: vec![0.0; model.grid.padded_len()],
-            motion: vec![0.0; model.grid.padded_len()],
+            displacement: Field::new(&model.grid),
+            motion: Field::new(&model.grid),
             fingers: vec![None; model.finger_slots],
             heights_before: heights.clone(),
             heights_next: heights.clone(),
             heights,
             settling: 0,
             finger_changes: 0,
-            skyline: vec![0.0; model.grid.padded_len()],
+            skyline: Field::new(&model.grid),
             close: Vec::with_capacity(contacts),
+            sure: 0.0,
+            nearer: 0.0,
             steps: 0,
             solver_balance: 0.0,
             energy_scale: 0.0,
@@ -104,8 +102,9 @@ impl State {
     /// Gives the string a displacement over places (m over m from the nut), at rest.
     pub fn set_shape(&mut self, model: &Model, shape: &Curve) {
         for node in 1..model.grid.intervals {
-            self.displacement[NUT + node] = shape.at(model.grid.place(node));
+            self.displacement[model.grid.cell(node)] = shape.at(model.grid.place(node));
         }
+        self.displacement.close_ends(&Ends::new(&model.grid));
         self.motion.fill(0.0);
         self.look_at_all(model);
     }
@@ -114,17 +113,21 @@ impl State {
     pub(crate) fn look_at_all(&mut self, model: &Model) {
         draw(&model.grid, &model.contacts, &self.heights_next, &mut self.skyline);
         self.close.clear();
-        self.close.extend((0..).zip(&model.contacts).map(|(index, _)| index));
+        self.close.extend((0..).zip(&model.contacts).map(|(index, contact)| {
+            let displacement = contact.reading.of(&self.displacement);
+            Close { index, displacement, before: displacement - contact.reading.of(&self.motion) }
+        }));
+        (self.sure, self.nearer) = (0.0, f64::INFINITY);
     }
 
     /// Displacement of the interior points u₁ … u_{N−1}, m.
-    pub fn displacement(&self) -> &[f64] {
-        &self.displacement[NUT + 1..NUT + 1 + self.interior]
+    pub fn displacement(&self) -> impl Iterator<Item = f64> + Clone + '_ {
+        self.displacement.from_nut().skip(1).take(self.interior)
     }
 
     /// Motion of the interior points in the last step, uⁿ − uⁿ⁻¹, m.
-    pub fn motion(&self) -> &[f64] {
-        &self.motion[NUT + 1..NUT + 1 + self.interior]
+    pub fn motion(&self) -> impl Iterator<Item = f64> + Clone + '_ {
+        self.motion.from_nut().skip(1).take(self.interior)
     }
 
     /// The fingers, by slot.
@@ -165,7 +168,9 @@ impl State {
         let law = model.finger_law(&touch)?;
         let reading = model.grid.reading(position);
         let motion = velocity * model.grid.time_step;
-        let finger = Finger { touch, law, height, motion, position, reading, reading_before: reading };
+        let inertia = Inertia::new(&touch, model.grid.time_step);
+        let finger =
+            Finger { touch, law, inertia, height, motion, position, reading, reading_before: reading };
         self.fingers[slot] = Some(finger);
         self.finger_changes += 1;
         Ok(())

@@ -1,49 +1,55 @@
 //! One step of one string: predict without contacts, solve the contacts, advance.
 
+use pulp::{Simd, WithSimd};
+
 use crate::active::Active;
 use crate::drive::Drive;
-use crate::grid::LANES;
+use crate::field::Field;
+use crate::finger::FingerBefore;
+use crate::instructions::Instructions;
 use crate::kernel::{Advance, Kernel, Products, Weights};
 use crate::model::{Model, Stiffness};
-use crate::skyline::SAG;
+use crate::skyline::{Clearance, SAG, groups};
 use crate::solver::{Convergence, Solver};
-use crate::state::{Finger, State};
+use crate::state::State;
 
 /// Room to step one string, and what the last step did, for whoever measures it.
 #[derive(Debug, Clone)]
 pub struct Scratch {
-    kernel: Kernel,
+    instructions: Instructions,
+    pub(crate) kernel: Kernel,
     stiffness: Stiffness,
     weights: Weights,
     products: Products,
     /// Undivided second differences of uⁿ.
-    pub(crate) curvature: Vec<f64>,
+    pub(crate) curvature: Field,
     /// The motion to n + 1 without contacts and tension modulation, then with contacts.
-    pub(crate) prediction: Vec<f64>,
+    pub(crate) prediction: Field,
     /// dⁿ⁺¹ and uⁿ⁺¹ before the step, dⁿ and uⁿ after it.
-    pub(crate) motion: Vec<f64>,
-    pub(crate) displacement: Vec<f64>,
+    pub(crate) motion: Field,
+    pub(crate) displacement: Field,
     pub(crate) solver: Solver,
     /// The contacts active in the last step, with their forces.
     pub(crate) active: Vec<Active>,
     /// The step in which each contact was last solved for, one more than its index.
     pub(crate) held: Vec<u64>,
-    /// How far the lowest point of each group of grid points is over the skyline, m.
-    pub(crate) clearances: Vec<f64>,
+    /// How far groups of grid points were over the skyline when contacts were last looked for.
+    pub(crate) clearances: Vec<Clearance>,
     /// Sum of the sizes of all forces that led to those found, N.
     pub(crate) tried: f64,
-    /// Fingers before the last step.
-    pub(crate) fingers: Vec<Option<Finger>>,
+    /// What the last step has overwritten of the fingers.
+    pub(crate) fingers: Vec<Option<FingerBefore>>,
 }
 
 impl Scratch {
     /// Room for every contact and finger of the model.
     pub fn new(model: &Model) -> Scratch {
         let contacts = model.contacts.len() + model.finger_slots;
-        let grid = || vec![0.0; model.grid.padded_len()];
+        let grid = || Field::new(&model.grid);
         let stiffness = model.stiffness(model.string.tension);
         let spans: Vec<_> = model.contacts.iter().map(|contact| contact.reading.span()).collect();
         Scratch {
+            instructions: Instructions::best(),
             kernel: Kernel::new(model),
             weights: Weights::new(model, &stiffness),
             stiffness,
@@ -55,7 +61,7 @@ impl Scratch {
             solver: Solver::with_capacity(&spans, model.finger_slots),
             active: Vec::with_capacity(contacts),
             held: vec![0; model.contacts.len()],
-            clearances: vec![0.0; model.grid.unknowns().div_ceil(LANES)],
+            clearances: vec![Clearance::default(); groups(&model.grid)],
             tried: 0.0,
             fingers: vec![None; model.finger_slots],
         }
@@ -64,7 +70,7 @@ impl Scratch {
     /// Has the string stepped by instructions that any processor has, from now on. The bits are the same; this
     /// is for whoever measures what vectors are worth.
     pub fn leave_vectors(&mut self) {
-        self.kernel = self.kernel.without_vectors();
+        self.instructions = Instructions::any();
     }
 
     /// Back to the state of new room, without allocating.
@@ -111,24 +117,77 @@ impl Scratch {
     }
 }
 
+/// A step, to be compiled for each instruction set.
+struct Step<'a> {
+    state: &'a mut State,
+    model: &'a Model,
+    drive: &'a Drive,
+    scratch: &'a mut Scratch,
+}
+
+impl WithSimd for Step<'_> {
+    type Output = Convergence;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Convergence {
+        self.state.step_by(simd, self.model, self.drive, self.scratch)
+    }
+}
+
 impl State {
     /// Advances the string by one step under a drive.
     ///
     /// Never allocates, never fails: whatever the numbers, the energy cannot exceed what was put in.
     pub fn step(&mut self, model: &Model, drive: &Drive, scratch: &mut Scratch) -> Convergence {
-        let unknowns = model.grid.unknowns();
+        scratch.instructions.run(Step { state: self, model, drive, scratch })
+    }
+
+    #[inline(always)]
+    fn step_by<S: Simd>(
+        &mut self,
+        simd: S,
+        model: &Model,
+        drive: &Drive,
+        scratch: &mut Scratch,
+    ) -> Convergence {
         // What is known of the energy before anything is computed.
         let resting = self.energy_scale.max(scratch.string_energy(model)) > MOST_ENERGY;
         if drive.tension != scratch.stiffness.tension && !resting {
             scratch.stiffness = model.stiffness(drive.tension);
             scratch.weights = Weights::new(model, &scratch.stiffness);
         }
+        let products = self.predict(simd, model, drive, scratch);
+        let convergence = if model.contacts.is_empty() && self.fingers.iter().all(Option::is_none) {
+            // Nothing of the last contact may be left in the record.
+            scratch.active.clear();
+            scratch.fingers.fill(None);
+            scratch.tried = 0.0;
+            let pull = pull(model, &products);
+            self.advance(simd, pull, scratch);
+            Convergence::default()
+        } else {
+            self.contact_step(simd, model, drive, &products, resting, scratch)
+        };
+        std::mem::swap(&mut self.displacement, &mut scratch.displacement);
+        std::mem::swap(&mut self.motion, &mut scratch.motion);
+        self.steps += 1;
+        convergence
+    }
+
+    /// The motion to n + 1 without contacts and stretching.
+    #[inline(always)]
+    pub(crate) fn predict<S: Simd>(
+        &self,
+        simd: S,
+        model: &Model,
+        drive: &Drive,
+        scratch: &mut Scratch,
+    ) -> Products {
         let mut products = scratch.kernel.predict(
-            unknowns,
+            simd,
             &scratch.weights,
             (&self.displacement, &self.motion),
-            &mut scratch.curvature,
-            &mut scratch.prediction,
+            (&mut scratch.curvature, &mut scratch.prediction),
         );
         scratch.products = products;
         for push in &drive.pushes {
@@ -136,33 +195,17 @@ impl State {
             push.reading.spread(&mut scratch.prediction, motion);
             products.curvature_change += motion * push.reading.of(&scratch.curvature);
         }
-        let mut convergence = Convergence::default();
-        if model.contacts.is_empty() && self.fingers.iter().all(Option::is_none) {
-            // Nothing of the last contact may be left in the record.
-            scratch.active.clear();
-            scratch.fingers.fill(None);
-            scratch.tried = 0.0;
-            let pull = pull(model, &products);
-            self.advance(model, pull, scratch);
-        } else {
-            self.contact_step(model, drive, &products, resting, scratch, &mut convergence);
-        }
-        std::mem::swap(&mut self.displacement, &mut scratch.displacement);
-        std::mem::swap(&mut self.motion, &mut scratch.motion);
-        self.steps += 1;
-        convergence
+        products
     }
 
-    pub(crate) fn advance(&self, model: &Model, pull: f64, scratch: &mut Scratch) -> f64 {
-        let Scratch { kernel, prediction, curvature, motion, displacement, clearances, .. } = scratch;
-        let arrays = Advance {
-            pull,
-            from: (prediction, curvature, &self.displacement),
-            to: (motion, displacement),
-            skyline: &self.skyline,
-            clearances,
-        };
-        kernel.advance(model.grid.unknowns(), arrays)
+    /// The motion to n + 1 from the prediction; returns the largest of a point, m.
+    #[inline(always)]
+    pub(crate) fn advance<S: Simd>(&self, simd: S, pull: f64, scratch: &mut Scratch) -> f64 {
+        let Scratch { kernel, prediction, curvature, motion, displacement, .. } = scratch;
+        kernel.advance(
+            simd,
+            Advance { pull, from: (prediction, curvature, &self.displacement), to: (motion, displacement) },
+        )
     }
 }
 

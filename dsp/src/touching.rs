@@ -1,12 +1,29 @@
 //! Which contacts act in a step: those the string touches at n − 1 or n, or would at n + 1.
 
+use pulp::Simd;
+
 use crate::active::Active;
 use crate::contact::Before;
 use crate::drive::Drive;
+use crate::finger::{FingerBefore, Inertia};
 use crate::grid::{READING_NORM, Reading};
 use crate::model::{Model, STEEPEST};
-use crate::state::State;
+use crate::state::{Close, State};
 use crate::string::Scratch;
+
+/// What a finger reads of the string under it at n.
+#[derive(Clone, Copy)]
+struct Under {
+    place: f64,
+    motion: f64,
+}
+
+impl Under {
+    /// The place at n − 1.
+    fn before(&self) -> f64 {
+        self.place - self.motion
+    }
+}
 
 impl Scratch {
     /// The motion of a point to n + 1 without contact forces.
@@ -16,20 +33,28 @@ impl Scratch {
     }
 }
 
-/// How far ahead contacts are looked for, in steps of the size of the last one: all that touch the string at n − 1 or n
+/// How far ahead contacts are predicted, in steps of the size of the last one: all that touch the string at n − 1 or n
 /// are within one, and most that will at n + 1 within two. What is driven farther is found when it has been.
 const AHEAD: f64 = 2.0;
 
+/// How far ahead they are looked for, likewise: the farther, the less often, and the more are to be watched.
+const WATCHED: f64 = 12.0;
+
 impl State {
     /// Adds the fixed contacts that touched the string at n − 1 or, as predicted, will at n + 1.
+    #[inline(always)]
     pub(crate) fn find_fixed(&self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
-        for &index in &self.close {
-            let index = index as usize;
+        let near = AHEAD * self.nearer;
+        for close in &self.close {
+            let index = close.index as usize;
+            let now = self.heights[index] - close.displacement;
+            if now < -near {
+                continue;
+            }
             let reading = &model.contacts[index].reading;
-            let now = reading.of(&self.displacement);
-            let before = self.heights_before[index] - (now - reading.of(&self.motion));
+            let before = self.heights_before[index] - close.before;
             let free = scratch.free_motion(reading, free_pull);
-            let after = self.heights_next[index] - (now + free);
+            let after = self.heights_next[index] - (close.displacement + free);
             if before > 0.0 || after > 0.0 {
                 self.activate(model, index, before, free, scratch);
             }
@@ -64,12 +89,12 @@ impl State {
             lambda: 0.0,
             required: 0.0,
             slope: 0.0,
-            saved: contact.reading.window(&scratch.prediction),
         });
     }
 
     /// Moves every finger as if it were free, and adds those that touch the string at n − 1, n or, as
     /// predicted, n + 1.
+    #[inline(always)]
     pub(crate) fn find_fingers(
         &mut self,
         model: &Model,
@@ -86,42 +111,46 @@ impl State {
                 }
                 continue;
             };
-            scratch.fingers[slot] = Some(*finger);
+            let (height, motion, reading_before) = (finger.height, finger.motion, finger.reading_before);
+            scratch.fingers[slot] = Some(FingerBefore { height, motion, reading_before });
             let mut hand = drive.hands[slot];
             if resting {
                 hand.position = finger.position;
             }
-            let touch = finger.touch;
-            let half_loss = 0.5 * touch.hand_damping * k;
-            let own_mobility = k * k / (touch.mass + half_loss);
-            let free = own_mobility * ((touch.mass - half_loss) / (k * k) * finger.motion - hand.force);
-            let (reading_before, reading_now) = (finger.reading_before, finger.reading);
-            let reading = if hand.position == finger.position {
-                reading_now
-            } else {
-                model.grid.reading(hand.position)
+            let Inertia { mobility: own_mobility, persistence } = finger.inertia;
+            let free = persistence * motion - own_mobility * hand.force;
+            let (law, damping) = (finger.law, finger.touch.damping);
+            let under = |reading: &Reading| Under {
+                place: reading.of(&self.displacement),
+                motion: reading.of(&self.motion),
             };
-            let (height, motion) = (finger.height, finger.motion);
-            let (law, damping) = (finger.law, touch.damping);
-            finger.position = hand.position;
-            finger.reading = reading;
-            finger.reading_before = reading_now;
+            // A finger that stays where it is reads the string once.
+            let now = under(&finger.reading);
+            let past = if reading_before.same_place(&finger.reading) { now } else { under(&reading_before) };
+            finger.reading_before = finger.reading;
+            let mut here = now;
+            if hand.position != finger.position {
+                finger.position = hand.position;
+                finger.reading = model.grid.reading(hand.position);
+                here = under(&finger.reading);
+            }
             finger.motion = free;
             finger.height = height + free;
+            let reading = finger.reading;
 
-            let past = |r: &Reading| r.of(&self.displacement) - r.of(&self.motion);
-            let before = past(&reading_before) - (height - motion);
-            let now = reading_now.of(&self.displacement) - height;
+            let before = past.before() - (height - motion);
             let string_free = scratch.free_motion(&reading, free_pull);
-            let after = reading.of(&self.displacement) + string_free - (height + free);
-            let slid = if reading == reading_before { 0.0 } else { past(&reading) - past(&reading_before) };
-            let rest = (free + motion) - slid - reading.of(&self.motion);
-            let active = Active {
+            let after = here.place + string_free - (height + free);
+            let slid = if reading.same_place(&reading_before) { 0.0 } else { here.before() - past.before() };
+            let rest = (free + motion) - slid - here.motion;
+            let penetration = now.place - height;
+            scratch.active.push(Active {
                 slot: model.contacts.len() + slot,
                 reading,
                 sign: -1.0,
                 law,
-                lossy: (damping * law.force(now) / (2.0 * k)).min(STEEPEST / (model.mobility + own_mobility)),
+                lossy: (damping * law.force(penetration) / (2.0 * k))
+                    .min(STEEPEST / (model.mobility + own_mobility)),
                 before: Before::new(&law, before),
                 rest,
                 base: 0.0,
@@ -130,57 +159,87 @@ impl State {
                 own_mobility,
                 mobility: model.mobility,
                 pull: -reading.of(&scratch.curvature),
-                expected: 2.0 * (reading_now.of(&self.motion) - motion),
+                expected: 2.0 * (now.motion - motion),
                 force: 0.0,
                 change: 0.0,
                 lambda: 0.0,
                 required: 0.0,
                 slope: 0.0,
-                saved: reading.window(&scratch.prediction),
-            };
-            if before > 0.0 || now > 0.0 || after > 0.0 {
-                scratch.active.push(active);
-            } else {
-                // Not yet in contact: kept aside, to be looked at again when the string has been moved.
-                scratch.solver.aside.push(active);
+            });
+            // Not yet in contact: kept aside, to be looked at again when the string has been moved.
+            let touches = before > 0.0 || penetration > 0.0 || after > 0.0;
+            if !touches && let Some(finger) = scratch.active.pop() {
+                scratch.solver.aside.push(finger);
             }
         }
     }
 
-    /// Adds every contact that the string at n + 1 overlaps but the solution did not hold, and keeps those that it
-    /// may touch in the next step. No grid point has moved by more than `largest`, m.
-    pub(crate) fn find_missed(&mut self, model: &Model, largest: f64, free_pull: f64, scratch: &mut Scratch) {
-        let held = scratch.active.len();
+    /// Whether the string at n + 1 overlaps a contact that the solution did not hold. Fingers of which that is true are
+    /// added to it. Keeps watch of the fixed contacts that may be touched next. No grid point has moved by more than
+    /// `largest`, m. `again` where this step has been taken and looked at before.
+    #[inline(always)]
+    pub(crate) fn find_missed<S: Simd>(
+        &mut self,
+        simd: S,
+        model: &Model,
+        largest: f64,
+        again: bool,
+        scratch: &mut Scratch,
+    ) -> bool {
+        let mut missed = false;
         let mut position = 0;
         while let Some(finger) = scratch.solver.aside.get(position) {
             let height = self.fingers[finger.slot - model.contacts.len()].map_or(0.0, |f| f.height);
             if finger.reading.of(&scratch.displacement) - height > 0.0 {
                 scratch.active.push(scratch.solver.aside.remove(position));
+                missed = true;
             } else {
                 position += 1;
             }
         }
         if model.contacts.is_empty() {
-            return;
+            return missed;
         }
-        let near = AHEAD * (READING_NORM * largest + self.lifted());
-        let margin = scratch.margin(model, near, largest);
-        let mut close = std::mem::take(&mut self.close);
-        close.clear();
-        let (displacement, heights) = (&scratch.displacement, &self.heights_next);
-        model.blocks.look(margin, &scratch.clearances, displacement, heights, |index| {
-            if model.contacts[index].reading.of(displacement) - heights[index] <= near {
-                close.push(index as u32);
+        let nearer = READING_NORM * largest + self.lifted();
+        // (What is close may be known for a string that then did not move so.)
+        if again || self.sure - nearer <= AHEAD * nearer {
+            self.look_around(simd, model, nearer, largest, scratch);
+        } else {
+            self.sure -= nearer;
+            for close in &mut self.close {
+                close.before = close.displacement;
+                close.displacement = model.contacts[close.index as usize].reading.of(&scratch.displacement);
+            }
+        }
+        self.nearer = nearer;
+        let touched = |close: &Close| close.displacement < self.heights_next[close.index as usize];
+        let held = |close: &Close| scratch.held[close.index as usize] == self.steps + 1;
+        missed | self.close.iter().any(|close| touched(close) && !held(close))
+    }
+
+    /// Looks through all fixed contacts for those that are close, were the string to go on as in this step.
+    #[inline(always)]
+    fn look_around<S: Simd>(
+        &mut self,
+        simd: S,
+        model: &Model,
+        nearer: f64,
+        largest: f64,
+        scratch: &mut Scratch,
+    ) {
+        self.sure = WATCHED * nearer;
+        let (near, margin) = (self.sure, scratch.margin(model, self.sure, largest));
+        let Scratch { kernel, displacement, clearances, .. } = scratch;
+        kernel.clear(simd, displacement, &self.skyline, clearances);
+        self.close.clear();
+        model.blocks.look(margin, clearances, &self.heights_next, |index| {
+            let reading = &model.contacts[index].reading;
+            let displacement = reading.of(displacement);
+            if displacement - self.heights_next[index] <= near {
+                let before = reading.of(&self.displacement);
+                self.close.push(Close { index: index as u32, displacement, before });
             }
         });
-        for &index in &close {
-            let index = index as usize;
-            let gap = model.contacts[index].reading.of(&scratch.displacement) - self.heights_next[index];
-            if gap < 0.0 && scratch.held[index] != self.steps + 1 {
-                self.add_missed(model, index, held, free_pull, scratch);
-            }
-        }
-        self.close = close;
     }
 
     /// How far any fixed contact itself moves in this step, m.
@@ -192,24 +251,16 @@ impl State {
         lifts.fold(0.0, f64::max)
     }
 
-    #[cold]
-    fn add_missed(&self, model: &Model, index: usize, held: usize, free_pull: f64, scratch: &mut Scratch) {
-        let reading = &model.contacts[index].reading;
-        let before = self.heights_before[index] - (reading.of(&self.displacement) - reading.of(&self.motion));
-        // The prediction holds forces by now; the free one is what was saved under them.
-        let mut window = reading.window(&scratch.prediction);
-        for active in &scratch.active[..held] {
-            for (offset, &saved) in active.saved.iter().enumerate() {
-                let node = active.reading.first + offset;
-                if node >= reading.first && node < reading.first + 4 {
-                    window[node - reading.first] = saved;
-                }
+    /// Adds the contacts that the string at n + 1 overlaps but the solution did not hold.
+    pub(crate) fn add_missed(&self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
+        for close in &self.close {
+            let index = close.index as usize;
+            if close.displacement < self.heights_next[index] && scratch.held[index] != self.steps + 1 {
+                let reading = &model.contacts[index].reading;
+                let past = reading.of(&self.displacement) - reading.of(&self.motion);
+                let free = scratch.free_motion(reading, free_pull);
+                self.activate(model, index, self.heights_before[index] - past, free, scratch);
             }
-        }
-        let free = reading.of_window(&window) - free_pull * reading.of(&scratch.curvature);
-        self.activate(model, index, before, free, scratch);
-        if let Some(added) = scratch.active.last_mut() {
-            added.saved = window;
         }
     }
 }

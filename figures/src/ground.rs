@@ -23,7 +23,7 @@ impl Profile {
     /// The string as it is.
     pub fn of(string: &SceneString) -> Profile {
         let heights = string.state.displacement();
-        let every = heights.len().div_ceil(MOST_POINTS).max(1);
+        let every = string.model.grid.intervals.div_ceil(MOST_POINTS).max(1);
         let mut points = vec![(0.0, 0.0)];
         points.extend(string.places().zip(heights).step_by(every).map(|(x, u)| (x, 1e3 * u)));
         points.push((string.model.grid.length, 0.0));

@@ -70,7 +70,7 @@ impl SceneFigure {
         let strings = simulation.strings().iter().take(STRINGS).enumerate();
         let strings = strings.map(|(index, string)| {
             let profile = Profile::of(string);
-            let at_first = string.places().zip(string.state.displacement()).map(|(x, &u)| (x, u, u));
+            let at_first = string.places().zip(string.state.displacement()).map(|(x, u)| (x, u, u));
             Ok(StringRecord {
                 ground: Ground::under(scene, index)?,
                 profiles: vec![profile],
@@ -100,7 +100,7 @@ impl SceneFigure {
             simulation.steps() == string.profiles.len() as u64 * self.samples / (MOMENTS - 1)
         });
         for (record, string) in self.strings.iter_mut().zip(simulation.strings()) {
-            for (reach, &u) in record.reach.iter_mut().zip(string.state.displacement()) {
+            for (reach, u) in record.reach.iter_mut().zip(string.state.displacement()) {
                 reach.1 = reach.1.min(u);
                 reach.2 = reach.2.max(u);
             }

@@ -112,7 +112,7 @@ fn measure(string: &PlainString, stencil: &str, mode: f64) -> Partial {
     let amplitudes: Vec<f64> = (0..8_000)
         .map(|_| {
             let points = simulation.string(0).state.displacement();
-            let amplitude = points.iter().zip(&weights).map(|(u, w)| u * w).sum();
+            let amplitude = points.zip(&weights).map(|(u, w)| u * w).sum();
             simulation.step();
             amplitude
         })
@@ -257,7 +257,7 @@ fn error_over_board(intervals: f64, depth: f64, period: f64, exact: impl Fn(f64,
     let (mut sum, mut count) = (0.0, 0.0);
     for n in 0..(2.0 * period * string.sample_rate) as usize {
         let time = n as f64 / string.sample_rate;
-        for (&x, &u) in places.iter().zip(simulation.string(0).state.displacement()) {
+        for (&x, u) in places.iter().zip(simulation.string(0).state.displacement()) {
             sum += ((u - exact(x, time)) / HEIGHT).powi(2);
             count += 1.0;
         }

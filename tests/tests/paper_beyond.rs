@@ -77,7 +77,7 @@ fn difference(force: f64, duration: f64) -> f64 {
         one.step();
         other.step();
         let heights = one.string(0).state.displacement();
-        for (a, b) in heights.iter().zip(other.string(0).state.displacement()) {
+        for (a, b) in heights.zip(other.string(0).state.displacement()) {
             largest = largest.max(a.abs());
             difference = difference.max((a - b).abs());
         }
@@ -101,13 +101,13 @@ fn the_bouncing_triangle_comes_back_in_time() {
     let scene = scene("barrier");
     let simulation = Simulation::new(&scene).expect("the scene can be built");
     assert_eq!(simulation.string(0).model.grid.intervals, 200, "the rate is made for this grid");
-    let start = simulation.string(0).state.displacement().to_vec();
+    let start = simulation.string(0).state.displacement().collect::<Vec<_>>();
     let period = 0.65 / (60.0f64 / 5.25e-3).sqrt() * (1.0 + 1.0 / 3.0);
     let mut nearest = (f64::INFINITY, 0.0);
     run(&scene, |simulation, _| {
         let time = simulation.steps() as f64 / scene.sample_rate;
         if (time / period - 1.0).abs() < 0.2 {
-            let pairs = simulation.string(0).state.displacement().iter().zip(&start);
+            let pairs = simulation.string(0).state.displacement().zip(&start);
             let distance: f64 = pairs.map(|(now, then)| (now - then).powi(2)).sum();
             if distance < nearest.0 {
                 nearest = (distance, time);

@@ -66,7 +66,7 @@ fn any_crowns_between_the_two_swings_show_the_same() {
         run(&scene, |simulation, _| {
             let string = simulation.string(0);
             let heights = string.places().zip(string.state.displacement());
-            lowest = heights.filter(|(x, _)| *x < 0.325).map(|(_, u)| *u).fold(lowest, f64::min);
+            lowest = heights.filter(|(x, _)| *x < 0.325).map(|(_, u)| u).fold(lowest, f64::min);
         });
         lowest
     };

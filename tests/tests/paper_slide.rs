@@ -39,7 +39,8 @@ fn lowest(sample_rate: f64) -> (f64, f64) {
     scene.finger[0].hand_damping = 8.0;
     let simulation = run(&scene, |_, _| {});
     let string = simulation.string(0);
-    let (u, spacing) = (string.state.displacement(), string.model.grid.spacing);
+    let u: Vec<f64> = string.state.displacement().collect();
+    let spacing = string.model.grid.spacing;
     let index = (1..u.len() - 1).min_by(|a, b| u[*a].total_cmp(&u[*b])).expect("there are points");
     let (left, middle, right) = (u[index - 1], u[index], u[index + 1]);
     let shift = 0.5 * (left - right) / (left - 2.0 * middle + right);
@@ -62,7 +63,8 @@ fn the_string_turns_at_the_fret() {
     // The finger has crossed the fret at 0.163 m and is at 0.175 m.
     let simulation = run(&shortened(&scene("figure_6"), 0.65), |_, _| {});
     let string = simulation.string(0);
-    let (u, spacing) = (string.state.displacement(), string.model.grid.spacing);
+    let u: Vec<f64> = string.state.displacement().collect();
+    let spacing = string.model.grid.spacing;
     let turn = |window: &[f64]| ((window[2] - 2.0 * window[1] + window[0]) / spacing).abs();
     let turns: Vec<_> =
         u.windows(3).zip(2..).map(|(window, node)| (node as f64 * spacing, turn(window))).collect();

@@ -30,7 +30,7 @@ fn run(text: &str) -> Outcome {
         solver_loss += step * entry.power_solver;
     }
     let state = &simulation.string(0).state;
-    assert!(state.displacement().iter().all(|u| u.is_finite()), "not finite in {text}");
+    assert!(state.displacement().all(f64::is_finite), "not finite in {text}");
     Outcome { excess, solver_loss: solver_loss / simulation.ledgers()[0].largest }
 }
 

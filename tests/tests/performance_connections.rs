@@ -73,7 +73,7 @@ fn a_tap_moves_the_string_within_three_milliseconds() {
             let mut stage = Stage::alone(setup, string);
             stage.watch(&[(0.01, cc(22, 7)), (0.01, on(open + 5, velocity))], 0.05, |time, instrument| {
                 let state = instrument.state(0);
-                let moves = state.displacement().iter().any(|u| u.abs() > 1e-6);
+                let moves = state.displacement().any(|u| u.abs() > 1e-6);
                 if moves && first.is_nan() {
                     first = time - 0.01;
                 }

@@ -155,9 +155,9 @@ fn a_bar_stops_a_string_without_its_frets() {
             let played = stage.watch(&events, 2.0, |time, instrument| {
                 let crown = instrument.geometry(0).frets[usize::from(fret) - 1];
                 let state = instrument.state(0);
-                let grid = state.displacement().len() + 1;
+                let grid = instrument.model(0).grid.intervals;
                 let node = (crown / instrument.geometry(0).length * grid as f64) as usize;
-                touched |= time > 0.3 && state.displacement()[node - 1] < -0.0012;
+                touched |= time > 0.3 && state.displacement().nth(node - 1) < Some(-0.0012);
             });
             let sound = &played.strings[0];
             for (from, to, key) in

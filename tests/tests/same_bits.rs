@@ -93,7 +93,7 @@ fn with_and_without_the_ledger() {
         for _ in 0..simulation.samples() {
             simulation.step();
             bits.push(simulation.output().to_bits());
-            bits.extend(simulation.string(0).state.displacement().iter().map(|u| u.to_bits()));
+            bits.extend(simulation.string(0).state.displacement().map(f64::to_bits));
         }
         bits
     };
@@ -111,10 +111,10 @@ fn no_subnormal_numbers() {
         instrument.process(&mut sample, &mut other);
         for string in 0..instrument.string_count() {
             let state = instrument.state(string);
-            for value in state.motion().iter().chain(state.displacement()) {
-                assert!(*value == 0.0 || value.is_normal(), "{value:e} on string {string}");
+            for value in state.motion().chain(state.displacement()) {
+                assert!(value == 0.0 || value.is_normal(), "{value:e} on string {string}");
             }
-            moved |= state.motion().iter().any(|value| *value != 0.0);
+            moved |= state.motion().any(|value| value != 0.0);
         }
         assert!(sample[0] == 0.0 || sample[0].is_normal());
     }

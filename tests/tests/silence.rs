@@ -42,7 +42,7 @@ fn play(setup: &Setup, watched: bool) -> (Vec<f32>, bool) {
     let (before, after) = left.split_at_mut(AGAIN as usize);
     let (right_before, right_after) = right.split_at_mut(AGAIN as usize);
     instrument.process(before, right_before);
-    let still = instrument.state(0).displacement().iter().all(|u| *u == 0.0);
+    let still = instrument.state(0).displacement().all(|u| u == 0.0);
     instrument.process(after, right_after);
     (left, still)
 }

@@ -84,7 +84,7 @@ impl OneString {
     /// [`SAMPLES`] samples.
     pub fn run(&mut self) -> f64 {
         self.steps(SAMPLES);
-        black_box(self.state.displacement()[0])
+        black_box(self.state.displacement().sum())
     }
 
     /// The same by instructions that any processor has.

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use crate::grid::{Grid, NUT, Reading};
+use crate::grid::{Grid, Reading};
 use crate::model::Stiffness;
 
 /// What the entries may be: real, or complex with plain (not conjugate) symmetry.
@@ -64,7 +64,7 @@ impl<T: Number> Band<T> {
             for j in i..4 {
                 let weight = at.weights[i] * at.weights[j];
                 if weight != 0.0 {
-                    let entry = &mut self.rows[at.first + i - NUT - 1][j - i];
+                    let entry = &mut self.rows[at.first + i - 1][j - i];
                     *entry = *entry + T::from(weight) * amount;
                 }
             }
@@ -178,7 +178,7 @@ pub(super) fn read(at: &Reading, v: &[f64]) -> f64 {
 /// The weights of a point that are not zero, with the unknowns they belong to.
 pub(super) fn weights(at: &Reading) -> impl Iterator<Item = (usize, f64)> + '_ {
     let present = at.weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
-    present.map(|(i, &weight)| (at.first + i - NUT - 1, weight))
+    present.map(|(i, &weight)| (at.first + i - 1, weight))
 }
 
 #[cfg(test)]

@@ -1,12 +1,15 @@
 //! What becomes of an iteration that was stopped before its end: forces that create no energy, as near to the
 //! solution as can be had for little.
 
-use super::{Answer, Convergence, EnergyScale, Room, WORK_TOLERANCE, created, largest, newton_direction};
+use super::{Answer, Convergence, EnergyScale, Room, created, largest, newton_direction};
 use crate::active::Active;
 
 /// Attempts of the fallback; its stiffnesses double after the first few, so that long before the last the
 /// contacts hardly move at all.
 const FALLBACKS: u32 = 60;
+
+/// The part of the present energy that may be taken and is left at that.
+const NOTHING: f64 = 1e-13;
 
 /// Steps on the way to an answer that takes nothing, and the part of what was taken at which it is near enough.
 const APPROACHES: usize = 16;
@@ -47,7 +50,7 @@ pub(super) fn stop_early(
     let gain =
         if usable { 0.5 * created(rows, room.forces) } else { fall_back(rows, answer, room, convergence) };
     let taken = 0.5 * demanded(rows, room.forces);
-    if gain <= scale.credit && taken.abs() > WORK_TOLERANCE * scale.present {
+    if gain <= scale.credit && taken.abs() > NOTHING * scale.present {
         return approach(rows, answer, room, taken, scale.credit);
     }
     gain

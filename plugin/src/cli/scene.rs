@@ -218,7 +218,7 @@ fn compute(simulation: &mut Simulation, outputs: &mut Outputs) -> Result<Seen> {
     }
     bar.finish_and_clear();
     // A listening point may never meet what went wrong elsewhere.
-    let still = |state: &low_action_dsp::State| state.displacement().iter().all(|u| u.is_finite());
+    let still = |state: &low_action_dsp::State| state.displacement().all(f64::is_finite);
     if seen.not_finite.is_none() && !simulation.strings().iter().all(|string| still(&string.state)) {
         seen.not_finite = Some(simulation.steps());
     }

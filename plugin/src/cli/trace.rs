@@ -171,7 +171,7 @@ impl Trace {
     fn keep_state(&mut self, simulation: &Simulation) -> io::Result<()> {
         self.npz.add(0, &[simulation.steps() as f64 / simulation.sample_rate()])?;
         for (arrays, string) in self.plan.strings.iter().zip(simulation.strings()) {
-            self.npz.add(arrays.displacement, string.state.displacement())?;
+            string.state.displacement().try_for_each(|u| self.npz.add(arrays.displacement, &[u]))?;
             for finger in string.fingers() {
                 self.npz.add(self.plan.fingers[finger.number].height, &[finger.height])?;
             }

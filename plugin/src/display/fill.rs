@@ -24,9 +24,9 @@ impl StringSeen {
         let (model, observed) = (instrument.model(index), instrument.observed(index));
         let (drive, scratch) = (instrument.drive(index), instrument.scratch(index));
         self.length = model.grid.length as f32;
-        spread(instrument.state(index).displacement(), &mut self.displacement);
-        spread(&observed.lowest, &mut self.lowest);
-        spread(&observed.highest, &mut self.highest);
+        spread(model.grid.intervals, instrument.state(index).displacement(), &mut self.displacement);
+        spread(model.grid.intervals, observed.lowest.iter().copied(), &mut self.lowest);
+        spread(model.grid.intervals, observed.highest.iter().copied(), &mut self.highest);
         self.pluck = observed
             .pluck
             .map(|pluck| PluckSeen { position: pluck.position as f32, force: pluck.force as f32 });
@@ -95,19 +95,17 @@ impl StringSeen {
     }
 }
 
-/// Values at the interior points of a grid, read evenly from end to end; 0 at the ends.
-fn spread(interior: &[f64], out: &mut [f32; POINTS]) {
-    let intervals = interior.len() + 1;
-    let at = |node: usize| match node.checked_sub(1) {
-        Some(index) => interior.get(index).copied().unwrap_or(0.0),
-        None => 0.0,
-    };
+/// Values at the interior points of a grid of so many intervals, read evenly from end to end; 0 at the ends.
+fn spread(intervals: usize, interior: impl Iterator<Item = f64>, out: &mut [f32; POINTS]) {
+    let mut nodes = std::iter::once(0.0).chain(interior).chain(std::iter::repeat(0.0));
+    let mut next = || nodes.next().unwrap_or(0.0);
+    let (mut node, mut left, mut right) = (0, next(), next());
     let step = intervals as f64 / (POINTS - 1) as f64;
     for (point, out) in out.iter_mut().enumerate() {
         let place = point as f64 * step;
-        let node = place as usize;
-        let part = place - node as f64;
-        let (left, right) = (at(node), at(node + 1));
-        *out = (left + part * (right - left)) as f32;
+        while node < place as usize {
+            (node, left, right) = (node + 1, right, next());
+        }
+        *out = (left + (place - node as f64) * (right - left)) as f32;
     }
 }

@@ -71,8 +71,8 @@ fn observe(scene: &Scene) -> Result<Divergence> {
         let time = one.steps() as f64 / scene.sample_rate;
         let (a, b) = (one.string(0), other.string(0));
         let heights = a.state.displacement();
-        largest = heights.iter().fold(largest, |most, u| most.max(u.abs()));
-        let pairs = heights.iter().zip(b.state.displacement());
+        largest = heights.clone().fold(largest, |most, u| most.max(u.abs()));
+        let pairs = heights.zip(b.state.displacement());
         let part = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest;
         divergence.course.add(part);
         divergence.largest = divergence.largest.max(part);

@@ -147,7 +147,7 @@ fn over_board(scene: &Scene, stencil: Stencil, shape: Shape) -> Result<Errors> {
         let (mut sum, mut count) = (0.0, 0.0);
         for n in 0..(2.0 * period * scene.sample_rate) as usize {
             let time = n as f64 / scene.sample_rate;
-            for (&x, &u) in places.iter().zip(simulation.string(0).state.displacement()) {
+            for (&x, u) in places.iter().zip(simulation.string(0).state.displacement()) {
                 sum += ((u - exact(x, time)) / height).powi(2);
                 count += 1.0;
             }

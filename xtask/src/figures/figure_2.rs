@@ -243,7 +243,7 @@ fn distortion(scene: &Scene) -> Result<f64> {
         let mut heights = Vec::new();
         run(&shortened(scene, release + 3.0 * period), |simulation, _| {
             if simulation.steps() as f64 / scene.sample_rate > release + 2.0 * period {
-                heights.extend_from_slice(simulation.string(0).state.displacement());
+                heights.extend(simulation.string(0).state.displacement());
             }
         })?;
         Ok::<_, anyhow::Error>(heights)

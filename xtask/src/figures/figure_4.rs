@@ -75,7 +75,7 @@ pub fn tap(scene: &Scene) -> Result<Tap> {
         tap.stretch =
             tap.stretch.max((2.0 * spec.axial_stiffness() * entry.energies.tension / spec.length).sqrt());
         if finger.force == 0.0 && tap.touch.is_some() {
-            tap.ripple = tap.ripple.max(ripple(string.state.displacement()));
+            tap.ripple = tap.ripple.max(ripple(&string.state.displacement().collect::<Vec<_>>()));
         }
         let is_pinned = finger.force > 0.0 && string.board_force() > 0.0;
         tap.pinned += if is_pinned { 1e3 * step } else { 0.0 };

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use low_action_dsp::curve::{Curve, OneOrEach};
-use low_action_dsp::state::Finger;
+use low_action_dsp::finger::Finger;
 use low_action_dsp::{Scene, State};
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;

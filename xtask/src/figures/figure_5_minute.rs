@@ -96,10 +96,10 @@ pub fn make(repository: &Repository) -> Result<Made> {
         .picture("Variation of the energy over a minute and its two sources, and the variation with a finer tolerance")
         .claims(claims)
         .text(&format!(
-            "**What limits it**: {limit}. They account for at most {} of the change, rounding in string, contacts and \
-             ledger for at most {}. The solver may stop when a penetration is known to its tolerance, {} m; times the \
-             largest force, {} N, that is {} of the energy in one sample. With a finer tolerance rounding is what is \
-             left.",
+            "**What limits it**: {limit}. Inexact contact forces account for at most {} of the change, rounding in string, \
+             contacts and ledger for at most {}. The solver may stop when a penetration is known to its tolerance, {} m; \
+             times the largest force, {} N, that is {} of the energy in one sample. But what the errors of all forces do \
+             together is held to 10⁻¹⁵ of the energy besides.",
             significant(solver, 2),
             significant(rounding, 2),
             significant(scene.solver.tolerance, 1),

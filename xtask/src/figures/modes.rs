@@ -34,9 +34,9 @@ pub fn partials(scene: &Scene, string: usize, numbers: &[usize], samples: usize)
     let mut courses = vec![Vec::with_capacity(samples); numbers.len()];
     let mut simulation = Simulation::new(&alone)?;
     for _ in 0..samples {
-        let heights = simulation.string(0).state.displacement();
         for (course, weights) in courses.iter_mut().zip(&weights) {
-            course.push(heights.iter().zip(weights).map(|(u, w)| u * w).sum::<f64>());
+            let heights = simulation.string(0).state.displacement();
+            course.push(heights.zip(weights).map(|(u, w)| u * w).sum::<f64>());
         }
         simulation.step();
     }

@@ -80,9 +80,9 @@ fn settings(draw: &mut Draw) -> EngineSettings {
 fn sound(instrument: &mut Instrument) -> f64 {
     let (mut left, mut right) = ([0.0f32; BLOCK], [0.0f32; BLOCK]);
     instrument.process(&mut left, &mut right);
-    let near = |u: &f64| u.is_finite() && u.abs() < 1e3;
+    let near = |u: f64| u.is_finite() && u.abs() < 1e3;
     let still =
-        (0..instrument.string_count()).all(|string| instrument.state(string).displacement().iter().all(near));
+        (0..instrument.string_count()).all(|string| instrument.state(string).displacement().all(near));
     if !still {
         return f64::INFINITY;
     }

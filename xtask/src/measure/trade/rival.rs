@@ -13,7 +13,7 @@ use anyhow::{Context, Result, ensure};
 use low_action_dsp::contact::ContactLaw;
 use low_action_dsp::curve::Curve;
 use low_action_dsp::gesture::raised_cosine;
-use low_action_dsp::grid::{NUT, Reading};
+use low_action_dsp::grid::Reading;
 use low_action_dsp::model::{ContactKind, Stiffness};
 use low_action_dsp::scene::PluckSpec;
 use low_action_dsp::{Barrier, Model, Scene, StringParameters};
@@ -26,7 +26,7 @@ pub struct Rival {
     stiffness: Stiffness,
     samples: u64,
     step: u64,
-    /// uⁿ, and uⁿ − uⁿ⁻¹, over the padded grid, m.
+    /// uⁿ, and uⁿ − uⁿ⁻¹, at the nodes in order, m.
     displacement: Vec<f64>,
     motion: Vec<f64>,
     /// h²D_xx and h⁴D_xxxx of uⁿ, and the motion to come.
@@ -86,7 +86,7 @@ impl Rival {
             })
         });
         let finger = finger.transpose().context("the finger")?;
-        let room = || vec![0.0; model.grid.padded_len()];
+        let room = || vec![0.0; model.grid.intervals + 1];
         Ok(Rival {
             stiffness: model.stiffness(model.string.tension),
             samples: (scene.duration * scene.sample_rate).ceil() as u64,
@@ -148,7 +148,7 @@ impl Rival {
     pub fn penetration(&self) -> f64 {
         let fixed = self.rows.iter().filter_map(|row| row.fixed).map(|index| {
             let contact = &self.model.contacts[index];
-            contact.height - contact.reading.of(&self.displacement)
+            contact.height - read(&contact.reading, &self.displacement)
         });
         fixed.fold(0.0, f64::max)
     }
@@ -168,8 +168,8 @@ impl Rival {
     fn free_string(&mut self, time: f64) -> Pull {
         let Self { model, stiffness, displacement: u, motion: d, second, fourth, next, .. } = self;
         let (string, k, h) = (&model.string, model.grid.time_step, model.grid.spacing);
-        let (h2, last) = (h * h, NUT + model.grid.intervals);
-        let inner = NUT + 1..last;
+        let (h2, last) = (h * h, model.grid.intervals);
+        let inner = 1..last;
         for i in inner.clone() {
             second[i] = (u[i + 1] - u[i]) - (u[i] - u[i - 1]);
         }
@@ -197,7 +197,7 @@ impl Rival {
             let since = time - pluck.start;
             if since >= 0.0 && since <= pluck.duration {
                 let force = pluck.force * raised_cosine(since, pluck.duration);
-                reading.spread(next, k2 / (string.linear_density * h) * force);
+                spread(reading, next, k2 / (string.linear_density * h) * force);
             }
         }
         let s = 1.0 + string.loss_0 * k;
@@ -207,11 +207,11 @@ impl Rival {
         }
         // A⁻¹ = (1/s)(1 − a aᵀ/(s + aᵀa)) with a = strength · second.
         let share = strength * strength / (s + strength * strength * square);
-        for i in NUT + 1..last {
+        for i in 1..last {
             next[i] = (next[i] - share * with_motion * second[i]) / s;
         }
         let stretched = if strength > 0.0 {
-            let steep: f64 = (NUT..last).map(|i| (u[i + 1] - u[i]) * (u[i + 1] - u[i])).sum();
+            let steep: f64 = (0..last).map(|i| (u[i + 1] - u[i]) * (u[i + 1] - u[i])).sum();
             string.axial_stiffness() / (2.0 * string.length * h) * steep
         } else {
             0.0
@@ -224,9 +224,9 @@ impl Rival {
 
     /// Moves string and finger on.
     fn apply(&mut self, pull: &Pull, felt: f64) {
-        let last = NUT + self.model.grid.intervals;
+        let last = self.model.grid.intervals;
         for row in &self.rows {
-            row.reading.spread(&mut self.next, row.sign * pull.mobility * row.force);
+            spread(&row.reading, &mut self.next, row.sign * pull.mobility * row.force);
             match (row.fixed, &mut self.finger) {
                 (Some(index), _) => self.psi[index] = row.psi,
                 (None, Some(finger)) => {
@@ -237,12 +237,25 @@ impl Rival {
                 (None, None) => {}
             }
         }
-        for i in NUT + 1..last {
+        for i in 1..last {
             self.next[i] -= pull.mobility * pull.share * felt * self.second[i];
             self.motion[i] = self.next[i];
             self.displacement[i] += self.next[i];
         }
     }
+}
+
+/// What is read of values at the nodes in order.
+fn read(reading: &Reading, values: &[f64]) -> f64 {
+    values[reading.first..].iter().zip(reading.weights).map(|(value, weight)| value * weight).sum()
+}
+
+/// Adds `amount` times the weights to them.
+fn spread(reading: &Reading, values: &mut [f64], amount: f64) {
+    values[reading.first..]
+        .iter_mut()
+        .zip(reading.weights)
+        .for_each(|(value, weight)| *value += weight * amount);
 }
 
 /// How the string answers forces: m/N at a grid point, and what stretching takes off.

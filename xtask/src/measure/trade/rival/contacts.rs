@@ -4,7 +4,7 @@ use low_action_dsp::contact::ContactLaw;
 use low_action_dsp::grid::Reading;
 use low_action_dsp::model::Contact;
 
-use super::{Pull, Rival};
+use super::{Pull, Rival, read};
 
 /// A contact in one step.
 pub(super) struct Row {
@@ -39,7 +39,8 @@ impl Rival {
             self.patience = LOOK;
             let fastest = self.motion.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
             let room = 1e-5 + HASTE * f64::from(LOOK) * fastest;
-            let reach = |contact: &Contact| contact.reading.of(&self.displacement) - contact.height < room;
+            let reach =
+                |contact: &Contact| read(&contact.reading, &self.displacement) - contact.height < room;
             self.near.clear();
             let contacts = self.model.contacts.iter().enumerate();
             let near = contacts.filter(|(i, contact)| self.psi[*i] != 0.0 || reach(contact));
@@ -48,12 +49,12 @@ impl Rival {
         self.patience -= 1;
         for &index in &self.near {
             let contact = &self.model.contacts[index];
-            let penetration = contact.height - contact.reading.of(&self.displacement);
+            let penetration = contact.height - read(&contact.reading, &self.displacement);
             let psi = self.psi[index];
             if penetration <= 0.0 && psi == 0.0 {
                 continue;
             }
-            let change = -(contact.reading.of(&self.next) + contact.reading.of(&self.motion));
+            let change = -(read(&contact.reading, &self.next) + read(&contact.reading, &self.motion));
             self.rows.push(Row {
                 fixed: Some(index),
                 reading: contact.reading,
@@ -69,8 +70,8 @@ impl Rival {
         let Some(finger) = &mut self.finger else { return };
         let (mass, damped) = (finger.mass, 0.5 * finger.hand_damping * k);
         let before = finger.height - finger.motion;
-        let past = |reading: &Reading| reading.of(&self.displacement) - reading.of(&self.motion);
-        let penetration = finger.reading.of(&self.displacement) - finger.height;
+        let past = |reading: &Reading| read(reading, &self.displacement) - read(reading, &self.motion);
+        let penetration = read(&finger.reading, &self.displacement) - finger.height;
         let penetration_before = past(&finger.reading) - before;
         let push = k * k * finger.force.at(time);
         finger.motion = ((mass - damped) * finger.motion - push) / (mass + damped);
@@ -78,7 +79,7 @@ impl Rival {
         finger.reading = self.model.grid.reading(finger.position.at(next_time));
         let (reading, psi) = (finger.reading, finger.psi);
         if penetration > 0.0 || psi != 0.0 {
-            let after = reading.of(&self.displacement) + reading.of(&self.next) - finger.height;
+            let after = read(&reading, &self.displacement) + read(&reading, &self.next) - finger.height;
             let change = after - penetration_before;
             self.rows.push(Row {
                 fixed: None,
@@ -100,7 +101,7 @@ impl Rival {
         if count == 0 {
             return 0.0;
         }
-        let felt: Vec<f64> = self.rows.iter().map(|row| row.sign * row.reading.of(second)).collect();
+        let felt: Vec<f64> = self.rows.iter().map(|row| row.sign * read(&row.reading, second)).collect();
         let answer = |i: usize, j: usize| {
             let (a, b) = (&self.rows[i], &self.rows[j]);
             let direct = a.sign * b.sign * a.reading.overlap(&b.reading) - pull.share * felt[i] * felt[j];

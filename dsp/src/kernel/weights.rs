@@ -1,0 +1,35 @@
+//! The coefficients of a prediction.
+
+use crate::model::{Model, Stiffness};
+
+/// Coefficients of one prediction in undivided differences, all times 1/s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Weights {
+    /// Of the motion at a point itself.
+    pub(super) motion: f64,
+    /// Of v, by distance.
+    pub(super) near: [f64; 3],
+    /// Of the motion on either side.
+    pub(super) beside: f64,
+}
+
+impl Weights {
+    /// The weights of a model at a stiffness.
+    pub fn new(model: &Model, stiffness: &Stiffness) -> Self {
+        let (k, h2) = (model.grid.time_step, model.grid.spacing * model.grid.spacing);
+        let k2 = k * k * model.inverse_s;
+        let second = k2 * stiffness.tension / (model.string.linear_density * h2);
+        let fourth = k2 * stiffness.kappa_2 / (h2 * h2);
+        let sixth = k2 * stiffness.kappa_6 / (h2 * h2 * h2);
+        let loss = 2.0 * model.string.loss_1 * k * model.inverse_s / h2;
+        // A multiple of 2⁻⁵² as `decay` is, so that their difference is exact: a string that moves as a whole
+        // decays by `decay` and no rounding.
+        let beside = (1.0 + loss) - 1.0;
+        // second·v − fourth·δ²v + sixth·δ⁴v, gathered by neighbour; decay·d + loss·δ²d likewise.
+        Weights {
+            motion: model.decay - 2.0 * beside,
+            near: [second + 2.0 * fourth + 6.0 * sixth, -fourth - 4.0 * sixth, sixth],
+            beside,
+        }
+    }
+}
