@@ -9,11 +9,11 @@ use crate::settings::EngineSettings;
 /// How much computing a sound may take.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quality {
-    /// Least work: every string at the host's rate, contacts to 1e-9 m. Thin strings rattle too long after hard
+    /// Least work: every string at the host's rate, contacts to 1e-8 m. Thin strings rattle too long after hard
     /// plucks.
     Draft,
     /// For playing: grids no wider than 6 mm, so that thin strings take two or three steps a sample; contacts to
-    /// 1e-10 m.
+    /// 1e-9 m.
     #[default]
     Live,
     /// For a finished recording: grids no wider than 3 mm.
@@ -47,7 +47,7 @@ impl Quality {
             Self::Draft => "least work, thin strings buzz too long",
             Self::Live => "within 1 cent, buzz within 50 %",
             Self::Studio => "3 × the work, buzz within 25 %",
-            Self::Reference => "9 × the work, buzz within 15 %",
+            Self::Reference => "8 × the work, buzz within 15 %",
         }
     }
 

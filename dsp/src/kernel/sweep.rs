@@ -19,6 +19,15 @@ struct Sums<S: Simd> {
     motion: S::f64s,
 }
 
+impl<S: Simd> Sums<S> {
+    /// Adds the differences of a row to the one before, where it moves.
+    #[inline(always)]
+    fn add_slope(&mut self, simd: S, keep: S::f64s, slope: S::f64s) {
+        let slope = simd.mul_f64s(keep, slope);
+        add_product(simd, &mut self.steepness, slope, slope);
+    }
+}
+
 /// Weights in every lane.
 struct Splat<S: Simd> {
     motion: S::f64s,
@@ -30,18 +39,17 @@ struct Splat<S: Simd> {
 struct Around<S: Simd> {
     /// u two rows ahead.
     ahead: S::f64s,
-    /// Differences u − (u of the row before): of the present row and the next two.
-    slopes: [S::f64s; 3],
+    /// Its difference to the row before.
+    slope: S::f64s,
     /// v from two rows before to one ahead.
     v: [S::f64s; 4],
-    /// d of the row before and of this one.
-    d: [S::f64s; 2],
 }
 
 impl<S: Simd> Around<S> {
-    /// Around the first row, of the three rows of u before it and the three from it on, and two of d.
+    /// Around the first row, of the three rows of u before it and the three from it on, and where the first three move.
+    /// Adds up their slopes.
     #[inline(always)]
-    fn first(simd: S, u: [S::f64s; 6], d: [S::f64s; 2]) -> Self {
+    fn first(simd: S, u: [S::f64s; 6], keep: [S::f64s; 3], sums: &mut Sums<S>) -> Self {
         let slopes = [
             simd.sub_f64s(u[1], u[0]),
             simd.sub_f64s(u[2], u[1]),
@@ -55,10 +63,15 @@ impl<S: Simd> Around<S> {
             simd.sub_f64s(slopes[3], slopes[2]),
             simd.sub_f64s(slopes[4], slopes[3]),
         ];
-        Around { ahead: u[5], slopes: [slopes[2], slopes[3], slopes[4]], v, d }
+        sums.add_slope(simd, keep[0], slopes[2]);
+        sums.add_slope(simd, keep[1], slopes[3]);
+        sums.add_slope(simd, keep[2], slopes[4]);
+        Around { ahead: u[5], slope: slopes[4], v }
     }
 
-    /// v and w of the present row, given u three rows ahead and d one; goes on to the next.
+    /// v and w of the present row, given u three rows ahead, where that moves if it is not one of the first again, and d
+    /// of the rows before, here and after; goes on to the next. (d is read anew each time: where there are sixteen
+    /// registers they are needed for the sums.)
     ///
     /// The difference of differences is exact but for rounding of the differences themselves, so that the
     /// force on a smooth string is good to its own last digits and not to those of u.
@@ -67,13 +80,17 @@ impl<S: Simd> Around<S> {
         &mut self,
         simd: S,
         weights: &Splat<S>,
-        (u, d, keep): (S::f64s, S::f64s, S::f64s),
+        (u, moving): (S::f64s, Option<S::f64s>),
+        d: [S::f64s; 3],
+        keep: S::f64s,
         sums: &mut Sums<S>,
     ) -> [S::f64s; 2] {
-        let [slope, next, last] = self.slopes;
-        let far = simd.sub_f64s(u, self.ahead);
-        let v = [self.v[0], self.v[1], self.v[2], self.v[3], simd.sub_f64s(far, last)];
-        let here = self.d[1];
+        let slope = simd.sub_f64s(u, self.ahead);
+        let v = [self.v[0], self.v[1], self.v[2], self.v[3], simd.sub_f64s(slope, self.slope)];
+        if let Some(moving) = moving {
+            sums.add_slope(simd, moving, slope);
+        }
+        let here = d[1];
         let mut value = simd.mul_f64s(weights.near[0], v[2]);
         if REACH > 0 {
             let beside = simd.add_f64s(v[1], v[3]);
@@ -84,20 +101,18 @@ impl<S: Simd> Around<S> {
             value = simd.add_f64s(value, simd.mul_f64s(weights.near[2], far));
         }
         if LOSS {
-            let beside = simd.add_f64s(self.d[0], d);
+            let beside = simd.add_f64s(d[0], d[2]);
             value = simd.add_f64s(value, simd.mul_f64s(weights.beside, beside));
         }
         value = simd.add_f64s(value, simd.mul_f64s(weights.motion, here));
         let w = simd.mul_f64s(keep, value);
         let curvature = simd.mul_f64s(keep, v[2]);
-        let slope = simd.mul_f64s(keep, slope);
-        add_product(simd, &mut sums.steepness, slope, slope);
         add_product(simd, &mut sums.motion, here, here);
         if STRETCH {
             add_product(simd, &mut sums.change, curvature, simd.sub_f64s(w, here));
             add_product(simd, &mut sums.curvature, curvature, curvature);
         }
-        *self = Around { ahead: u, slopes: [next, last, far], v: [v[1], v[2], v[3], v[4]], d: [here, d] };
+        *self = Around { ahead: u, slope, v: [v[1], v[2], v[3], v[4]] };
         [curvature, w]
     }
 }
@@ -115,18 +130,22 @@ struct Lanes<'a, S: Simd> {
 }
 
 impl<S: Simd> Lanes<'_, S> {
-    /// Predicts a row from u three rows ahead and d one.
+    /// Predicts a row from u three rows ahead and d around it.
     #[inline(always)]
     fn predict<const REACH: usize, const STRETCH: bool, const LOSS: bool>(
         &mut self,
         at: usize,
-        u: &Row,
-        d: &Row,
+        (u, moving): (&Row, Option<&Row>),
+        d: [&Row; 3],
     ) {
         let part = self.part;
-        let ahead = (part_of::<S>(u, part), part_of::<S>(d, part), part_of::<S>(&self.keep[at], part));
+        let moving = moving.map(|moving| part_of::<S>(moving, part));
+        let u = part_of::<S>(u, part);
+        let d = [part_of::<S>(d[0], part), part_of::<S>(d[1], part), part_of::<S>(d[2], part)];
+        let keep = part_of::<S>(&self.keep[at], part);
         let sums = &mut self.sums;
-        let [v, w] = self.around.step::<REACH, STRETCH, LOSS>(self.simd, self.weights, ahead, sums);
+        let [v, w] =
+            self.around.step::<REACH, STRETCH, LOSS>(self.simd, self.weights, (u, moving), d, keep, sums);
         S::as_mut_simd_f64s(&mut self.v[at]).0[part] = v;
         S::as_mut_simd_f64s(&mut self.w[at]).0[part] = w;
     }
@@ -165,6 +184,7 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> WithSimd
         let mut totals = [[0.0; LANES]; 4];
         for part in 0..vectors::<S>() {
             let zero = simd.splat_f64s(0.0);
+            let mut sums = Sums { steepness: zero, change: zero, curvature: zero, motion: zero };
             let mut lanes = Lanes {
                 simd,
                 part,
@@ -180,18 +200,27 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> WithSimd
                         part_of::<S>(&u[1], part),
                         part_of::<S>(&u[2], part),
                     ],
-                    [part_of::<S>(&d_before[0], part), part_of::<S>(&d[0], part)],
+                    [
+                        part_of::<S>(&keep[0], part),
+                        part_of::<S>(&keep[1], part),
+                        part_of::<S>(&keep[2], part),
+                    ],
+                    &mut sums,
                 ),
-                sums: Sums { steepness: zero, change: zero, curvature: zero, motion: zero },
+                sums,
                 v,
                 w,
             };
-            for at in 0..count - 3 {
-                lanes.predict::<REACH, STRETCH, LOSS>(at, &u[at + 3], &d[at + 1]);
+            let [d_first, d_last] =
+                [[&d_before[0], &d[0], &d[1]], [&d[count - 2], &d[count - 1], &d_after[0]]];
+            let around = |at: usize| [&d[at - 1], &d[at], &d[at + 1]];
+            lanes.predict::<REACH, STRETCH, LOSS>(0, (&u[3], Some(&keep[3])), d_first);
+            for at in 1..count - 3 {
+                lanes.predict::<REACH, STRETCH, LOSS>(at, (&u[at + 3], Some(&keep[at + 3])), around(at));
             }
-            lanes.predict::<REACH, STRETCH, LOSS>(count - 3, &u_after[0], &d[count - 2]);
-            lanes.predict::<REACH, STRETCH, LOSS>(count - 2, &u_after[1], &d[count - 1]);
-            lanes.predict::<REACH, STRETCH, LOSS>(count - 1, &u_after[2], &d_after[0]);
+            lanes.predict::<REACH, STRETCH, LOSS>(count - 3, (&u_after[0], None), around(count - 3));
+            lanes.predict::<REACH, STRETCH, LOSS>(count - 2, (&u_after[1], None), around(count - 2));
+            lanes.predict::<REACH, STRETCH, LOSS>(count - 1, (&u_after[2], None), d_last);
             let Sums { steepness, change, curvature, motion } = lanes.sums;
             for (total, sum) in totals.iter_mut().zip([steepness, change, curvature, motion]) {
                 S::as_mut_simd_f64s(total).0[part] = sum;

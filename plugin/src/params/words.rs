@@ -87,8 +87,8 @@ pub fn heard_of(quality: Quality) -> &'static str {
              cent."
         }
         Quality::Reference => {
-            "Nine times the work of Live: more than there is time for when six strings ring. There to compare with; \
-             one cannot hear what it adds."
+            "Eight times the work of Live: as much as a fast computer just has time for when six strings ring. There to \
+             compare with; one cannot hear what it adds."
         }
     }
 }
