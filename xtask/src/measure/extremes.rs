@@ -19,7 +19,6 @@ use anyhow::{Context, Result, bail};
 use clap::Parser;
 
 use campaign::Campaign;
-use low_action_dsp::Setup;
 pub use trial::{Fault, Outcome, Record, TOLERANCE, Trial};
 
 /// Draws absurd but legal scenes and event streams and holds each to its promises: always finite, energy never
@@ -101,14 +100,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     }
     let tables = tally.tables();
     println!("{tables}");
-    for name in Setup::BUILTIN {
-        let seen = playing::play(name, seed, playing / Setup::BUILTIN.len() as f64)?;
-        println!(
-            "hard playing on {name}: finite, loudest sample {:.3e}; balance open by at most {:.0e} through {} exchanged \
-             set-ups",
-            seen.loudest, seen.open, seen.exchanges
-        );
-    }
+    playing::play_all(seed, playing, campaign.threads)?;
     let section = if arguments.quick { "quick" } else { "full" };
     let page = root.join("docs/stability.md");
     if arguments.write {

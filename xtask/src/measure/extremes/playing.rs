@@ -2,7 +2,10 @@
 //! random many times a second, while other set-ups take over the ringing strings and the solver's effort changes
 //! from block to block.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use anyhow::{Result, bail, ensure};
+use indicatif::{ProgressBar, ProgressStyle};
 use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture};
 
 use super::draw::Draw;
@@ -12,20 +15,51 @@ const RATE: f64 = 48e3;
 const BLOCK: usize = 480;
 
 /// What was seen of one instrument.
-pub struct Seen {
+struct Seen {
     /// The loudest sample.
-    pub loudest: f64,
+    loudest: f64,
     /// Set-ups that took over.
-    pub exchanges: u32,
+    exchanges: u32,
     /// The most that the balance of a string was open, as a part of what was put in.
-    pub open: f64,
+    open: f64,
+}
+
+/// Plays all built-in instruments, so many seconds of audio between them, and says of each how it went.
+///
+/// # Errors
+/// As [`play`].
+pub fn play_all(seed: u64, seconds: f64, threads: usize) -> Result<()> {
+    let names = Setup::BUILTIN;
+    let each = seconds / names.len() as f64;
+    let style =
+        ProgressStyle::with_template("{wide_bar} {percent} % of hard playing, {elapsed} of {duration}")?;
+    let progress = ProgressBar::new((seconds * RATE) as u64).with_style(style);
+    let next = AtomicUsize::new(0);
+    let work = || -> Result<()> {
+        while let Some(name) = names.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let Seen { loudest, exchanges, open } = play(name, seed, each, &progress)?;
+            progress.suspend(|| {
+                println!(
+                    "hard playing on {name}, {each} s: finite, loudest sample {loudest:.3e}; balance open by at \
+                     most {open:.0e} through {exchanges} exchanged set-ups"
+                );
+            });
+        }
+        Ok(())
+    };
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..threads.clamp(1, names.len())).map(|_| scope.spawn(work)).collect();
+        threads.into_iter().try_for_each(|thread| thread.join().expect("playing does not panic"))
+    })?;
+    progress.finish_and_clear();
+    Ok(())
 }
 
 /// Plays one built-in instrument for so many seconds of audio.
 ///
 /// # Errors
 /// When a sample or a string is not finite, energy is above what was put in, or a balance is open.
-pub fn play(name: &str, seed: u64, seconds: f64) -> Result<Seen> {
+fn play(name: &str, seed: u64, seconds: f64, progress: &ProgressBar) -> Result<Seen> {
     let mut draw = Draw::new(seed, name.len() as u64);
     let mut seen = Seen { loudest: 0.0, exchanges: 0, open: 0.0 };
     let mut setup = other_setup(name, &mut draw)?;
@@ -61,6 +95,7 @@ pub fn play(name: &str, seed: u64, seconds: f64) -> Result<Seen> {
             })?;
             seen.open = seen.open.max(open);
         }
+        progress.inc(BLOCK as u64);
     }
     Ok(seen)
 }
