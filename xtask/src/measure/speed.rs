@@ -8,6 +8,7 @@ use std::process::Command;
 use anyhow::{Context, Result, ensure};
 use clap::Parser;
 
+use super::features::callgrind_is_there;
 use super::page;
 
 /// Where the table stands.
@@ -28,11 +29,17 @@ struct Arguments {
     /// Do not run the benchmarks, take what the last run found.
     #[arg(long)]
     last: bool,
+    /// Play so many samples of the chord that buzzes, as callgrind is told to.
+    #[arg(long, hide = true)]
+    buzz: Option<usize>,
 }
 
 /// Runs the measurement.
 pub fn run(arguments: Vec<String>) -> Result<()> {
     let Some(arguments) = super::parse::<Arguments>(arguments)? else { return Ok(()) };
+    if let Some(samples) = arguments.buzz {
+        return buzz::play(samples);
+    }
     if !arguments.last {
         let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
             .args(["bench", "--package", "low-action-dsp"])
@@ -101,8 +108,16 @@ fn table() -> Result<String> {
         "",
     );
     row("100 frets that nothing touches over one", times(mean("frets", "100")?, mean("frets", "1")?), "1 ×");
+    let times = |work: &buzz::Work| format!("{:.1} ×", work.most / work.mean);
     let buzz = buzz::iterations()?;
-    let found = format!("{:.1} × ({} and {:.2})", f64::from(buzz.most) / buzz.mean, buzz.most, buzz.mean);
+    let found = format!("{} ({} and {:.2})", times(&buzz), buzz.most, buzz.mean);
     row("heavy buzzing chord: Newton iterations of the worst sample over the mean", found, "6 ×");
+    let found = if callgrind_is_there() {
+        let buzz = buzz::instructions()?;
+        format!("{} ({:.0} and {:.0})", times(&buzz), buzz.most, buzz.mean)
+    } else {
+        "not counted: valgrind is not there".into()
+    };
+    row("… instructions", found, "6 ×");
     Ok(text)
 }

@@ -57,12 +57,18 @@ pub fn instructions_of(program: &Path, case: &Case) -> Result<f64> {
 
 /// Instructions of a whole run of this program.
 fn total_instructions(program: &Path, name: &str, count: bool) -> Result<f64> {
-    let out = scratch_file(name, count);
     let mode = if count { "counted" } else { "warm-up" };
+    instructions_of_run(program, None, &["measure", "features", "--case", name, "--part", mode])
+}
+
+/// Instructions of a run of a program, or of what runs in a function of it whose name contains a word.
+pub fn instructions_of_run(program: &Path, within: Option<&str>, arguments: &[&str]) -> Result<f64> {
+    let out = scratch_file(&arguments.concat());
     let run = Command::new("valgrind")
         .args(["--tool=callgrind", &format!("--callgrind-out-file={}", out.display())])
+        .args(within.map(|word| format!("--toggle-collect=*{word}*")))
         .arg(program)
-        .args(["measure", "features", "--case", name, "--part", mode])
+        .args(arguments)
         .output()
         .context("valgrind cannot be run")?;
     ensure!(run.status.success(), "callgrind failed: {}", String::from_utf8_lossy(&run.stderr));
@@ -71,9 +77,9 @@ fn total_instructions(program: &Path, name: &str, count: bool) -> Result<f64> {
     total
 }
 
-fn scratch_file(name: &str, count: bool) -> PathBuf {
+fn scratch_file(name: &str) -> PathBuf {
     let word: String = name.chars().filter(char::is_ascii_alphanumeric).collect();
-    std::env::temp_dir().join(format!("low-action-{}-{word}-{count}.callgrind", std::process::id()))
+    std::env::temp_dir().join(format!("low-action-{}-{word}.callgrind", std::process::id()))
 }
 
 /// The total of a callgrind file.

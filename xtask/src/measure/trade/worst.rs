@@ -1,14 +1,13 @@
 //! Instructions of the sample with most work, which callgrind counts.
 
-use std::process::Command;
-
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use low_action_dsp::Simulation;
 
 use super::Outcome;
 use super::rival::Rival;
 use super::scenes::SCENES;
 use super::settings::{Law, all};
+use crate::measure::features::instructions_of_run;
 
 /// Which sample: setting, scene, string and step.
 type Place = (usize, usize, usize, u64);
@@ -28,21 +27,9 @@ pub fn count(outcomes: &mut [Outcome]) -> Result<()> {
 
 /// Has callgrind count one sample, in a process of its own.
 fn instructions((setting, scene, string, step): Place) -> Result<f64> {
-    let out = std::env::temp_dir().join(format!("low-action-{}-{setting}.callgrind", std::process::id()));
     let program = std::env::current_exe().context("this program has no path")?;
-    let run = Command::new("valgrind")
-        .args(["--tool=callgrind", "--toggle-collect=*the_worst_sample*"])
-        .arg(format!("--callgrind-out-file={}", out.display()))
-        .arg(program)
-        .args(["measure", "trade", "--sample", &format!("{setting},{scene},{string},{step}")])
-        .output()
-        .context("valgrind cannot be run")?;
-    ensure!(run.status.success(), "callgrind failed: {}", String::from_utf8_lossy(&run.stderr));
-    let text = std::fs::read_to_string(&out).with_context(|| format!("cannot read {}", out.display()))?;
-    std::fs::remove_file(&out).ok();
-    let total =
-        text.lines().find_map(|line| line.strip_prefix("totals: ").or(line.strip_prefix("summary: ")));
-    total.and_then(|total| total.trim().parse().ok()).context("callgrind wrote no totals")
+    let sample = format!("{setting},{scene},{string},{step}");
+    instructions_of_run(&program, Some("the_worst_sample"), &["measure", "trade", "--sample", &sample])
 }
 
 /// Plays up to a sample, and the sample.
