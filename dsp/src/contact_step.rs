@@ -111,7 +111,7 @@ impl State {
     #[cold]
     fn begin_again(&mut self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
         for index in 0..scratch.active.len() {
-            let free = scratch.free_motion(&scratch.active[index].reading, free_pull);
+            let free = scratch.free(&scratch.active[index].reading, free_pull).motion;
             let active = &mut scratch.active[index];
             active.base = 0.0;
             active.expected = active.change;

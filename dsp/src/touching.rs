@@ -25,11 +25,21 @@ impl Under {
     }
 }
 
+/// What a contact reads of a step without contact forces.
+#[derive(Clone, Copy)]
+pub(crate) struct Free {
+    /// Motion to n + 1, m.
+    pub motion: f64,
+    /// Undivided second difference of uⁿ, m.
+    pub curvature: f64,
+}
+
 impl Scratch {
-    /// The motion of a point to n + 1 without contact forces.
+    /// The motion of a point to n + 1 without contact forces, and the second difference there.
     #[inline(always)]
-    pub(crate) fn free_motion(&self, reading: &Reading, free_pull: f64) -> f64 {
-        reading.of(&self.prediction) - free_pull * reading.of(&self.curvature)
+    pub(crate) fn free(&self, reading: &Reading, free_pull: f64) -> Free {
+        let curvature = reading.of(&self.curvature);
+        Free { motion: reading.of(&self.prediction) - free_pull * curvature, curvature }
     }
 }
 
@@ -53,8 +63,8 @@ impl State {
             }
             let reading = &model.contacts[index].reading;
             let before = self.heights_before[index] - close.before;
-            let free = scratch.free_motion(reading, free_pull);
-            let after = self.heights_next[index] - (close.displacement + free);
+            let free = scratch.free(reading, free_pull);
+            let after = self.heights_next[index] - (close.displacement + free.motion);
             if before > 0.0 || after > 0.0 {
                 self.activate(model, index, before, free, scratch);
             }
@@ -63,7 +73,7 @@ impl State {
 
     /// Adds a fixed contact.
     #[inline(always)]
-    fn activate(&self, model: &Model, index: usize, before: f64, free: f64, scratch: &mut Scratch) {
+    fn activate(&self, model: &Model, index: usize, before: f64, free: Free, scratch: &mut Scratch) {
         let contact = &model.contacts[index];
         let raised = self.heights_next[index] - self.heights_before[index];
         let motion = contact.reading.of(&self.motion);
@@ -78,11 +88,11 @@ impl State {
             before: Before::new(&contact.law, before),
             rest,
             base: 0.0,
-            centre: -(free + rest),
+            centre: -(free.motion + rest),
             raised,
             own_mobility: 0.0,
             mobility: model.mobility,
-            pull: contact.reading.of(&scratch.curvature),
+            pull: free.curvature,
             expected: raised - 2.0 * motion,
             force: 0.0,
             change: 0.0,
@@ -139,8 +149,8 @@ impl State {
             let reading = finger.reading;
 
             let before = past.before() - (height - motion);
-            let string_free = scratch.free_motion(&reading, free_pull);
-            let after = here.place + string_free - (height + free);
+            let string_free = scratch.free(&reading, free_pull);
+            let after = here.place + string_free.motion - (height + free);
             let slid = if reading.same_place(&reading_before) { 0.0 } else { here.before() - past.before() };
             let rest = (free + motion) - slid - here.motion;
             let penetration = now.place - height;
@@ -154,11 +164,11 @@ impl State {
                 before: Before::new(&law, before),
                 rest,
                 base: 0.0,
-                centre: -(rest - string_free),
+                centre: -(rest - string_free.motion),
                 raised: 0.0,
                 own_mobility,
                 mobility: model.mobility,
-                pull: -reading.of(&scratch.curvature),
+                pull: -string_free.curvature,
                 expected: 2.0 * (now.motion - motion),
                 force: 0.0,
                 change: 0.0,
@@ -258,7 +268,7 @@ impl State {
             if close.displacement < self.heights_next[index] && scratch.held[index] != self.steps + 1 {
                 let reading = &model.contacts[index].reading;
                 let past = reading.of(&self.displacement) - reading.of(&self.motion);
-                let free = scratch.free_motion(reading, free_pull);
+                let free = scratch.free(reading, free_pull);
                 self.activate(model, index, self.heights_before[index] - past, free, scratch);
             }
         }
