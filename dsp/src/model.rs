@@ -108,6 +108,8 @@ pub struct Contact {
     pub reading: Reading,
     /// The contact law.
     pub law: ContactLaw,
+    /// Hunt–Crossley damping, s/m.
+    pub damping: f64,
     /// Height of the barrier, m, when the model is made.
     pub height: f64,
     /// What it is.
@@ -134,6 +136,8 @@ pub enum ContactKind {
 pub struct Barrier {
     /// Contact law of a fret, and of a board point unless `board_reference_spacing` is given.
     pub law: ContactLaw,
+    /// Hunt–Crossley damping of board and frets, s/m.
+    pub damping: f64,
     /// Height of the board, m, over places, m; none beyond the ends of its points.
     pub board: Option<Curve>,
     /// Places, m from the nut, and heights, m, of the crowns.
@@ -161,6 +165,7 @@ impl Barrier {
         };
         Ok(Barrier {
             law: ContactLaw::new("fretboard", spec.stiffness, spec.exponent)?,
+            damping: spec.damping,
             board: spec.board.clone(),
             frets: places.iter().enumerate().map(|(i, &x)| [x, height(i)]).collect(),
             placement: spec.fret_placement,
@@ -172,6 +177,7 @@ impl Barrier {
     /// for all: the barrier is one height at each point, and a fret at a grid point replaces the board.
     fn contacts(&self, grid: &Grid) -> Result<Vec<Contact>, Error> {
         let mut contacts = Vec::new();
+        let damping = self.damping;
         if let Some(board) = &self.board {
             let scale = self.board_reference_spacing.map_or(1.0, |spacing| grid.spacing / spacing);
             let law = self.law.with_stiffness(self.law.stiffness() * scale);
@@ -184,7 +190,7 @@ impl Barrier {
                 if !beyond {
                     let reading = Reading::at_node(grid, node);
                     let kind = ContactKind::Board { node };
-                    contacts.push(Contact { place, reading, law, height: board.at(place), kind });
+                    contacts.push(Contact { place, reading, law, damping, height: board.at(place), kind });
                 }
             }
         }
@@ -197,7 +203,8 @@ impl Barrier {
                     (grid.place(node), Reading::at_node(grid, node))
                 }
             };
-            let fret = Contact { place, reading, law: self.law, height, kind: ContactKind::Fret { index } };
+            let kind = ContactKind::Fret { index };
+            let fret = Contact { place, reading, law: self.law, damping, height, kind };
             let same = contacts.iter().position(|other| other.reading == reading);
             match same {
                 Some(i) if matches!(contacts[i].kind, ContactKind::Board { .. }) => contacts[i] = fret,
@@ -333,6 +340,17 @@ impl Model {
         Stiffness::new(self.settings.stencil, self.string.linear_density, tension, kappa, &self.grid)
     }
 
+    /// P = βφ(ηⁿ)/(2k), N/m, of a contact of damping β at a penetration: what its force gains for each metre by which it
+    /// is pressed in farther, as [steeply](STEEPEST) as doubles can tell at most.
+    #[inline(always)]
+    pub(crate) fn lossy(&self, law: &ContactLaw, damping: f64, penetration: f64, own_mobility: f64) -> f64 {
+        if damping == 0.0 || penetration <= 0.0 {
+            return 0.0;
+        }
+        let lossy = damping * law.force(penetration) / (2.0 * self.grid.time_step);
+        lossy.min(STEEPEST / (self.mobility + own_mobility))
+    }
+
     /// The law of a finger's pad.
     ///
     /// # Errors
@@ -355,7 +373,7 @@ const CONDITIONING: f64 = 1e10;
 
 /// Beyond this M φ′ a contact grows no steeper: it then yields 1e-8 of what the point would move without it,
 /// and the last digit of a motion still is 1e-8 of the force.
-pub(crate) const STEEPEST: f64 = 1e8;
+const STEEPEST: f64 = 1e8;
 
 /// The stiffest contact of an exponent, N/m^exponent, that is accepted where one newton moves a point by
 /// `mobility`, m/N, in a step: Mα K^(1/α) F^(1−1/α) ≤ 1e10 with F = 1 cm/M, M the mobility.

@@ -35,6 +35,9 @@ pub struct Neck {
     pub stiffness: f64,
     /// Exponent of the contact law, 1 to 5.
     pub exponent: f64,
+    /// Hunt–Crossley damping of frets and board, s/m.
+    #[serde(default)]
+    pub damping: f64,
     /// Spacing of points for which the stiffness holds for the board too, m: grids of other spacings
     /// share it out, so that the board is the same at every sample rate.
     pub board_reference_spacing: f64,
@@ -61,6 +64,7 @@ impl Neck {
             within("neck.worn, depth", *wear, 0.0, 0.02, "m")?;
         }
         ContactLaw::new("neck", self.stiffness, self.exponent)?;
+        within("neck.damping", self.damping, 0.0, 1e5, "s/m")?;
         within("neck.board_reference_spacing", self.board_reference_spacing, 1e-6, 1.0, "m").map(drop)
     }
 
@@ -123,6 +127,7 @@ impl Neck {
             .collect();
         Ok(Barrier {
             law: ContactLaw::new("neck", self.stiffness, self.exponent)?,
+            damping: self.damping,
             board: Some(Curve::Points(board)),
             frets: if self.fretless { Vec::new() } else { self.crowns(frets) },
             placement: FretPlacement::Exact,

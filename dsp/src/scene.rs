@@ -99,6 +99,9 @@ pub struct FretboardSpec {
     pub stiffness: f64,
     /// Exponent of the contact law, 1 to 5.
     pub exponent: f64,
+    /// Hunt–Crossley damping, s/m.
+    #[serde(default)]
+    pub damping: f64,
     /// Height of the board, m, or its profile `[[x, height], …]` (no board beyond its ends); without
     /// it there is no back board.
     pub board: Option<Curve>,
@@ -344,6 +347,7 @@ impl StringSpec {
 impl FretboardSpec {
     fn check(&self) -> Result<(), Error> {
         crate::contact::ContactLaw::new("fretboard", self.stiffness, self.exponent)?;
+        within("fretboard.damping", self.damping, 0.0, 1e5, "s/m")?;
         if let Some(board) = &self.board {
             board.check("fretboard.board", "place", -10.0, 0.0, "m")?;
         }

@@ -7,7 +7,7 @@ use crate::contact::Before;
 use crate::drive::Drive;
 use crate::finger::{FingerBefore, Inertia};
 use crate::grid::{READING_NORM, Reading};
-use crate::model::{Model, STEEPEST};
+use crate::model::Model;
 use crate::state::{Close, State};
 use crate::string::Scratch;
 
@@ -32,6 +32,13 @@ pub(crate) struct Free {
     pub motion: f64,
     /// Undivided second difference of uⁿ, m.
     pub curvature: f64,
+}
+
+/// Penetrations of a fixed contact at n − 1 and n, m.
+#[derive(Clone, Copy)]
+struct Overlap {
+    before: f64,
+    now: f64,
 }
 
 impl Scratch {
@@ -66,14 +73,14 @@ impl State {
             let free = scratch.free(reading, free_pull);
             let after = self.heights_next[index] - (close.displacement + free.motion);
             if before > 0.0 || after > 0.0 {
-                self.activate(model, index, before, free, scratch);
+                self.activate(model, index, Overlap { before, now }, free, scratch);
             }
         }
     }
 
     /// Adds a fixed contact.
     #[inline(always)]
-    fn activate(&self, model: &Model, index: usize, before: f64, free: Free, scratch: &mut Scratch) {
+    fn activate(&self, model: &Model, index: usize, overlap: Overlap, free: Free, scratch: &mut Scratch) {
         let contact = &model.contacts[index];
         let raised = self.heights_next[index] - self.heights_before[index];
         let motion = contact.reading.of(&self.motion);
@@ -84,8 +91,8 @@ impl State {
             reading: contact.reading,
             sign: 1.0,
             law: contact.law,
-            lossy: 0.0,
-            before: Before::new(&contact.law, before),
+            lossy: model.lossy(&contact.law, contact.damping, overlap.now, 0.0),
+            before: Before::new(&contact.law, overlap.before),
             rest,
             base: 0.0,
             centre: -(free.motion + rest),
@@ -113,7 +120,6 @@ impl State {
         resting: bool,
         scratch: &mut Scratch,
     ) {
-        let k = model.grid.time_step;
         for slot in 0..self.fingers.len() {
             let Some(finger) = &mut self.fingers[slot] else {
                 if scratch.fingers[slot].is_some() {
@@ -159,8 +165,7 @@ impl State {
                 reading,
                 sign: -1.0,
                 law,
-                lossy: (damping * law.force(penetration) / (2.0 * k))
-                    .min(STEEPEST / (model.mobility + own_mobility)),
+                lossy: model.lossy(&law, damping, penetration, own_mobility),
                 before: Before::new(&law, before),
                 rest,
                 base: 0.0,
@@ -267,9 +272,14 @@ impl State {
             let index = close.index as usize;
             if close.displacement < self.heights_next[index] && scratch.held[index] != self.steps + 1 {
                 let reading = &model.contacts[index].reading;
-                let past = reading.of(&self.displacement) - reading.of(&self.motion);
+                let displacement = reading.of(&self.displacement);
+                let past = displacement - reading.of(&self.motion);
+                let overlap = Overlap {
+                    before: self.heights_before[index] - past,
+                    now: self.heights[index] - displacement,
+                };
                 let free = scratch.free(reading, free_pull);
-                self.activate(model, index, self.heights_before[index] - past, free, scratch);
+                self.activate(model, index, overlap, free, scratch);
             }
         }
     }

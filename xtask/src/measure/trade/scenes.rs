@@ -247,6 +247,7 @@ fn fretboard(setup: &Setup, exponent: Option<f64>) -> Result<FretboardSpec> {
     Ok(FretboardSpec {
         stiffness,
         exponent,
+        damping: setup.neck.damping,
         board: barrier.board,
         frets: CountOrList::List(barrier.frets.iter().map(|fret| fret[0]).collect()),
         fret_top: Some(OneOrEach::Each(barrier.frets.iter().map(|fret| fret[1]).collect())),

@@ -62,7 +62,7 @@ impl Rival {
                 own: 0.0,
                 psi,
                 g: slope(&contact.law, penetration, psi, change),
-                lossy: 0.0,
+                lossy: contact.damping * contact.law.force(penetration) / (2.0 * k),
                 change,
                 force: 0.0,
             });
