@@ -78,6 +78,16 @@ fn a_panel_of_a_small_window() {
 }
 
 #[test]
+fn what_a_small_window_has_no_room_for() {
+    picture("small_more", 0.5, 1.0, |desk| {
+        desk.click(desk.named("›"));
+        desk.click(desk.named("More"));
+        desk.point(pos2(48.0, 24.0));
+        desk.wait(0.2);
+    });
+}
+
+#[test]
 fn the_keys_of_the_computer() {
     if can_draw() {
         let mut desk = Desk::alone();

@@ -1,6 +1,10 @@
 //! The top of the window: what is played, what can be compared and undone, what is wrong, how loud it is.
 
-use egui::{Align, Align2, Button, Layout, Rect, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::containers::menu::menu_style;
+use egui::{
+    Align, Align2, Button, Layout, Popup, PopupCloseBehavior, Rect, Role, Sense, Style, Ui, UiBuilder,
+    WidgetInfo, pos2, vec2,
+};
 
 use super::Given;
 use super::compare::Compare;
@@ -20,8 +24,13 @@ pub struct Header {
 const METER: f32 = 160.0;
 /// Height of the buttons, points.
 const BUTTON: f32 = 24.0;
-/// Room that A and B, undo and redo need beside the instrument, points.
+/// Room that A and B, undo and redo need beside the instrument, points; where there is less they are in a menu.
 const FOR_COMPARING: f32 = 560.0;
+/// Width of the button that opens it, and the least one of the menu, points.
+const MORE: f32 = 28.0;
+const MENU: f32 = 96.0;
+/// Width that the header must have for the program's name to be in it, points.
+const FOR_TITLE: f32 = 440.0;
 /// Lowest level shown, dB under full scale.
 const FLOOR: f32 = -60.0;
 /// How fast the meter falls, dB a second.
@@ -38,34 +47,51 @@ impl Header {
     pub fn show(&mut self, ui: &mut Ui, given: &Given) {
         let area = ui.max_rect();
         let middle = area.center().y;
-        let title = ui.painter().text(
-            pos2(area.left(), middle),
-            Align2::LEFT_CENTER,
-            "Low Action",
-            theme::HEADING,
-            theme::TEXT,
-        );
+        let mut left = area.left();
+        if area.width() >= FOR_TITLE {
+            let (place, align) = (pos2(left, middle), Align2::LEFT_CENTER);
+            let title = ui.painter().text(place, align, "Low Action", theme::HEADING, theme::TEXT);
+            left = title.right() + GAP;
+        }
         let width = METER.min(0.2 * area.width());
         let meter = Rect::from_min_size(pos2(area.right() - width, middle - 6.0), vec2(width, 12.0));
         self.show_meter(ui, given, meter);
-        let row = Rect::from_min_max(
-            pos2(title.right() + GAP, area.top()),
-            pos2(meter.left() - GAP, area.bottom()),
-        );
+        let row = Rect::from_min_max(pos2(left, area.top()), pos2(meter.left() - GAP, area.bottom()));
         let builder = UiBuilder::new().max_rect(row).layout(Layout::left_to_right(Align::Center));
         let taken = ui.scope_builder(builder, |ui| {
             ui.spacing_mut().item_spacing.x = TIGHT;
             ui.spacing_mut().interact_size.y = BUTTON;
-            self.presets.show(ui, given);
             if row.width() > FOR_COMPARING {
+                self.presets.show(ui, given, row.width());
                 ui.add_space(NEAR);
                 self.show_compare(ui, given);
                 ui.add_space(NEAR);
                 show_history(ui, given);
+            } else {
+                self.presets.show(ui, given, row.width() - TIGHT - MORE);
+                self.show_more(ui, given);
             }
         });
         let rest = row.with_min_x(taken.response.rect.right() + GAP);
         show_lights(ui, given, self.presets.problem(), rest);
+    }
+
+    /// A button, and behind it what has no room beside it; it stays open, since one compares more than once.
+    fn show_more(&mut self, ui: &mut Ui, given: &Given) {
+        let more = ui.add_sized(vec2(MORE, BUTTON), Button::new("…"));
+        more.widget_info(|| WidgetInfo::labeled(Role::Button, true, "More"));
+        let more = more.on_hover_text("More: A and B to compare, undo and redo");
+        let style = |style: &mut Style| {
+            menu_style(style);
+            style.spacing.button_padding = vec2(NEAR, TIGHT);
+        };
+        let menu = Popup::menu(&more).style(style).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+        menu.show(|ui| {
+            ui.set_min_width(MENU);
+            self.show_compare(ui, given);
+            ui.separator();
+            show_history(ui, given);
+        });
     }
 
     /// Two sets of values to hear one after the other.

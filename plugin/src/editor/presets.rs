@@ -14,9 +14,12 @@ use super::theme::{self, NEAR};
 use crate::params::{InstrumentChoice, LowActionParams};
 use crate::setups::{self, SHIPPED};
 
-/// Width of the name and of the list, points.
+/// Width of the name, where there is room and where there is little, and of the list, points.
 const WIDTH: f32 = 176.0;
+const NARROWEST: f32 = 48.0;
 const LIST: f32 = 280.0;
+/// Width of the buttons beside the name, points.
+const BESIDE: f32 = 94.0;
 /// Highest that the list is, points; what is longer scrolls.
 const HIGHEST: f32 = 400.0;
 
@@ -37,8 +40,9 @@ impl Presets {
         self.problem.as_deref()
     }
 
-    /// Shows what is played, what is beside it in the list, the list itself and the way to save.
-    pub fn show(&mut self, ui: &mut Ui, given: &Given) {
+    /// Shows what is played, what is beside it in the list, the list itself and the way to save, in a row of so many
+    /// points.
+    pub fn show(&mut self, ui: &mut Ui, given: &Given, room: f32) {
         let (chosen, count) = (chosen(given), SHIPPED.len() + given.params.shelf.count());
         if ui.button("‹").on_hover_text("The instrument before").clicked() {
             choose(given, chosen.map_or(0, |index| (index + count - 1) % count));
@@ -47,7 +51,8 @@ impl Presets {
         if is_changed(given.params) {
             title += " *";
         }
-        let size = vec2(WIDTH, ui.spacing().interact_size.y);
+        let width = (room - BESIDE).clamp(NARROWEST, WIDTH);
+        let size = vec2(width, ui.spacing().interact_size.y);
         let button = ui.add_sized(size, Button::new(title.as_str()).truncate());
         let button = button.on_hover_text("Instruments: those of the program and your own");
         Popup::menu(&button).width(LIST).show(|ui| {

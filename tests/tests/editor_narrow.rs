@@ -1,0 +1,102 @@
+//! Promise: everything at the top of the window can be reached at every width that it can have; what has no room there
+//! is in a menu, which mouse and keyboard open and use alike.
+
+use egui::{Key, Pos2, Rect, pos2, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+use low_action_tests::desk::Desk;
+
+/// What has no room in a narrow window.
+const MOVED: [&str; 5] = ["A", "B", "A to B", "Undo", "Redo"];
+
+/// The smallest window.
+fn desk() -> Desk {
+    let mut desk = Desk::sized(0.5, 1.0);
+    desk.wait(0.05);
+    desk
+}
+
+/// Clicks on things one after another.
+fn click(desk: &mut Desk, names: &[&str]) {
+    for name in names {
+        desk.click(desk.named(name));
+        desk.wait(0.1);
+    }
+}
+
+fn instrument(desk: &Desk) -> String {
+    desk.params.instrument.instrument.to_string()
+}
+
+fn is_seen(desk: &Desk, name: &str) -> bool {
+    desk.harness.query_by_label(name).is_some()
+}
+
+/// What has the focus.
+fn focused(desk: &Desk) -> Option<String> {
+    desk.harness.query_by(|node| node.is_focused()).and_then(|node| node.accesskit_node().label())
+}
+
+#[test]
+fn a_narrow_window_undoes_and_compares() {
+    let mut desk = desk();
+    click(&mut desk, &["›"]);
+    assert_eq!(instrument(&desk), "Classical");
+    assert!(MOVED.iter().all(|name| !is_seen(&desk, name)), "before the menu is opened");
+    click(&mut desk, &["More", "Undo"]);
+    assert_eq!(instrument(&desk), "Electric");
+    click(&mut desk, &["Redo", "B"]);
+    assert_eq!(instrument(&desk), "Classical");
+    // A click beside the menu closes it.
+    desk.click(pos2(48.0, 24.0));
+    desk.wait(0.1);
+    assert!(!is_seen(&desk, "Undo"), "the menu is still open");
+    click(&mut desk, &["›"]);
+    assert_eq!(instrument(&desk), "Steel");
+    click(&mut desk, &["More", "A"]);
+    assert_eq!(instrument(&desk), "Classical");
+    click(&mut desk, &["B", "B to A", "A"]);
+    assert_eq!(instrument(&desk), "Steel");
+}
+
+#[test]
+fn the_menu_needs_no_mouse() {
+    let mut desk = desk();
+    click(&mut desk, &["›"]);
+    for _ in 0..20 {
+        if focused(&desk).as_deref() == Some("More") {
+            break;
+        }
+        desk.key(Key::Tab);
+    }
+    desk.key(Key::Enter);
+    let mut reached = Vec::new();
+    while reached.last().is_none_or(|name| name != "Undo") && reached.len() < 10 {
+        desk.key(Key::ArrowDown);
+        reached.extend(focused(&desk));
+    }
+    assert_eq!(reached, ["A", "B", "A to B", "Undo"]);
+    desk.key(Key::Enter);
+    assert_eq!(instrument(&desk), "Electric");
+    desk.key(Key::Escape);
+    assert!(!is_seen(&desk, "Undo"), "the menu is still open");
+}
+
+#[test]
+fn nothing_overlaps_at_any_width() {
+    let mut desk = desk();
+    // From the smallest window with everything in it twice as large to one without a menu.
+    for width in (280..1120).step_by(20) {
+        desk.harness.set_size(vec2(width as f32, 380.0));
+        desk.wait(0.05);
+        let window = Rect::from_min_size(Pos2::ZERO, vec2(width as f32, 48.0));
+        let moved: &[&str] = if is_seen(&desk, "More") { &["More"] } else { &MOVED };
+        let names = ["‹", "Electric", "›", "Save"].iter().chain(moved);
+        let places = names.map(|name| desk.harness.get_by_label(name).rect()).collect::<Vec<_>>();
+        assert!(places.iter().all(|place| window.contains_rect(*place)), "{width}: {places:?}");
+        assert!(places.is_sorted_by(|left, right| left.right() < right.left()), "{width}: {places:?}");
+        // The meter has a fifth of the window, up to 160 points, and keeps its distance.
+        let meter = width as f32 - 16.0 - 160_f32.min(0.2 * (width as f32 - 32.0));
+        assert!(places.iter().all(|place| place.right() < meter - 4.0), "{width}: {places:?}");
+        assert!(width < 880 || !is_seen(&desk, "More"), "{width}");
+    }
+}
