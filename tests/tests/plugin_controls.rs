@@ -1,5 +1,5 @@
 //! Promise: the parameters that stand for no value of a set-up are heard as they say: hands, wheel and arm, what
-//! channels mean, level and bypass, and what is meant for one way of rendering alone.
+//! channels mean, which notes are connected and which are none, level and bypass, and what is meant for one way of rendering alone.
 
 use low_action_tests::host::{Action, Host, Score, parameter};
 use low_action_tests::parameters::{LENGTH, RATE, rms, score, sounding_pitch, stopped, with};
@@ -99,6 +99,66 @@ fn key_heard(sound: &[f32]) -> u8 {
         sum(f64::sin).hypot(sum(f64::cos))
     };
     if size(48) > 0.1 * size(60) { 48 } else { 60 }
+}
+
+/// What is not plucked sounds the same wherever plucks are.
+#[test]
+fn legato_connects_notes_from_its_sample_on() {
+    let (at, again) = (9000, 16_000);
+    let on = |key| Action::NoteOn { channel: 2, key, velocity: 100 };
+    let set = |id, value| Action::Parameter(parameter(id), value);
+    // All on the G3. The first note is held; the second is let go of before legato may be over.
+    let play = |legato: [f64; 2], place: [f64; 2]| {
+        let score = vec![
+            (0, on(57)),
+            (6000, set("legato", legato[0])),
+            (8000, set("pluck_position", place[0])),
+            (at as u64, on(60)),
+            (14_000, set("legato", legato[1])),
+            (15_000, set("pluck_position", place[1])),
+            (again as u64, on(62)),
+        ];
+        with(&[("input_mode", 2.0)], &score)
+    };
+    let [connected, plucked] = [1.0, 0.0].map(|legato| play([legato; 2], [0.2; 2]));
+    assert!(connected[..at] == plucked[..at], "it counts too early");
+    assert!(connected == play([1.0; 2], [0.8; 2]), "a connected note is plucked");
+    for sound in [&connected, &plucked] {
+        // Heard from 0.1 s on.
+        let pitch = sounding_pitch(&sound[at..again], 60.0);
+        assert!((pitch - 60.0).abs() < 0.1, "{pitch}");
+    }
+    // And each of the two is plucked where it is off.
+    assert!(plucked[at..again] != play([0.0; 2], [0.8, 0.2])[at..again], "the second is not plucked");
+    let over = play([1.0, 0.0], [0.2; 2]);
+    assert!(over[..again] == connected[..again], "it is over too early");
+    assert!(over[again..] != play([1.0, 0.0], [0.2, 0.8])[again..], "the third is not plucked");
+}
+
+#[test]
+fn keyswitches_tell_the_hands_and_make_no_sound() {
+    let (key_at, note_at) = (3000, 9000);
+    let on = |key| Action::NoteOn { channel: 0, key, velocity: 100 };
+    // The steps of the parameter are off, then the keys from 0 on.
+    let from = |first: u8| Action::Parameter(parameter("keyswitches"), f64::from(first) + 1.0);
+    let note = (note_at as u64, on(48));
+    let plain = with(&[], &vec![note]);
+    // Rest strokes, by their controller.
+    let expected = with(&[], &vec![(key_at as u64, Action::Midi([0xB0, 22, 3])), note]);
+    assert!(expected[note_at..] != plain[note_at..]);
+    for first in [0, 12, 108] {
+        let key = first + 2;
+        let press = [(key_at as u64, on(key)), (4000, Action::NoteOff { channel: 0, key })];
+        let sound = with(&[], &[&[(1000, from(first))], &press[..], &[note]].concat());
+        assert!(sound[..note_at].iter().all(|&sample| sample == 0.0), "a keyswitch of {first} sounds");
+        assert!(sound == expected, "the third key from {first} on is no rest stroke");
+        // Elsewhere, and when there are none any more, it is a note.
+        let off = Action::Parameter(parameter("keyswitches"), 0.0);
+        for other in [from(60), off] {
+            let sound = with(&[], &[&[(1000, from(first)), (2000, other)], &press[..], &[note]].concat());
+            assert!(rms(&sound[key_at..note_at]) > 1e-4, "key {key} is silent after {other:?}");
+        }
+    }
 }
 
 #[test]
