@@ -1,5 +1,5 @@
 //! Promise: the editor says what a player should know of: that there is not time enough, and that a set-up file of theirs
-//! is not played, and why. Otherwise it is silent about both.
+//! is not played, and why, at the top or, where there is no room, in a menu there. Otherwise it is silent about both.
 
 use egui_kittest::kittest::Queryable;
 use low_action_tests::desk::Desk;
@@ -30,4 +30,22 @@ fn a_file_that_is_not_played() {
     desk.params.shelf.tell(None);
     desk.picture();
     assert!(desk.harness.query_by_label_contains("set-up file").is_none());
+}
+
+#[test]
+fn a_narrow_window_says_it_in_its_menu() {
+    let mut desk = Desk::sized(0.5, 1.0);
+    desk.wait(0.05);
+    desk.meters.see_load(0.95, true);
+    desk.params.shelf.tell(Some("there is no set-up file 3; electric is played instead".into()));
+    desk.picture();
+    let is_said = |desk: &Desk, part| desk.harness.query_by_label_contains(part).is_some();
+    assert!(!is_said(&desk, LATE), "there is room for it");
+    desk.click(desk.named("More"));
+    desk.wait(0.1);
+    assert!(is_said(&desk, LATE) && is_said(&desk, "set-up file 3"));
+    desk.meters.see_load(0.4, false);
+    desk.params.shelf.tell(None);
+    desk.picture();
+    assert!(!is_said(&desk, LATE) && !is_said(&desk, "set-up file 3"));
 }

@@ -80,6 +80,7 @@ fn a_panel_of_a_small_window() {
 #[test]
 fn what_a_small_window_has_no_room_for() {
     picture("small_more", 0.5, 1.0, |desk| {
+        desk.meters.see_load(0.95, true);
         desk.click(desk.named("›"));
         desk.click(desk.named("More"));
         desk.point(pos2(48.0, 24.0));

@@ -2,8 +2,8 @@
 
 use egui::containers::menu::menu_style;
 use egui::{
-    Align, Align2, Button, Layout, Popup, PopupCloseBehavior, Rect, Role, Sense, Style, Ui, UiBuilder,
-    WidgetInfo, pos2, vec2,
+    Align, Align2, Button, Frame, Layout, Popup, PopupCloseBehavior, Pos2, Rect, Role, Sense, Style, Ui,
+    UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use super::Given;
@@ -29,6 +29,8 @@ const FOR_COMPARING: f32 = 560.0;
 /// Width of the button that opens it, and the least one of the menu, points.
 const MORE: f32 = 28.0;
 const MENU: f32 = 96.0;
+/// Widest that a message in it is, points.
+const MESSAGE: f32 = 200.0;
 /// Width that the header must have for the program's name to be in it, points.
 const FOR_TITLE: f32 = 440.0;
 /// Lowest level shown, dB under full scale.
@@ -57,6 +59,7 @@ impl Header {
         let meter = Rect::from_min_size(pos2(area.right() - width, middle - 6.0), vec2(width, 12.0));
         self.show_meter(ui, given, meter);
         let row = Rect::from_min_max(pos2(left, area.top()), pos2(meter.left() - GAP, area.bottom()));
+        let messages = self.messages(given);
         let builder = UiBuilder::new().max_rect(row).layout(Layout::left_to_right(Align::Center));
         let taken = ui.scope_builder(builder, |ui| {
             ui.spacing_mut().item_spacing.x = TIGHT;
@@ -67,17 +70,30 @@ impl Header {
                 self.show_compare(ui, given);
                 ui.add_space(NEAR);
                 show_history(ui, given);
+                None
             } else {
                 self.presets.show(ui, given, row.width() - TIGHT - MORE);
-                self.show_more(ui, given);
+                Some(self.show_more(ui, given, &messages))
             }
         });
         let rest = row.with_min_x(taken.response.rect.right() + GAP);
-        show_lights(ui, given, self.presets.problem(), rest);
+        if !show_lights(ui, &messages, rest)
+            && let Some(more) = taken.inner
+        {
+            show_light(ui, more.right_top() + vec2(-2.0, 2.0));
+        }
     }
 
-    /// A button, and behind it what has no room beside it; it stays open, since one compares more than once.
-    fn show_more(&mut self, ui: &mut Ui, given: &Given) {
+    /// What a player should know of: too little time, a file that is missing.
+    fn messages(&self, given: &Given) -> Vec<String> {
+        let late = given.meters.relaxed().then(|| "Over budget: contacts are solved less exactly".to_owned());
+        let problem = self.presets.problem().map(str::to_owned);
+        [late, problem, given.params.shelf.message()].into_iter().flatten().collect()
+    }
+
+    /// A button, and behind it what has no room beside it; it stays open, since one compares more than once. Gives back
+    /// where the button is.
+    fn show_more(&mut self, ui: &mut Ui, given: &Given, messages: &[String]) -> Rect {
         let more = ui.add_sized(vec2(MORE, BUTTON), Button::new("…"));
         more.widget_info(|| WidgetInfo::labeled(Role::Button, true, "More"));
         let more = more.on_hover_text("More: A and B to compare, undo and redo");
@@ -91,7 +107,17 @@ impl Header {
             self.show_compare(ui, given);
             ui.separator();
             show_history(ui, given);
+            for text in messages {
+                ui.separator();
+                ui.set_max_width(MESSAGE);
+                Frame::NONE.inner_margin(vec2(NEAR, TIGHT)).show(ui, |ui| {
+                    ui.with_layout(Layout::top_down(Align::LEFT), |ui| {
+                        ui.colored_label(theme::ALARM, text);
+                    });
+                });
+            }
         });
+        more.rect
     }
 
     /// Two sets of values to hear one after the other.
@@ -131,29 +157,26 @@ impl Header {
     }
 }
 
-/// What a player should know of: too little time, a file that is missing. As much as fits is read, and all of it under
-/// the mouse.
-fn show_lights(ui: &mut Ui, given: &Given, problem: Option<&str>, area: Rect) {
+/// Says what is wrong. As much as fits is read, and all of it under the mouse; `false` if something does not fit at all.
+fn show_lights(ui: &mut Ui, messages: &[String], area: Rect) -> bool {
     let mut rest = area;
-    let mut say = |text: &str| {
+    for text in messages {
         let label = egui::Label::new(egui::RichText::new(text).color(theme::ALARM)).truncate();
-        let galley = ui.painter().layout_no_wrap(text.to_owned(), theme::BODY_FONT, theme::ALARM);
+        let galley = ui.painter().layout_no_wrap(text.clone(), theme::BODY_FONT, theme::ALARM);
         let width = galley.size().x.min(rest.width() - GAP);
         if width < GAP {
-            return;
+            return false;
         }
         let place = Rect::from_min_max(pos2(rest.right() - width, rest.top()), rest.max);
-        ui.painter().circle_filled(pos2(place.left() - NEAR, place.center().y), 4.0, theme::ALARM);
+        show_light(ui, pos2(place.left() - NEAR, place.center().y));
         ui.put(place, label).on_hover_text(text);
         rest.max.x = place.left() - GAP - NEAR;
-    };
-    if given.meters.relaxed() {
-        say("Over budget: contacts are solved less exactly");
     }
-    let message = given.params.shelf.message();
-    for message in [problem, message.as_deref()].into_iter().flatten() {
-        say(message);
-    }
+    true
+}
+
+fn show_light(ui: &Ui, at: Pos2) {
+    ui.painter().circle_filled(at, 4.0, theme::ALARM);
 }
 
 /// Undo and redo.
