@@ -3,10 +3,10 @@
 use anyhow::Result;
 use low_action_dsp::Quality;
 
-use super::Outcome;
 use super::scenes::{Kind, SCENES};
 use super::settings::{Axis, BASE, Setting, quality, settings};
 use super::table::{accuracy, cost, head, mean_load, plain};
+use super::{Outcome, losses};
 
 /// Tables of the qualities and of single strings, under their headings.
 pub fn tables(outcomes: &[Outcome], chords: &[(Setting, f64)]) -> Result<String> {
@@ -19,7 +19,12 @@ pub fn tables(outcomes: &[Outcome], chords: &[(Setting, f64)]) -> Result<String>
         speeds(chords)
     );
     text += &format!("\n### Single strings\n\nBuzz, and the spacing of the grid:\n\n{}", buzz(outcomes)?);
-    text += &format!("\nThe high E of `electric` stopped high on the neck:\n\n{}", high(outcomes));
+    text += &format!(
+        "\nBuzz under frets of other damping, at 48 kHz against a reference with the same; then how far that reference \
+         is from one without damping:\n\n{}",
+        losses::table(outcomes)
+    );
+    text += &format!("\nThe light strings of `electric` stopped high on the neck:\n\n{}", high(outcomes));
     Ok(text)
 }
 

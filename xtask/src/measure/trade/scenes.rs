@@ -95,8 +95,8 @@ fn plucked(string: usize, forces: &[f64]) -> Vec<Part> {
     forces.iter().map(|force| part(string, Hand::Open, *force, 0.0)).collect()
 }
 
-/// Frets high on the neck at which the high string of `electric` is looked at.
-const HIGH: [usize; 3] = [15, 18, 21];
+/// Frets high on the neck at which the light strings of `electric` are looked at.
+const HIGH: [usize; 4] = [12, 15, 18, 21];
 
 /// All scenes: those of the tables first, in their order, then what only qualities are measured by.
 pub static SCENES: LazyLock<Vec<Playing>> = LazyLock::new(|| {
@@ -130,9 +130,12 @@ pub static SCENES: LazyLock<Vec<Playing>> = LazyLock::new(|| {
         let name = format!("buzzing, electric, string {}", string + 1);
         playing(name, Kind::EachBuzzing, "electric", plucked(string, &LIGHT))
     }));
-    all.extend(
-        HIGH.map(|fret| playing(format!("fret {fret}"), Kind::High, "electric", one(0, Stops(fret), 0.1))),
-    );
+    for (string, name) in ["E4", "B3", "G3"].into_iter().enumerate() {
+        let high = |fret| one(string, Stops(fret), 0.1);
+        all.extend(
+            HIGH.map(|fret| playing(format!("{name}, fret {fret}"), Kind::High, "electric", high(fret))),
+        );
+    }
     all
 });
 
@@ -202,7 +205,7 @@ impl Part {
             duration: DURATION,
             solver: setting.solver(),
             string: vec![tuned(setup, spec)],
-            fretboard: Some(fretboard(setup, setting.exponent)?),
+            fretboard: Some(fretboard(setup, setting)?),
             pluck: pluck.into_iter().collect(),
             finger: hand(setup, self.hand).into_iter().collect(),
             output: OutputSpec { position: ListeningPoint::Bridge },
@@ -239,15 +242,15 @@ fn tuned(setup: &Setup, spec: &SetupString) -> StringSpec {
 
 /// The neck under every string, its frets in equal temperament; with another exponent as stiff at
 /// [`SAME_AT`] as its own law.
-fn fretboard(setup: &Setup, exponent: Option<f64>) -> Result<FretboardSpec> {
+fn fretboard(setup: &Setup, setting: &Setting) -> Result<FretboardSpec> {
     let barrier = setup.neck.barrier(&setup.neck.equal_places())?;
     let own = setup.neck.exponent;
-    let exponent = exponent.unwrap_or(own);
+    let exponent = setting.exponent.unwrap_or(own);
     let stiffness = setup.neck.stiffness * SAME_AT.powf(own - exponent);
     Ok(FretboardSpec {
         stiffness,
         exponent,
-        damping: setup.neck.damping,
+        damping: setting.damping.unwrap_or(setup.neck.damping),
         board: barrier.board,
         frets: CountOrList::List(barrier.frets.iter().map(|fret| fret[0]).collect()),
         fret_top: Some(OneOrEach::Each(barrier.frets.iter().map(|fret| fret[1]).collect())),

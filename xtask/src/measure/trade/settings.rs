@@ -19,6 +19,8 @@ pub struct Setting {
     pub tolerance: f64,
     /// Exponent of the frets' contact law; without it the instrument's own, 1.5.
     pub exponent: Option<f64>,
+    /// Damping of frets and board, s/m; without it the instrument's own, 0.3.
+    pub damping: Option<f64>,
     /// How contacts are computed.
     pub law: Law,
 }
@@ -40,11 +42,15 @@ pub const BASE: Setting = Setting {
     cap: 20,
     tolerance: 1e-12,
     exponent: None,
+    damping: None,
     law: Law::Newton,
 };
 
 /// What everything is held against.
 pub const REFERENCE: Setting = Setting { rate: 768e3, cap: 200, tolerance: 1e-15, ..BASE };
+
+/// The damping of the built-in instruments' frets, s/m.
+const OWN_DAMPING: f64 = 0.3;
 
 /// The axis along which a setting departs from [`BASE`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,12 +67,14 @@ pub enum Axis {
     Law,
     /// Rate alone, for one string after the other.
     String,
+    /// Damping of frets, likewise.
+    Loss,
 }
 
 impl Axis {
     /// All of them.
-    pub const ALL: [Axis; 6] =
-        [Axis::Quality, Axis::Grid, Axis::Solver, Axis::Exponent, Axis::Law, Axis::String];
+    pub const ALL: [Axis; 7] =
+        [Axis::Quality, Axis::Grid, Axis::Solver, Axis::Exponent, Axis::Law, Axis::String, Axis::Loss];
 }
 
 /// Host rates at which qualities are measured, Hz.
@@ -93,6 +101,16 @@ pub fn settings(axis: Axis) -> Vec<Setting> {
             [Law::Newton, Law::Quadratised].into_iter().flat_map(of).collect()
         }
         Axis::String => [48e3, 96e3, 144e3, 192e3].map(|rate| grid(rate, Wide)).to_vec(),
+        Axis::Loss => {
+            let damped = |rate: f64, damping: f64| {
+                // The instrument's own is not said, so that what is known of it is not measured again.
+                Setting { rate, damping: (damping != OWN_DAMPING).then_some(damping), ..BASE }
+            };
+            let played = [0.0, 0.1, OWN_DAMPING, 1.0, 3.0].map(|damping| damped(BASE.rate, damping));
+            let finest = [0.1, OWN_DAMPING, 1.0, 3.0]
+                .map(|damping| Setting { rate: REFERENCE.rate, ..damped(BASE.rate, damping) });
+            [&played[..], &finest[..]].concat()
+        }
         Axis::Grid => {
             let mut all = vec![grid(44.1e3, Wide)];
             for rate in [48e3, 96e3, 192e3] {
@@ -142,9 +160,11 @@ impl Setting {
         match kind {
             Kind::EachOpen => self.rate < 96e3 && among(Axis::Quality),
             Kind::EachBuzzing | Kind::High => {
-                among(Axis::String) || self.rate == 48e3 && among(Axis::Quality)
+                among(Axis::String)
+                    || self.rate == 48e3 && among(Axis::Quality)
+                    || kind == Kind::EachBuzzing && among(Axis::Loss)
             }
-            _ => Axis::ALL.into_iter().any(|axis| axis != Axis::String && among(axis)),
+            _ => Axis::ALL.into_iter().any(|axis| !matches!(axis, Axis::String | Axis::Loss) && among(axis)),
         }
     }
 
@@ -164,9 +184,10 @@ impl Setting {
         SolverSettings { max_iterations: self.cap, tolerance: self.tolerance, stencil: self.stencil }
     }
 
-    /// The reference for this setting.
+    /// The reference for this setting. At the rate of the reference only damping differs, and is held against none.
     pub fn reference(&self) -> Setting {
-        Setting { exponent: self.exponent, ..REFERENCE }
+        let damping = if self.rate == REFERENCE.rate { Some(0.0) } else { self.damping };
+        Setting { exponent: self.exponent, damping, ..REFERENCE }
     }
 
     /// Its name in the table of an axis.
@@ -181,6 +202,7 @@ impl Setting {
                 format!("{rate}, {}", if self.law == Law::Newton { "Newton" } else { "quadratised" })
             }
             Axis::String => rate,
+            Axis::Loss => format!("{} s/m, {rate}", self.damping.unwrap_or(OWN_DAMPING)),
             Axis::Grid => format!("{rate}, {}", stencil_name(self.stencil)),
             Axis::Solver => format!("{rate}, cap {}, {:e} m", self.cap, self.tolerance),
             Axis::Exponent => format!("{rate}, exponent {}", self.exponent.unwrap_or(1.5)),
