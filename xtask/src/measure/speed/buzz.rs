@@ -1,7 +1,8 @@
 //! How uneven the work is: iterations and instructions, sample by sample, of a chord that buzzes.
 
 use anyhow::{Context, Result};
-use low_action_dsp::{Convergence, Scene, Setup, Simulation};
+use low_action_dsp::neck::Neck;
+use low_action_dsp::{Convergence, Quality, Scene, Setup, Simulation};
 
 use crate::measure::features::instructions_of_run;
 
@@ -78,10 +79,14 @@ fn chord() -> Result<Simulation> {
 fn scene() -> Result<String> {
     let setup = Setup::builtin("electric").context("the default instrument is built in")?;
     let length = setup.neck.scale_length;
-    let mut text = String::from(
-        "sample_rate = 48000\nduration = 1\n[solver]\nmax_iterations = 20\ntolerance = 1e-10\n\
-         stencil = \"wide\"\n[output]\nposition = 0.55\n[fretboard]\nstiffness = 1e10\nexponent = 1.5\n\
-         board = -0.0018\nfrets = 22\nfret_top = -0.0006\nboard_reference_spacing = 0.005\n",
+    let live = Quality::Live.settings(48e3);
+    let Neck { stiffness, exponent, damping, board_reference_spacing, .. } = setup.neck;
+    let mut text = format!(
+        "sample_rate = 48000\nduration = 1\n[solver]\nmax_iterations = {}\ntolerance = {:e}\nstencil = \"wide\"\n\
+         [output]\nposition = 0.55\n[fretboard]\nstiffness = {stiffness:e}\nexponent = {exponent}\n\
+         damping = {damping}\nboard = -0.0018\nfrets = 22\nfret_top = -0.0006\n\
+         board_reference_spacing = {board_reference_spacing}\n",
+        live.max_iterations, live.tolerance,
     );
     for (index, string) in setup.string.iter().enumerate() {
         let wave_speed = 2.0 * length * low_action_dsp::setup::frequency(string.pitch);
