@@ -348,7 +348,8 @@ impl Model {
             return 0.0;
         }
         let lossy = damping * law.force(penetration) / (2.0 * self.grid.time_step);
-        lossy.min(STEEPEST / (self.mobility + own_mobility))
+        let mobility = self.mobility + own_mobility;
+        if lossy * mobility > STEEPEST { STEEPEST / mobility } else { lossy }
     }
 
     /// The law of a finger's pad.

@@ -227,9 +227,11 @@ impl State {
             }
         }
         self.nearer = nearer;
-        let touched = |close: &Close| close.displacement < self.heights_next[close.index as usize];
-        let held = |close: &Close| scratch.held[close.index as usize] == self.steps + 1;
-        missed | self.close.iter().any(|close| touched(close) && !held(close))
+        let is_missed = |close: &Close| {
+            let index = close.index as usize;
+            close.displacement < self.heights_next[index] && scratch.held[index] != self.steps + 1
+        };
+        missed | self.close.iter().any(is_missed)
     }
 
     /// Looks through all fixed contacts for those that are close, were the string to go on as in this step.
