@@ -58,7 +58,8 @@ const AHEAD: f64 = 2.0;
 const WATCHED: f64 = 12.0;
 
 impl State {
-    /// Adds the fixed contacts that touched the string at n − 1 or, as predicted, will at n + 1.
+    /// Adds the fixed contacts that touched the string at n − 1 or, as predicted, will at n + 1; lossy ones also if they
+    /// touch it at n.
     #[inline(always)]
     pub(crate) fn find_fixed(&self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
         let near = AHEAD * self.nearer;
@@ -72,7 +73,9 @@ impl State {
             let before = self.heights_before[index] - close.before;
             let free = scratch.free(reading, free_pull);
             let after = self.heights_next[index] - (close.displacement + free.motion);
-            if before > 0.0 || after > 0.0 {
+            // A lossy one resists at n what goes on into it, even if that is out of it before and after.
+            let resists = now > 0.0 && model.contacts[index].damping > 0.0;
+            if before > 0.0 || after > 0.0 || resists {
                 self.activate(model, index, Overlap { before, now }, free, scratch);
             }
         }
