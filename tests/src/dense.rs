@@ -43,6 +43,8 @@ pub struct Barrier {
     pub height: f64,
     /// Contact law.
     pub law: Law,
+    /// Hunt–Crossley damping β, s/m.
+    pub damping: f64,
 }
 
 /// The simulation itself, moved on one sample at a time.
@@ -205,7 +207,8 @@ impl Reference {
         let contacts: Vec<Contact> = (0..eta.len())
             .map(|i| {
                 let law = self.law(i);
-                let beta = i.checked_sub(fixed).map_or(0.0, |finger| setup.fingers[finger].damping);
+                let finger = i.checked_sub(fixed);
+                let beta = finger.map_or_else(|| self.barriers[i].damping, |i| setup.fingers[i].damping);
                 Contact { law, before: eta_before[i], damping: beta * law.force(eta[i]) / (2.0 * k) }
             })
             .collect();
@@ -298,6 +301,7 @@ fn barriers(setup: &Setup, spacing: f64, intervals: usize) -> Vec<Barrier> {
             column: weights(position, spacing, intervals) / spacing,
             height,
             law: Law { stiffness, exponent: fretboard.exponent },
+            damping: fretboard.damping,
         })
         .collect()
 }

@@ -111,6 +111,7 @@ fn board_and_finger_by_hand() {
         fretboard: Some(Fretboard {
             stiffness: 29.0 / 8.0 * 27.3 / 1.331,
             exponent: 2.0,
+            damping: 0.0,
             board: Some(vec![[1.0, -1e3], [2.0, 0.0], [3.0, -1e3]]),
             board_reference_spacing: None,
             frets: vec![],
@@ -133,6 +134,31 @@ fn board_and_finger_by_hand() {
     assert_near(string.forces.as_slice(), &[0.0, 29.0 / 8.0, 0.0, 29.0 / 4.0]);
     assert_near(string.now.as_slice(), &[5.4, -1.1, 6.4]);
     assert_near(string.finger_now.as_slice(), &[4.125]);
+}
+
+#[test]
+fn a_lossy_board_by_hand() {
+    // A straight string at rest, no string forces at all: A = 5/4, q = 0. Under point 2 the board is at 1, as deep in
+    // the string at −1 as at 0: η⁻¹ = η⁰ = 1. With f the force, u¹ = (4/5) f at point 2, r = −(4/5) f,
+    // λ = K(1 − (2/5) f) (α = 1, still in contact if f < 5/4), P = β K/2 = K/4 (β = 1/2), P r = −(1/5) K f;
+    // f = 1 if K (1 − 3/5) = 1.
+    let setup = Setup {
+        shape: vec![],
+        plucks: vec![],
+        fretboard: Some(Fretboard {
+            stiffness: 2.5,
+            exponent: 1.0,
+            damping: 0.5,
+            board: Some(vec![[1.0, -1e3], [2.0, 1.0], [3.0, -1e3]]),
+            board_reference_spacing: None,
+            frets: vec![],
+        }),
+        ..three_points()
+    };
+    let mut string = Reference::new(&setup);
+    string.step();
+    assert_near(string.forces.as_slice(), &[0.0, 1.0, 0.0]);
+    assert_near(string.now.as_slice(), &[0.0, 0.8, 0.0]);
 }
 
 #[test]

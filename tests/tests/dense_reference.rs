@@ -26,6 +26,7 @@ fn buzzing(stencil: Stencil) -> Setup {
         fretboard: Some(Fretboard {
             stiffness: 1e13,
             exponent: 2.3,
+            damping: 0.3,
             board: Some(vec![[0.0, -2.015e-3], [0.13, -2.015e-3], [0.19, -0.9e-3], [length, -0.9e-3]]),
             board_reference_spacing: Some(0.005),
             frets: (1..=12)
@@ -55,12 +56,13 @@ fn sliding(stencil: Stencil) -> Setup {
     setup
 }
 
-/// The same without any loss, in string, finger or hand, at constant tension. The finger comes down gently and
+/// The same without any loss, in string, frets, finger or hand, at constant tension. The finger comes down gently and
 /// presses lightly, or its bouncing would be so chaotic that rounding takes over before the end.
 fn lossless(setup: Setup) -> Setup {
     let mut setup = setup.with_forces_scaled(0.3);
     (setup.loss_0, setup.loss_1) = (0.0, 0.0);
     setup.tension = vec![[0.0, 60.0]];
+    setup.fretboard.as_mut().expect("there is one").damping = 0.0;
     let finger = &mut setup.fingers[0];
     (finger.damping, finger.hand_damping, finger.velocity) = (0.0, 0.0, -0.1);
     setup
@@ -144,6 +146,7 @@ fn scene(setup: &Setup, tolerance: f64) -> Scene {
         [fretboard]
         stiffness = {:?}
         exponent = {:?}
+        damping = {:?}
         board = {:?}
         board_reference_spacing = {:?}
         frets = {}
@@ -174,6 +177,7 @@ fn scene(setup: &Setup, tolerance: f64) -> Scene {
         setup.tension_modulation,
         board.stiffness,
         board.exponent,
+        board.damping,
         board.board.as_ref().expect("the comparison has a board"),
         board.board_reference_spacing.expect("the comparison scales its board"),
         board.frets.len(),

@@ -33,6 +33,8 @@ pub struct Fretboard {
     pub stiffness: f64,
     /// Exponent α of the contact law, at least 1.
     pub exponent: f64,
+    /// Hunt–Crossley damping β of every contact point, s/m.
+    pub damping: f64,
     /// Height over place (m, m), or no board at all between the frets.
     pub board: Option<Table>,
     /// Spacing h_ref (m) at which a board point has stiffness K; at spacing h it has K h/h_ref.
