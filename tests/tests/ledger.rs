@@ -31,6 +31,11 @@ const SLIDE: &str = "[[finger]]\nmass = 5e-3\nstiffness = 1e8\nexponent = 2.0\n\
                      position = [[0.0, 0.2], [1.0, 0.2], [6.0, 0.31], [9.0, 0.15]]\n\
                      height = 1e-4\nforce = 6.0\nhand_damping = 5.0\ndamping = 1.0\n";
 
+/// A fretboard that loses energy; steel has 0.3 s/m.
+fn lossy(fretboard: &str, damping: f64) -> String {
+    format!("{fretboard}damping = {damping:?}\n")
+}
+
 /// Runs a scene to its end at three caps and checks the ledger of its string.
 fn closes(scene: &str, stencil: &str) -> Vec<Ledger> {
     let close = |cap: usize| {
@@ -83,6 +88,16 @@ fn a_sliding_finger_over_frets() {
 }
 
 #[test]
+fn lossy_frets_alone_without_other_losses() {
+    closes(&format!("{STRING}{PLUCK}{}", lossy(FRETS, 0.3)), "corrected");
+}
+
+#[test]
+fn a_sliding_finger_over_a_lossy_fretboard() {
+    closes(&format!("{STRING}{LOSSES}{PLUCK}{SLIDE}{}", lossy(ALL, 0.3)), "wide");
+}
+
+#[test]
 fn moving_tension_with_all_contacts() {
     let bent = STRING.replace(
         "tension = 60.0",
@@ -126,7 +141,17 @@ fn without_loss_energy_stays() {
 
 #[test]
 fn moving_frets_placed_and_removed_fingers() {
-    let scene = Scene::from_toml(&format!("{STRING}{LOSSES}{PRESS}{ALL}")).expect("the scene is valid");
+    moving_frets(ALL);
+}
+
+#[test]
+fn moving_lossy_frets_placed_and_removed_fingers() {
+    moving_frets(&lossy(ALL, 1.0));
+}
+
+/// Moves the fretboard under a string, places fingers and takes them away, and checks the ledger.
+fn moving_frets(fretboard: &str) {
+    let scene = Scene::from_toml(&format!("{STRING}{LOSSES}{PRESS}{fretboard}")).expect("the scene is valid");
     let barrier = Barrier::from_spec(scene.fretboard.as_ref().expect("there is one"), 0.65);
     let string = StringParameters::from_spec(&scene.string[0]);
     for cap in [0, 3, 50] {

@@ -65,15 +65,29 @@ fn passive_everywhere(scene: &str, duration: f64) {
 const STRING: &str = "[[string]]\nlength = 0.65\nlinear_density = 5.25e-3\ntension = 60.0\n\
     youngs_modulus = 2e11\ncore_radius = 4.3e-4\ntension_modulation = true\n";
 
-#[test]
-fn hard_pluck_and_fast_finger_on_low_frets() {
-    let scene = format!(
-        "{STRING}[fretboard]\nstiffness = {{K}}\nexponent = 2.3\nboard = -0.0012\nfrets = 12\n\
-         fret_top = -0.0004\n[[pluck]]\nduration = 0.001\nposition = 0.52\nforce = -20.0\n\
+/// A hard pluck and a fast finger on low frets of some damping, s/m.
+fn low_frets(damping: f64) -> String {
+    format!(
+        "{STRING}[fretboard]\nstiffness = {{K}}\nexponent = 2.3\ndamping = {damping:e}\nboard = -0.0012\n\
+         frets = 12\nfret_top = -0.0004\n[[pluck]]\nduration = 0.001\nposition = 0.52\nforce = -20.0\n\
          [[finger]]\nmass = 5e-3\nstiffness = 1e10\nexponent = 2.3\nposition = 0.25\nheight = 0.001\n\
          velocity = -3.0\n"
-    );
-    passive_everywhere(&scene, 0.1);
+    )
+}
+
+#[test]
+fn hard_pluck_and_fast_finger_on_low_frets() {
+    passive_everywhere(&low_frets(0.0), 0.1);
+}
+
+#[test]
+fn hard_pluck_and_fast_finger_on_low_lossy_frets() {
+    passive_everywhere(&low_frets(0.3), 0.1);
+}
+
+#[test]
+fn hard_pluck_and_fast_finger_on_frets_that_lose_all() {
+    passive_everywhere(&low_frets(1e5), 0.1);
 }
 
 #[test]
@@ -102,13 +116,26 @@ fn a_finger_on_a_fret_and_fingers_on_each_other() {
     passive_everywhere(&scene, 0.05);
 }
 
+/// A string pressed on a flat board of some damping, s/m: tens to hundreds of points in contact at once.
+fn flat_board(damping: f64) -> String {
+    format!(
+        "{STRING}loss_0 = 1.0\nloss_1 = 1e-4\nshape = [[0.0, 0.0], [0.2, -0.001], [0.4, -0.001], [0.65, 0.0]]\n\
+         [fretboard]\nstiffness = {{K}}\nexponent = 2.3\ndamping = {damping:e}\n\
+         board = [[0.0, -1e-5], [0.65, -1e-5]]\nboard_reference_spacing = 0.005\n"
+    )
+}
+
 #[test]
 fn a_string_pressed_on_a_flat_board() {
-    // Tens to hundreds of board points in contact at once.
-    let scene = format!(
-        "{STRING}loss_0 = 1.0\nloss_1 = 1e-4\nshape = [[0.0, 0.0], [0.2, -0.001], [0.4, -0.001], [0.65, 0.0]]\n\
-         [fretboard]\nstiffness = {{K}}\nexponent = 2.3\nboard = [[0.0, -1e-5], [0.65, -1e-5]]\n\
-         board_reference_spacing = 0.005\n"
-    );
-    passive_everywhere(&scene, 0.02);
+    passive_everywhere(&flat_board(0.0), 0.02);
+}
+
+#[test]
+fn a_string_pressed_on_a_lossy_board() {
+    passive_everywhere(&flat_board(0.3), 0.02);
+}
+
+#[test]
+fn a_string_pressed_on_a_board_that_loses_all() {
+    passive_everywhere(&flat_board(1e5), 0.02);
 }
