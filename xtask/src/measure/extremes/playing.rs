@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture};
 
 use super::draw::Draw;
+use super::scenes;
 use super::trial::TOLERANCE;
 
 const RATE: f64 = 48e3;
@@ -172,6 +173,8 @@ fn other_setup(name: &str, draw: &mut Draw) -> Result<Setup> {
     neck.action = neck.nut_clearance + draw.over(1e-5, 4e-3);
     neck.relief = draw.over(1e-5, 5e-4);
     neck.fret_height = draw.over(1e-4, 2e-3);
+    // Some instruments keep their own.
+    neck.damping = scenes::damping(draw).unwrap_or(neck.damping);
     setup.player.fretting.touch.mass *= draw.over(0.1, 10.0);
     setup.player.fretting.touch.stiffness *= draw.over(0.1, 10.0);
     setup.tuning = draw.between(-0.5, 0.5);

@@ -200,6 +200,17 @@ fn exponent(draw: &mut Draw) -> f64 {
     if draw.chance(0.7) { draw.one_of(&EXPONENTS) } else { draw.between(1.0, 5.0) }
 }
 
+/// Damping of a fretboard, s/m: absent, none, that of real ones, or anything up to the most there may be.
+pub fn damping(draw: &mut Draw) -> Option<f64> {
+    match draw.whole(0, 7) {
+        0 | 1 => None,
+        2 => Some(0.0),
+        3 | 4 => Some(draw.over(0.01, 1.0)),
+        5 | 6 => Some(draw.over(1e-6, 1e5)),
+        _ => Some(1e5),
+    }
+}
+
 /// Board and frets: none, a few, or hundreds; on the grid, between its points, closer than they are.
 fn fretboard(draw: &mut Draw, strings: &[Drawn], length: f64, reach: f64) -> Table {
     let mut table = Table::new();
@@ -211,6 +222,9 @@ fn fretboard(draw: &mut Draw, strings: &[Drawn], length: f64, reach: f64) -> Tab
     let harder = shared_out.map_or(1.0, |reference| (spacing / reference).max(1.0));
     table.insert("stiffness".into(), (stiffness(draw, exponent, mobility) / harder).max(1e-3).into());
     table.insert("exponent".into(), exponent.into());
+    if let Some(damping) = damping(draw) {
+        table.insert("damping".into(), damping.into());
+    }
     if let Some(reference) = shared_out {
         table.insert("board_reference_spacing".into(), reference.into());
     }
