@@ -90,6 +90,12 @@ fn values_out_of_range_are_refused() {
         ("tension = 60.0", "tension = 60\nshape = [[0.1, 0.001], [0.7, 0]]", &["shape = 0.7", "0.65"]),
         ("loss_0 = 1.0", "loss_0 = -1.0", &["string[1].loss_0 = -1", "1/s"]),
         ("exponent = 2.3", "exponent = 0.5", &["fretboard.exponent = 0.5", "between 1 and 5"]),
+        (
+            "exponent = 2.3",
+            "exponent = 2.3\ndamping = -0.3",
+            &["fretboard.damping = -0.3", "0 and 100000 s/m"],
+        ),
+        ("exponent = 2.3", "exponent = 2.3\ndamping = 1e6", &["fretboard.damping = 1e6", "s/m"]),
         ("board = -0.002", "board = 0.001", &["fretboard.board = 0.001", "-10 and 0 m"]),
         ("frets = 3", "frets = -3", &["frets", "-3", "0 to 1000"]),
         ("frets = 3", "frets = 1001", &["frets", "1001", "0 to 1000"]),

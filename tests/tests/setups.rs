@@ -152,11 +152,13 @@ fn frequencies_follow_the_midi_tuning_standard() {
 
 #[test]
 fn wrong_setups_are_refused_in_one_line() {
-    let cases: [(&str, &str, &[&str]); 17] = [
+    let cases: [(&str, &str, &[&str]); 19] = [
         ("frets = 22", "frets = 99", &["neck.frets", "99"]),
         ("frets = 22", "fretz = 22", &["fretz"]),
         ("action = 0.0016", "action = 0.0001", &["neck.action", "1e-4"]),
         ("action = 0.0016", "action = nan", &["neck.action", "NaN"]),
+        ("\ndamping = 0.3", "\ndamping = -0.3", &["neck.damping", "-0.3", "100000 s/m"]),
+        ("\ndamping = 0.3", "\ndamping = 1e6", &["neck.damping", "1e6", "100000 s/m"]),
         ("scale_length = 0.6477", "scale_length = -1.0", &["neck.scale_length", "-1"]),
         ("max_bend = 3.0", "max_bend = 13", &["max_bend", "13", "semitones"]),
         ("gain = 0.22", "gain = 0.0", &["gain", "0"]),
