@@ -9,8 +9,8 @@ use crate::settings::EngineSettings;
 /// How much computing a sound may take.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quality {
-    /// Least work: every string at the host's rate, contacts to 1e-8 m. Thin strings rattle too long after hard
-    /// plucks.
+    /// Least work: every string at the host's rate, contacts to 1e-8 m. Thin strings ring too short high on the
+    /// neck.
     Draft,
     /// For playing: grids no wider than 6 mm, so that thin strings take two or three steps a sample; contacts to
     /// 1e-9 m.
@@ -44,10 +44,10 @@ impl Quality {
     /// `docs/trade.md` for a host's rate of 48 kHz.
     pub fn summary(self) -> &'static str {
         match self {
-            Self::Draft => "least work, thin strings buzz too long",
-            Self::Live => "within 1 cent, buzz within 50 %",
-            Self::Studio => "3 × the work, buzz within 25 %",
-            Self::Reference => "8 × the work, buzz within 15 %",
+            Self::Draft => "least work, high frets ring too short",
+            Self::Live => "within 1 cent, buzz within 25 %",
+            Self::Studio => "3 × the work, buzz within 10 %",
+            Self::Reference => "8 × the work, buzz within 5 %",
         }
     }
 

@@ -38,18 +38,24 @@ fn what_is_said_of_qualities_was_measured() {
     let said = |quality: Quality, words: &str| assert!(heard_of(quality).contains(words), "{words}");
     said(Quality::Draft, "Three quarters of the work");
     assert!((0.7..0.8).contains(&found("`live`: price over that of `draft`").recip()));
-    said(Quality::Draft, "two or three times as long");
-    let buzz = numbers(&trade[trade.find("Buzz, and the spacing of the grid").expect("a table")..], "E4, %");
-    assert!((200.0..350.0).contains(&buzz[0]));
+    said(Quality::Draft, "by up to a half");
+    let buzzing = &trade[trade.find("Buzz, and the spacing of the grid").expect("a table")..];
+    for string in ["E4", "B3", "G3", "D3", "A2", "E2"] {
+        assert!(numbers(buzzing, &format!("{string}, %"))[0] < 50.0, "{string}");
+    }
+    said(Quality::Draft, "too short high on the neck");
+    // The last number is how long the reference rings.
+    let ringing = numbers(&trade, "E4, fret 21, T60, s");
+    assert!(ringing[0] < 0.5 * ringing[ringing.len() - 1]);
     said(Quality::Live, "within a cent");
     assert!(found("`live`: partials of every open string, up to 4 kHz, cents") < 1.0);
     assert!(found("`live`: pitch of stopped strings, cents") < 1.0);
-    said(Quality::Live, "within a half at worst");
-    assert!(found("`live`: buzz, %") < 50.0);
+    said(Quality::Live, "within a quarter");
+    assert!(found("`live`: buzz, %") < 25.0);
     said(Quality::Studio, "Three times the work");
     assert!((2.7..3.4).contains(&found("`studio`: price over that of `live`")));
-    said(Quality::Studio, "within a quarter");
-    assert!(found("`studio`: buzz, %") < 25.0);
+    said(Quality::Studio, "within a tenth");
+    assert!(found("`studio`: buzz, %") < 10.0);
     said(Quality::Reference, "Eight times the work");
     assert!((7.5..8.7).contains(&found("`reference`: price over that of `live`")));
     said(Quality::Reference, "just has time for");

@@ -75,15 +75,15 @@ pub fn heard_of(quality: Quality) -> &'static str {
     match quality {
         Quality::Draft => {
             "Three quarters of the work of Live, for many tracks at once. Open strings and clean notes on low frets \
-             are as good. Thin strings plucked hard rattle two or three times as long as they should; above fret 12 \
-             they ring too short and some cents off."
+             are as good. Thin strings ring too short high on the neck, and plucked hard they buzz by up to a half \
+             more or less than they should."
         }
         Quality::Live => {
             "To play with. Every open string and every stopped note is within a cent. Buzz is about as hard and as \
-             long as it should be: within a half at worst, usually within a quarter."
+             long as it should be: within a quarter."
         }
         Quality::Studio => {
-            "Three times the work of Live, for the bounce. Buzz is within a quarter, the highest frets are within a \
+            "Three times the work of Live, for the bounce. Buzz is within a tenth, the highest frets are within a \
              cent."
         }
         Quality::Reference => {
