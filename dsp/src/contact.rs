@@ -2,7 +2,7 @@
 //!
 //! A contact stores Φ(η) = K/(α+1)·\[η\]₊^(α+1) when the penetration η is positive. Between step
 //! n − 1 and n + 1 the penetration changes by r and the force is the discrete gradient
-//! λ(r) = (Φ(ηⁿ⁻¹ + r) − Φ(ηⁿ⁻¹))/r, plus P r for a lossy (Hunt–Crossley) pad, and never pulls:
+//! λ(r) = (Φ(ηⁿ⁻¹ + r) − Φ(ηⁿ⁻¹))/r, plus P r for a lossy (Hunt–Crossley) one, and never pulls:
 //! f = max(0, λ + P r). This f is non-decreasing in r because Φ is convex, and
 //! (f − λ) r ≥ 0, so a contact never creates energy.
 
