@@ -1,5 +1,6 @@
 //! The shortest string there is: linear, flexible, lossless, touching nothing, written by hand.
 
+use aligned_vec::{AVec, ConstAlign};
 use pulp::{Arch, Simd, WithSimd};
 
 use super::SAMPLES;
@@ -16,11 +17,17 @@ pub enum Linear {
 /// The most vector lanes of any instruction set that is chosen.
 const LANES: usize = 8;
 
-/// Displacement and motion, with room for a point and for a whole vector on either side.
+/// Numbers of which the first moving point's begins a cache line, wherever they are put.
+type Points = AVec<f64, ConstAlign<64>>;
+
+/// Where it stands.
+const FIRST: usize = LANES;
+
+/// Displacement and motion, with room for a whole vector on either side.
 pub struct Bare {
     arch: Arch,
-    displacement: Vec<f64>,
-    motion: Vec<f64>,
+    displacement: Points,
+    motion: Points,
     unknowns: usize,
 }
 
@@ -28,11 +35,12 @@ impl Bare {
     /// A string of so many moving points in the shape of a triangle.
     pub fn new(unknowns: usize) -> Self {
         let room = unknowns.div_ceil(LANES) * LANES + 2 * LANES;
-        let mut displacement = vec![0.0; room];
-        for (point, height) in displacement.iter_mut().enumerate().skip(1).take(unknowns) {
+        let still = || Points::from_iter(64, std::iter::repeat_n(0.0, room));
+        let mut displacement = still();
+        for (point, height) in (1..=unknowns).zip(&mut displacement[FIRST..]) {
             *height = 1e-3 * point.min(unknowns + 1 - point) as f64 / unknowns as f64;
         }
-        Bare { arch: Arch::new(), displacement, motion: vec![0.0; room], unknowns }
+        Bare { arch: Arch::new(), displacement, motion: still(), unknowns }
     }
 
     /// [`SAMPLES`] samples.
@@ -49,8 +57,8 @@ impl Bare {
                     let (u, d) = (&mut self.displacement[..], &mut self.motion[..]);
                     self.arch.dispatch(Step { u, d, unknowns: self.unknowns });
                     // What the last vector wrote beyond the end.
-                    u[self.unknowns + 1..].fill(0.0);
-                    d[self.unknowns + 1..].fill(0.0);
+                    u[FIRST + self.unknowns..].fill(0.0);
+                    d[FIRST + self.unknowns..].fill(0.0);
                 }
             }
         }
@@ -74,15 +82,15 @@ impl WithSimd for Step<'_> {
         let Step { u, d, unknowns } = self;
         let count = unknowns.div_ceil(S::F64_LANES);
         let courant = simd.splat_f64s(COURANT);
-        let points = [0, 1, 2].map(|offset| &S::as_simd_f64s(&u[offset..]).0[..count]);
-        let motion = &mut S::as_mut_simd_f64s(&mut d[1..]).0[..count];
+        let points = [FIRST - 1, FIRST, FIRST + 1].map(|first| &S::as_simd_f64s(&u[first..]).0[..count]);
+        let motion = &mut S::as_mut_simd_f64s(&mut d[FIRST..]).0[..count];
         for at in 0..count {
             let after = simd.sub_f64s(points[2][at], points[1][at]);
             let before = simd.sub_f64s(points[1][at], points[0][at]);
             let curvature = simd.sub_f64s(after, before);
             motion[at] = simd.add_f64s(motion[at], simd.mul_f64s(courant, curvature));
         }
-        let place = &mut S::as_mut_simd_f64s(&mut u[1..]).0[..count];
+        let place = &mut S::as_mut_simd_f64s(&mut u[FIRST..]).0[..count];
         for at in 0..count {
             place[at] = simd.add_f64s(place[at], motion[at]);
         }
