@@ -35,7 +35,7 @@ const ERRORS: [Wrong; 4] = [
     (
         "Contact impulses of buzzing strings",
         "largest error, %",
-        [1.0, 1e3],
+        [1.0, 1e2],
         &[Kind::BuzzingLight, Kind::BuzzingHeavy],
         |o| 100.0 * o.errors.impulses,
     ),
@@ -70,7 +70,7 @@ pub fn draw(outcomes: &[Outcome]) -> Result<String> {
 
 fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
     let (title, label, [low, high], ..) = wrong;
-    let x = Scale::log("cost of a string, % of a core", 1.0..100.0).ticks(4);
+    let x = Scale::log("cost of a string, % of a core", 0.5..30.0).ticks(4);
     let mut panel = Panel::new(*title, x, Scale::log(*label, *low..*high).ticks(6));
     let grid = settings(Axis::Grid);
     let place = |setting: &Setting| (cost(setting, outcomes), largest(wrong, setting, outcomes));
