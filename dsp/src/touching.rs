@@ -230,11 +230,14 @@ impl State {
             }
         }
         self.nearer = nearer;
-        let is_missed = |close: &Close| {
-            let index = close.index as usize;
-            close.displacement < self.heights_next[index] && scratch.held[index] != self.steps + 1
-        };
-        missed | self.close.iter().any(is_missed)
+        missed | self.close.iter().any(|close| self.is_missed(close, &scratch.held))
+    }
+
+    /// Whether the string at n + 1 overlaps a contact that was not held in this step.
+    #[inline(always)]
+    fn is_missed(&self, close: &Close, held: &[u64]) -> bool {
+        let index = close.index as usize;
+        close.displacement < self.heights_next[index] && held[index] != self.steps + 1
     }
 
     /// Looks through all fixed contacts for those that are close, were the string to go on as in this step.
@@ -275,7 +278,7 @@ impl State {
     pub(crate) fn add_missed(&self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
         for close in &self.close {
             let index = close.index as usize;
-            if close.displacement < self.heights_next[index] && scratch.held[index] != self.steps + 1 {
+            if self.is_missed(close, &scratch.held) {
                 let reading = &model.contacts[index].reading;
                 let displacement = reading.of(&self.displacement);
                 let past = displacement - reading.of(&self.motion);

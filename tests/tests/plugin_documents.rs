@@ -56,6 +56,12 @@ fn what_is_said_of_qualities_was_measured() {
     assert!((2.7..3.4).contains(&found("`studio`: price over that of `live`")));
     said(Quality::Studio, "within a tenth");
     assert!(found("`studio`: buzz, %") < 10.0);
+    // What hosts show is fewer words and closer bounds.
+    for quality in [Quality::Live, Quality::Studio, Quality::Reference] {
+        let (_, words) = quality.summary().split_once("buzz within ").expect("it says so");
+        let bound: f64 = words.trim_end_matches(" %").parse().expect("a bound");
+        assert!(found(&format!("`{quality}`: buzz, %")) < bound, "{quality}");
+    }
     said(Quality::Reference, "Eight times the work");
     assert!((7.5..8.7).contains(&found("`reference`: price over that of `live`")));
     said(Quality::Reference, "just has time for");

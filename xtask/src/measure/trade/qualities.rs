@@ -20,8 +20,8 @@ pub fn tables(outcomes: &[Outcome], chords: &[(Setting, f64)]) -> Result<String>
     );
     text += &format!("\n### Single strings\n\nBuzz, and the spacing of the grid:\n\n{}", buzz(outcomes)?);
     text += &format!(
-        "\nBuzz under frets of other damping, at 48 kHz against a reference with the same; then how far that reference \
-         is from one without damping:\n\n{}",
+        "\nBuzz under frets of other damping, at 48 kHz against a reference with the same; then how far damping alone \
+         moves it at 768 kHz:\n\n{}",
         losses::table(outcomes)
     );
     text += &format!("\nThe light strings of `electric` stopped high on the neck:\n\n{}", high(outcomes));

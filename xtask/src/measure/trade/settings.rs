@@ -1,6 +1,8 @@
 //! What is tried: sample rates, stencils, caps, tolerances, exponents of the contact law.
 
-use low_action_dsp::{EngineSettings, Quality, SolverSettings, Stencil};
+use std::sync::LazyLock;
+
+use low_action_dsp::{EngineSettings, Quality, Setup, SolverSettings, Stencil};
 
 use super::scenes::Kind;
 
@@ -19,7 +21,7 @@ pub struct Setting {
     pub tolerance: f64,
     /// Exponent of the frets' contact law; without it the instrument's own, 1.5.
     pub exponent: Option<f64>,
-    /// Damping of frets and board, s/m; without it the instrument's own, 0.3.
+    /// Damping of frets and board, s/m; without it the instrument's own.
     pub damping: Option<f64>,
     /// How contacts are computed.
     pub law: Law,
@@ -49,8 +51,9 @@ pub const BASE: Setting = Setting {
 /// What everything is held against.
 pub const REFERENCE: Setting = Setting { rate: 768e3, cap: 200, tolerance: 1e-15, ..BASE };
 
-/// The damping of the built-in instruments' frets, s/m.
-const OWN_DAMPING: f64 = 0.3;
+/// The damping of the frets of the instrument whose strings buzz, s/m.
+static OWN_DAMPING: LazyLock<f64> =
+    LazyLock::new(|| Setup::builtin("electric").map_or(f64::NAN, |setup| setup.neck.damping));
 
 /// The axis along which a setting departs from [`BASE`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,14 +105,10 @@ pub fn settings(axis: Axis) -> Vec<Setting> {
         }
         Axis::String => [48e3, 96e3, 144e3, 192e3].map(|rate| grid(rate, Wide)).to_vec(),
         Axis::Loss => {
-            let damped = |rate: f64, damping: f64| {
-                // The instrument's own is not said, so that what is known of it is not measured again.
-                Setting { rate, damping: (damping != OWN_DAMPING).then_some(damping), ..BASE }
-            };
-            let played = [0.0, 0.1, OWN_DAMPING, 1.0, 3.0].map(|damping| damped(BASE.rate, damping));
-            let finest = [0.1, OWN_DAMPING, 1.0, 3.0]
-                .map(|damping| Setting { rate: REFERENCE.rate, ..damped(BASE.rate, damping) });
-            [&played[..], &finest[..]].concat()
+            // The instrument's own is not said, so that what is known of it is not measured again.
+            let others = [Some(0.0), Some(0.1), None, Some(1.0), Some(3.0)];
+            let at = |rate: f64| others.map(|damping| Setting { rate, damping, ..BASE });
+            [&at(BASE.rate)[..], &at(REFERENCE.rate)[1..]].concat()
         }
         Axis::Grid => {
             let mut all = vec![grid(44.1e3, Wide)];
@@ -202,7 +201,7 @@ impl Setting {
                 format!("{rate}, {}", if self.law == Law::Newton { "Newton" } else { "quadratised" })
             }
             Axis::String => rate,
-            Axis::Loss => format!("{} s/m, {rate}", self.damping.unwrap_or(OWN_DAMPING)),
+            Axis::Loss => format!("{} s/m, {rate}", self.damping.unwrap_or(*OWN_DAMPING)),
             Axis::Grid => format!("{rate}, {}", stencil_name(self.stencil)),
             Axis::Solver => format!("{rate}, cap {}, {:e} m", self.cap, self.tolerance),
             Axis::Exponent => format!("{rate}, exponent {}", self.exponent.unwrap_or(1.5)),
