@@ -1,7 +1,7 @@
 //! An instrument: strings over a neck under two hands, heard through a pickup.
 //!
 //! Everything is allocated when it is built. Strings do not hear each other, so each is stepped through
-//! a whole run of samples at a time, at a whole multiple of the sample rate of its own ([`crate::settings`]);
+//! a whole run of samples at a time, at a multiple of the sample rate of its own ([`crate::settings`]);
 //! gestures cut runs at their exact samples, and so the samples are the same however they are asked for.
 
 use crate::decimate::DELAY;
@@ -14,6 +14,7 @@ use crate::observed::Observed;
 use crate::queue::Queue;
 pub use crate::queue::QueueFull;
 use crate::ramp::Ramp;
+use crate::ratio::Ratio;
 use crate::settings::EngineSettings;
 use crate::setup::{Setup, tension_ratio};
 use crate::state::State;
@@ -106,7 +107,7 @@ impl Instrument {
     }
 
     /// How many steps of a string a sample has.
-    pub fn ratio(&self, string: usize) -> usize {
+    pub fn ratio(&self, string: usize) -> Ratio {
         self.voices[string].ratio()
     }
 

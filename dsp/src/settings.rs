@@ -3,12 +3,13 @@
 //! The lighter and tauter a string, the faster its waves and the wider the spacing of its grid: at 48 kHz
 //! that of a guitar's high E is 11 mm, as wide as its highest frets are apart, and that of a bass string 2 mm.
 //! What a string does at a fret is known no better than its grid tells places apart. So each string is
-//! computed at the smallest whole multiple of the host's rate at which its grid is fine enough; a light one
-//! needs more of them, and each costs it less.
+//! computed at the smallest multiple of the host's rate, in steps of a half, at which its grid is fine enough; a light
+//! one needs more of them, and each costs it less.
 
 use crate::error::{Error, within};
 use crate::intonation::flexible;
 use crate::model::Model;
+use crate::ratio::Ratio;
 use crate::scene::{SolverSettings, Stencil};
 use crate::setup::{Setup, SetupString};
 
@@ -43,16 +44,16 @@ impl EngineSettings {
     }
 
     /// How many steps a string of a set-up takes in a sample: as few as its grid's spacing allows.
-    pub fn ratio(&self, setup: &Setup, string: &SetupString) -> usize {
+    pub fn ratio(&self, setup: &Setup, string: &SetupString) -> Ratio {
         let parameters = flexible(setup, string);
-        let most = ((HIGHEST_RATE / self.sample_rate) as usize).max(1);
-        let fine = |ratio: &usize| {
-            let time_step = 1.0 / (*ratio as f64 * self.sample_rate);
+        let most = Ratio::of_halves((2.0 * HIGHEST_RATE / self.sample_rate) as usize);
+        let fine = |ratio: &Ratio| {
+            let time_step = 1.0 / (ratio.value() * self.sample_rate);
             // A string too short for its grid is one whose grid is too wide.
             Model::grid(&parameters, self.stencil, time_step)
                 .is_ok_and(|grid| grid.spacing <= self.widest_spacing)
         };
-        (1..most).find(fine).unwrap_or(most)
+        (Ratio::ONE.halves()..most.halves()).map(Ratio::of_halves).find(fine).unwrap_or(most)
     }
 
     /// Refuses values outside their range.

@@ -12,6 +12,7 @@ use crate::model::Model;
 use crate::observed::Observed;
 use crate::pickup::{Listener, PickupMix};
 use crate::ramp::Ramp;
+use crate::ratio::Ratio;
 use crate::settings::EngineSettings;
 use crate::setup::Setup;
 use crate::state::State;
@@ -69,7 +70,7 @@ impl Voice {
         let name = format!("string[{}]", index + 1);
         let solver = settings.solver();
         let ratio = settings.ratio(setup, spec);
-        let rate = ratio as f64 * settings.sample_rate;
+        let rate = ratio.value() * settings.sample_rate;
         let placed = intonate(setup, spec, solver.stencil, rate).map_err(|error| error.under(&name))?;
         let barrier = setup.barrier(&placed.frets)?;
         let model = Model::new(placed.string, Some(&barrier), FINGERS_PER_STRING, solver, rate)
@@ -109,19 +110,22 @@ impl Voice {
 
     /// Begins a gesture.
     pub fn begin(&mut self, gesture: Gesture) {
+        if self.is_at_rest() {
+            self.decimator.reset();
+        }
         self.asleep = false;
         self.observed.see_gesture(&gesture);
         self.hands.begin(gesture, &self.model, &mut self.state);
     }
 
     /// How many steps of the string a sample of the host's has.
-    pub fn ratio(&self) -> usize {
+    pub fn ratio(&self) -> Ratio {
         self.decimator.ratio()
     }
 
     /// Steps the string through so many samples of the host's into `run`.
     pub fn run(&mut self, samples: usize) {
-        if self.asleep && self.decimator.is_empty() && self.listener.is_still() {
+        if self.is_at_rest() {
             if !self.silent {
                 self.run.fill(0.0);
                 self.silent = true;
@@ -129,12 +133,17 @@ impl Voice {
             return;
         }
         self.silent = false;
-        for index in 0..self.decimator.ratio() * samples {
+        for index in 0..self.decimator.steps(samples) {
             let value = self.gain * self.next();
             self.decimator.take(index, value);
         }
         self.decimator.give(&mut self.run[..samples]);
         self.observed.see_shape(&self.state);
+    }
+
+    /// Whether it rests, and nothing that it has sent out is still on its way.
+    fn is_at_rest(&mut self) -> bool {
+        self.asleep && self.decimator.is_empty() && self.listener.is_still()
     }
 
     /// Whether it rests, and nothing of it is left to be heard.

@@ -2,7 +2,7 @@
 //! a better sound. All strings come equally late at every multiple, by what hosts are told; gestures act at
 //! their exact sample; one multiple takes over from another without a click, and the ledger closes.
 
-use low_action_dsp::{EngineSettings, Gesture, Instrument, Quality, Setup, TimedGesture};
+use low_action_dsp::{EngineSettings, Gesture, Instrument, Quality, Ratio, Setup, TimedGesture};
 
 const RATE: f64 = 48_000.0;
 
@@ -31,22 +31,25 @@ fn rms(sound: impl Iterator<Item = f64> + Clone) -> f64 {
 #[test]
 fn light_strings_get_more_and_higher_host_rates_need_less() {
     let setup = Setup::builtin("electric").expect("it is built in");
-    let ratios = |quality: Quality, rate: f64| -> Vec<usize> {
+    let ratios = |quality: Quality, rate: f64| -> Vec<Ratio> {
         let settings = quality.settings(rate);
         setup.string.iter().map(|string| settings.ratio(&setup, string)).collect()
     };
     let live = ratios(Quality::Live, RATE);
-    assert!(live[0] > 1 && live[5] == 1 && live.is_sorted_by(|a, b| a >= b), "{live:?}");
+    assert!(live[0] > Ratio::ONE && live[5] == Ratio::ONE && live.is_sorted_by(|a, b| a >= b), "{live:?}");
+    // Two samples of the host's may share a step.
+    assert!(live.contains(&Ratio::of_halves(3)), "{live:?}");
     for quality in Quality::ALL {
         assert!(
             ratios(quality, 4.0 * RATE).iter().zip(ratios(quality, RATE)).all(|(high, low)| *high <= low)
         );
         // The rate of a string is about the same whatever the host's.
         for (high, low) in ratios(quality, 2.0 * RATE).into_iter().zip(ratios(quality, RATE)) {
-            assert!((2 * high).abs_diff(low) <= 1 || high == 1, "{high} at 96 kHz, {low} at 48 kHz");
+            let apart = (2 * high.halves()).abs_diff(low.halves());
+            assert!(apart <= 1 || high == Ratio::ONE, "{high} at 96 kHz, {low} at 48 kHz");
         }
     }
-    assert!(ratios(Quality::Draft, RATE).iter().all(|ratio| *ratio == 1));
+    assert!(ratios(Quality::Draft, RATE).iter().all(|ratio| *ratio == Ratio::ONE));
 }
 
 #[test]

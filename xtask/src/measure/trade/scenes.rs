@@ -201,7 +201,7 @@ impl Part {
             force,
         });
         Ok(Scene {
-            sample_rate: setting.rate * setting.engine().ratio(setup, spec) as f64,
+            sample_rate: setting.rate * setting.engine().ratio(setup, spec).value(),
             duration: DURATION,
             solver: setting.solver(),
             string: vec![tuned(setup, spec)],
