@@ -3,6 +3,7 @@
 use crate::contact::{Before, ContactLaw};
 use crate::grid::Reading;
 use crate::response::Row;
+use crate::touching::Free;
 
 /// One active contact.
 #[derive(Debug, Clone, Copy)]
@@ -23,7 +24,7 @@ pub(crate) struct Active {
     pub rest: f64,
     /// The force that the string's prediction already holds, N; 0 when the solution begins.
     pub base: f64,
-    /// The change of penetration under the base forces, −c when the solution begins, m.
+    /// The change of penetration under the base forces, −c when the solution begins, m. Known once the string is predicted.
     pub centre: f64,
     /// bⁿ⁺¹ − bⁿ⁻¹, how far the barrier itself rose, m.
     pub raised: f64,
@@ -31,13 +32,11 @@ pub(crate) struct Active {
     pub own_mobility: f64,
     /// k²/(ρhs), m/N.
     pub mobility: f64,
-    /// z = (hgᵀv)·sign.
+    /// z = (hgᵀv)·sign. Known once the string is predicted.
     pub pull: f64,
-    /// The change of penetration that is expected, m: where the solution begins.
-    pub expected: f64,
     /// The force found, N.
     pub force: f64,
-    /// The change of penetration, m.
+    /// The change of penetration, m; before the solution the one that is expected, where it begins.
     pub change: f64,
     /// λ at that change, N: what the stored energy explains.
     pub lambda: f64,
@@ -48,6 +47,38 @@ pub(crate) struct Active {
 }
 
 impl Active {
+    /// A contact of a law of which nothing else is known yet.
+    #[inline(always)]
+    pub fn of(law: ContactLaw) -> Self {
+        Active {
+            slot: 0,
+            reading: Reading::default(),
+            sign: 1.0,
+            law,
+            lossy: 0.0,
+            before: Before::default(),
+            rest: 0.0,
+            base: 0.0,
+            centre: 0.0,
+            raised: 0.0,
+            own_mobility: 0.0,
+            mobility: 0.0,
+            pull: 0.0,
+            force: 0.0,
+            change: 0.0,
+            lambda: 0.0,
+            required: 0.0,
+            slope: 0.0,
+        }
+    }
+
+    /// Learns how the string would move under it without contact forces.
+    #[inline(always)]
+    pub fn meet(&mut self, free: Free) {
+        self.centre = -(self.sign * free.motion + self.rest);
+        self.pull = self.sign * free.curvature;
+    }
+
     /// Evaluates the law at a change of penetration.
     #[inline(always)]
     pub fn evaluate(&mut self, change: f64) {

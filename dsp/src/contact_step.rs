@@ -9,7 +9,6 @@ use crate::field::Field;
 use crate::kernel::Products;
 use crate::model::Model;
 use crate::response::ONE_BLOCK;
-use crate::skyline::draw;
 use crate::solver::{Convergence, EnergyScale};
 use crate::state::State;
 use crate::string::{Scratch, pull};
@@ -33,19 +32,11 @@ impl State {
         model: &Model,
         drive: &Drive,
         products: &Products,
-        resting: bool,
         scratch: &mut Scratch,
     ) -> Convergence {
         let mut convergence = Convergence::default();
-        if !drive.heights.is_empty() && !resting {
-            self.heights_next.copy_from_slice(&drive.heights);
-            draw(&model.grid, &model.contacts, &self.heights_next, &mut self.skyline);
-            self.settling = 2;
-        }
         let free_pull = pull(model, products);
-        scratch.active.clear();
-        self.find_fixed(model, free_pull, scratch);
-        self.find_fingers(model, drive, free_pull, resting, scratch);
+        self.touch(model, free_pull, scratch);
         let mut created = 0.0;
         for attempt in 0.. {
             let mut largest = 0.0;
@@ -99,7 +90,6 @@ impl State {
     fn recentre(&self, scratch: &mut Scratch) -> f64 {
         for active in &mut scratch.active {
             active.base = active.force;
-            active.expected = active.change;
             let moved = active.sign * active.reading.of(&scratch.motion);
             active.centre = -(moved + active.rest + active.own_mobility * active.base);
         }
@@ -111,11 +101,9 @@ impl State {
     #[cold]
     fn begin_again(&mut self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
         for index in 0..scratch.active.len() {
-            let free = scratch.free(&scratch.active[index].reading, free_pull).motion;
-            let active = &mut scratch.active[index];
-            active.base = 0.0;
-            active.expected = active.change;
-            active.centre = -(active.sign * free + active.rest);
+            let free = scratch.free(&scratch.active[index].reading, free_pull);
+            scratch.active[index].base = 0.0;
+            scratch.active[index].meet(free);
         }
         self.add_missed(model, free_pull, scratch);
     }
@@ -124,15 +112,8 @@ impl State {
     /// contacts, of the fingers.
     #[inline(always)]
     fn energy_scale(&mut self, model: &Model, scratch: &Scratch) -> EnergyScale {
-        let k = model.grid.time_step;
         let contacts: f64 = scratch.active.iter().map(|active| active.before.energy).sum();
-        let mut fingers = 0.0;
-        for (finger, before) in self.fingers.iter().zip(&scratch.fingers) {
-            if let (Some(finger), Some(before)) = (finger, before) {
-                fingers += 0.5 * finger.touch.mass * (before.motion / k) * (before.motion / k);
-            }
-        }
-        let present = scratch.string_energy(model) + contacts + fingers;
+        let present = scratch.string_energy(model) + contacts + scratch.finger_energy;
         self.energy_scale = self.energy_scale.max(present);
         let credit = CREATED_AT_MOST * self.energy_scale - self.solver_balance;
         EnergyScale { present, credit }

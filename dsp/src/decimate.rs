@@ -7,6 +7,9 @@
 //! other one lies half way between two steps, and has the same response read there. Nothing but sums of products in
 //! a fixed order: the same bits in blocks of any size.
 
+use pulp::{Simd, WithSimd};
+
+use crate::instructions::Instructions;
 use crate::ratio::Ratio;
 
 /// How late everything is heard, samples of the host's.
@@ -19,11 +22,12 @@ const REJECTION: f64 = 100.0;
 const SPARE: f64 = 0.5;
 
 /// Sums are taken in so many lanes.
-const LANES: usize = 4;
+const LANES: usize = 8;
 
 /// The low-pass of one string, and what it remembers.
 #[derive(Debug, Clone)]
 pub(crate) struct Decimator {
+    instructions: Instructions,
     ratio: Ratio,
     /// Impulse response at samples that coincide with a step and at those half way between two, whole lanes, zeros
     /// first; both empty at ratio 1.
@@ -44,7 +48,8 @@ impl Decimator {
         let taps = [0, 1].map(|half| if ratio > Ratio::ONE { low_pass(ratio, half) } else { Vec::new() });
         let past = taps[0].len().checked_sub(1).unwrap_or(DELAY) + ratio.shared();
         let room = past + ratio.steps_before(run + 1);
-        Decimator { ratio, taps, past, values: vec![0.0; room], zeros: past, second: 0 }
+        let instructions = Instructions::best();
+        Decimator { instructions, ratio, taps, past, values: vec![0.0; room], zeros: past, second: 0 }
     }
 
     /// Values that come in for each that goes out.
@@ -66,6 +71,12 @@ impl Decimator {
 
     /// Gives as many values as `out` has, for the [`Decimator::steps`] of so many that have come in.
     pub fn give(&mut self, out: &mut [f64]) {
+        let instructions = self.instructions;
+        instructions.run(Give { decimator: self, out });
+    }
+
+    #[inline(always)]
+    fn give_into(&mut self, out: &mut [f64]) {
         let came = self.steps(out.len());
         if self.ratio == Ratio::ONE {
             out.copy_from_slice(&self.values[..out.len()]);
@@ -116,8 +127,23 @@ impl Decimator {
     }
 }
 
+/// [`Decimator::give`], to be compiled for each instruction set.
+struct Give<'a> {
+    decimator: &'a mut Decimator,
+    out: &'a mut [f64],
+}
+
+impl WithSimd for Give<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.decimator.give_into(self.out);
+    }
+}
+
 /// Σ of products of the taps with as many values.
-#[inline]
+#[inline(always)]
 fn product(taps: &[f64], values: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     for (taps, values) in taps.chunks_exact(LANES).zip(values.chunks_exact(LANES)) {
@@ -125,7 +151,7 @@ fn product(taps: &[f64], values: &[f64]) -> f64 {
             sums[lane] += taps[lane] * values[lane];
         }
     }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
+    ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]))
 }
 
 /// The impulse response at `ratio` times the host's rate, read `half` of a step off its middle. Its transition is as wide

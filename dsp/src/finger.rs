@@ -1,8 +1,12 @@
 //! A finger near a string.
 
-use crate::contact::ContactLaw;
+use crate::active::Active;
+use crate::contact::{Before, ContactLaw};
+use crate::drive::Hand;
+use crate::field::Field;
 use crate::gesture::Touch;
 use crate::grid::Reading;
+use crate::model::Model;
 
 /// A finger near the string.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +29,76 @@ pub struct Finger {
     pub reading_before: Reading,
 }
 
+/// What a finger reads of the string under it at n.
+#[derive(Clone, Copy)]
+struct Under {
+    place: f64,
+    motion: f64,
+}
+
+impl Under {
+    /// The place at n − 1.
+    fn before(&self) -> f64 {
+        self.place - self.motion
+    }
+}
+
 impl Finger {
+    /// Moves it by a step as if it were free. Returns it as a contact with a string of this displacement and motion at n,
+    /// and whether it touches that at n − 1 or n.
+    #[inline(always)]
+    pub(crate) fn hold(
+        &mut self,
+        model: &Model,
+        hand: &Hand,
+        (displacement, motion): (&Field, &Field),
+        slot: usize,
+    ) -> (Active, bool) {
+        let before = self.before();
+        let Inertia { mobility: own_mobility, persistence } = self.inertia;
+        let free = persistence * before.motion - own_mobility * hand.force;
+        let under = |reading: &Reading| {
+            let [place, motion] = reading.of_each([displacement, motion]);
+            Under { place, motion }
+        };
+        // A finger that stays where it is reads the string once.
+        let now = under(&self.reading);
+        let stayed = before.reading_before.same_place(&self.reading);
+        let past = if stayed { now } else { under(&before.reading_before) };
+        self.reading_before = self.reading;
+        let mut here = now;
+        if hand.position != self.position {
+            self.position = hand.position;
+            self.reading = model.grid.reading(hand.position);
+            here = under(&self.reading);
+        }
+        self.motion = free;
+        self.height = before.height + free;
+        let slid =
+            if self.reading.same_place(&before.reading_before) { 0.0 } else { here.before() - past.before() };
+        let penetration_before = past.before() - (before.height - before.motion);
+        let penetration = now.place - before.height;
+        let mut active = Active {
+            slot: model.contacts.len() + slot,
+            reading: self.reading,
+            sign: -1.0,
+            lossy: model.lossy(&self.law, self.touch.damping, penetration, own_mobility),
+            before: Before::new(&self.law, penetration_before),
+            rest: (free + before.motion) - slid - here.motion,
+            own_mobility,
+            mobility: model.mobility,
+            ..Active::of(self.law)
+        };
+        active.evaluate(2.0 * (now.motion - before.motion));
+        (active, penetration_before > 0.0 || penetration > 0.0)
+    }
+
+    /// What a step overwrites of it.
+    #[inline(always)]
+    pub(crate) fn before(&self) -> FingerBefore {
+        FingerBefore { height: self.height, motion: self.motion, reading_before: self.reading_before }
+    }
+
     /// The finger before the last step.
     pub(crate) fn back(&self, before: &FingerBefore) -> Finger {
         let FingerBefore { height, motion, reading_before } = *before;

@@ -157,6 +157,17 @@ impl Reading {
         (w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3])
     }
 
+    /// The values of several fields of the same grid. (Their lengths are compared once, and where a number stands once for
+    /// all of them.)
+    #[inline(always)]
+    pub(crate) fn of_each<const COUNT: usize>(&self, fields: [&Field; COUNT]) -> [f64; COUNT] {
+        let length = fields[0].len();
+        let fields = fields.map(|field| &field[..length]);
+        let w = &self.weights;
+        let at = self.cells.map(|cell| fields.map(|field| field[cell as usize]));
+        std::array::from_fn(|i| (w[0] * at[0][i] + w[1] * at[1][i]) + (w[2] * at[2][i] + w[3] * at[3][i]))
+    }
+
     /// Adds `amount` times the weights to a field.
     #[inline(always)]
     pub fn spread(&self, v: &mut Field, amount: f64) {

@@ -204,20 +204,20 @@ fn solve(
     gain
 }
 
-/// Forces from which to start, were each law a straight line from the change of penetration that is expected on.
+/// Forces from which to start, were each law a straight line from the change of penetration that is expected on, at which
+/// it has been evaluated.
 ///
 /// (Penetrations run smoothly from sample to sample. Forces of stiff contacts do not: continued from the samples
 /// before, they take twice as many iterations.)
 #[inline(always)]
-fn begin(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) {
-    for (i, row) in rows.iter_mut().enumerate() {
-        row.evaluate(row.expected);
+fn begin(rows: &[Active], answer: &mut impl Answer, room: &mut Room) {
+    for (i, row) in rows.iter().enumerate() {
         room.start[i] = row.required - row.base;
         room.slopes[i] = row.slope;
     }
     answer.product(room.start, room.motion);
     for (i, row) in rows.iter().enumerate() {
-        room.unknown[i] = row.centre - room.motion[i] - row.expected;
+        room.unknown[i] = row.centre - room.motion[i] - row.change;
     }
     answer.springs(room.slopes, room.unknown);
     for (start, more) in room.start.iter_mut().zip(&*room.unknown) {

@@ -31,6 +31,8 @@ pub struct Scratch {
     pub(crate) solver: Solver,
     /// The contacts active in the last step, with their forces.
     pub(crate) active: Vec<Active>,
+    /// Where in [`State::close`] those stand that are near but not yet active.
+    pub(crate) near: Vec<usize>,
     /// The step in which each contact was last solved for, one more than its index.
     pub(crate) held: Vec<u64>,
     /// How far groups of grid points were over the skyline when contacts were last looked for.
@@ -39,6 +41,8 @@ pub struct Scratch {
     pub(crate) tried: f64,
     /// What the last step has overwritten of the fingers.
     pub(crate) fingers: Vec<Option<FingerBefore>>,
+    /// Energy of the fingers' motion before it, J.
+    pub(crate) finger_energy: f64,
 }
 
 impl Scratch {
@@ -60,10 +64,12 @@ impl Scratch {
             displacement: grid(),
             solver: Solver::with_capacity(&spans, model.finger_slots),
             active: Vec::with_capacity(contacts),
+            near: Vec::with_capacity(model.contacts.len()),
             held: vec![0; model.contacts.len()],
             clearances: vec![Clearance::default(); groups(&model.grid)],
             tried: 0.0,
             fingers: vec![None; model.finger_slots],
+            finger_energy: 0.0,
         }
     }
 
@@ -156,17 +162,20 @@ impl State {
             scratch.stiffness = model.stiffness(drive.tension);
             scratch.weights = Weights::new(model, &scratch.stiffness);
         }
-        let products = self.predict(simd, model, drive, scratch);
         let convergence = if model.contacts.is_empty() && self.fingers.iter().all(Option::is_none) {
             // Nothing of the last contact may be left in the record.
             scratch.active.clear();
             scratch.fingers.fill(None);
             scratch.tried = 0.0;
+            let products = self.predict(simd, model, drive, scratch);
             let pull = pull(model, &products);
             self.advance(simd, pull, scratch);
             Convergence::default()
         } else {
-            self.contact_step(simd, model, drive, &products, resting, scratch)
+            // What is known without the prediction is worked out while the sweep goes on.
+            self.hold(model, drive, resting, scratch);
+            let products = self.predict(simd, model, drive, scratch);
+            self.contact_step(simd, model, drive, &products, scratch)
         };
         std::mem::swap(&mut self.displacement, &mut scratch.displacement);
         std::mem::swap(&mut self.motion, &mut scratch.motion);

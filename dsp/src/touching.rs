@@ -5,25 +5,11 @@ use pulp::Simd;
 use crate::active::Active;
 use crate::contact::Before;
 use crate::drive::Drive;
-use crate::finger::{FingerBefore, Inertia};
 use crate::grid::{READING_NORM, Reading};
 use crate::model::Model;
+use crate::skyline::draw;
 use crate::state::{Close, State};
 use crate::string::Scratch;
-
-/// What a finger reads of the string under it at n.
-#[derive(Clone, Copy)]
-struct Under {
-    place: f64,
-    motion: f64,
-}
-
-impl Under {
-    /// The place at n − 1.
-    fn before(&self) -> f64 {
-        self.place - self.motion
-    }
-}
 
 /// What a contact reads of a step without contact forces.
 #[derive(Clone, Copy)]
@@ -45,8 +31,16 @@ impl Scratch {
     /// The motion of a point to n + 1 without contact forces, and the second difference there.
     #[inline(always)]
     pub(crate) fn free(&self, reading: &Reading, free_pull: f64) -> Free {
-        let curvature = reading.of(&self.curvature);
-        Free { motion: reading.of(&self.prediction) - free_pull * curvature, curvature }
+        let [motion, curvature] = reading.of_each([&self.prediction, &self.curvature]);
+        Free { motion: motion - free_pull * curvature, curvature }
+    }
+
+    /// Shows the last contact added how the string would move.
+    #[inline(always)]
+    fn show_last(&mut self, free: Free) {
+        if let Some(last) = self.active.last_mut() {
+            last.meet(free);
+        }
     }
 }
 
@@ -58,138 +52,115 @@ const AHEAD: f64 = 2.0;
 const WATCHED: f64 = 12.0;
 
 impl State {
-    /// Adds the fixed contacts that touched the string at n − 1 or, as predicted, will at n + 1; lossy ones also if they
-    /// touch it at n.
+    /// Takes up what is known to act before the string is predicted: the fixed contacts that touched the string at n − 1, lossy
+    /// ones also if they touch it at n, and the fingers that did at either. The other fingers are kept aside.
     #[inline(always)]
-    pub(crate) fn find_fixed(&self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
+    pub(crate) fn hold(&mut self, model: &Model, drive: &Drive, resting: bool, scratch: &mut Scratch) {
+        if !drive.heights.is_empty() && !resting {
+            self.heights_next.copy_from_slice(&drive.heights);
+            draw(&model.grid, &model.contacts, &self.heights_next, &mut self.skyline);
+            self.settling = 2;
+        }
+        scratch.active.clear();
+        scratch.near.clear();
         let near = AHEAD * self.nearer;
-        for close in &self.close {
+        for (position, close) in (0..).zip(&self.close) {
             let index = close.index as usize;
-            let now = self.heights[index] - close.displacement;
-            if now < -near {
-                continue;
-            }
-            let reading = &model.contacts[index].reading;
-            let before = self.heights_before[index] - close.before;
-            let free = scratch.free(reading, free_pull);
-            let after = self.heights_next[index] - (close.displacement + free.motion);
+            let overlap = self.overlap(close);
             // A lossy one resists at n what goes on into it, even if that is out of it before and after.
-            let resists = now > 0.0 && model.contacts[index].damping > 0.0;
-            if before > 0.0 || after > 0.0 || resists {
-                self.activate(model, index, Overlap { before, now }, free, scratch);
+            let resists = overlap.now > 0.0 && model.contacts[index].damping > 0.0;
+            if overlap.before > 0.0 || resists {
+                self.activate(model, index, overlap, scratch);
+            } else if overlap.now >= -near {
+                scratch.near.push(position);
             }
         }
+        self.hold_fingers(model, drive, resting, scratch);
     }
 
-    /// Adds a fixed contact.
+    /// Moves the fingers as if they were free, and adds those that touch the string at n − 1 or n.
     #[inline(always)]
-    fn activate(&self, model: &Model, index: usize, overlap: Overlap, free: Free, scratch: &mut Scratch) {
-        let contact = &model.contacts[index];
-        let raised = self.heights_next[index] - self.heights_before[index];
-        let motion = contact.reading.of(&self.motion);
-        let rest = motion - raised;
-        scratch.held[index] = self.steps + 1;
-        scratch.active.push(Active {
-            slot: index,
-            reading: contact.reading,
-            sign: 1.0,
-            law: contact.law,
-            lossy: model.lossy(&contact.law, contact.damping, overlap.now, 0.0),
-            before: Before::new(&contact.law, overlap.before),
-            rest,
-            base: 0.0,
-            centre: -(free.motion + rest),
-            raised,
-            own_mobility: 0.0,
-            mobility: model.mobility,
-            pull: free.curvature,
-            expected: raised - 2.0 * motion,
-            force: 0.0,
-            change: 0.0,
-            lambda: 0.0,
-            required: 0.0,
-            slope: 0.0,
-        });
-    }
-
-    /// Moves every finger as if it were free, and adds those that touch the string at n − 1, n or, as
-    /// predicted, n + 1.
-    #[inline(always)]
-    pub(crate) fn find_fingers(
-        &mut self,
-        model: &Model,
-        drive: &Drive,
-        free_pull: f64,
-        resting: bool,
-        scratch: &mut Scratch,
-    ) {
-        for slot in 0..self.fingers.len() {
-            let Some(finger) = &mut self.fingers[slot] else {
-                if scratch.fingers[slot].is_some() {
-                    scratch.fingers[slot] = None;
+    fn hold_fingers(&mut self, model: &Model, drive: &Drive, resting: bool, scratch: &mut Scratch) {
+        let string = (&self.displacement, &self.motion);
+        let mut squares = 0.0;
+        let past = scratch.fingers.iter_mut().zip(&drive.hands);
+        for (slot, (finger, (before, hand))) in self.fingers.iter_mut().zip(past).enumerate() {
+            let Some(finger) = finger else {
+                if before.is_some() {
+                    *before = None;
                 }
                 continue;
             };
-            let (height, motion, reading_before) = (finger.height, finger.motion, finger.reading_before);
-            scratch.fingers[slot] = Some(FingerBefore { height, motion, reading_before });
-            let mut hand = drive.hands[slot];
+            *before = Some(finger.before());
+            squares += finger.touch.mass * finger.motion * finger.motion;
+            let mut hand = *hand;
             if resting {
                 hand.position = finger.position;
             }
-            let Inertia { mobility: own_mobility, persistence } = finger.inertia;
-            let free = persistence * motion - own_mobility * hand.force;
-            let (law, damping) = (finger.law, finger.touch.damping);
-            let under = |reading: &Reading| Under {
-                place: reading.of(&self.displacement),
-                motion: reading.of(&self.motion),
-            };
-            // A finger that stays where it is reads the string once.
-            let now = under(&finger.reading);
-            let past = if reading_before.same_place(&finger.reading) { now } else { under(&reading_before) };
-            finger.reading_before = finger.reading;
-            let mut here = now;
-            if hand.position != finger.position {
-                finger.position = hand.position;
-                finger.reading = model.grid.reading(hand.position);
-                here = under(&finger.reading);
-            }
-            finger.motion = free;
-            finger.height = height + free;
-            let reading = finger.reading;
+            let (active, touches) = finger.hold(model, &hand, string, slot);
+            if touches { scratch.active.push(active) } else { scratch.solver.aside.push(active) }
+        }
+        let k = model.grid.time_step;
+        scratch.finger_energy = 0.5 * squares / (k * k);
+    }
 
-            let before = past.before() - (height - motion);
-            let string_free = scratch.free(&reading, free_pull);
-            let after = here.place + string_free.motion - (height + free);
-            let slid = if reading.same_place(&reading_before) { 0.0 } else { here.before() - past.before() };
-            let rest = (free + motion) - slid - here.motion;
-            let penetration = now.place - height;
-            scratch.active.push(Active {
-                slot: model.contacts.len() + slot,
-                reading,
-                sign: -1.0,
-                law,
-                lossy: model.lossy(&law, damping, penetration, own_mobility),
-                before: Before::new(&law, before),
-                rest,
-                base: 0.0,
-                centre: -(rest - string_free.motion),
-                raised: 0.0,
-                own_mobility,
-                mobility: model.mobility,
-                pull: -string_free.curvature,
-                expected: 2.0 * (now.motion - motion),
-                force: 0.0,
-                change: 0.0,
-                lambda: 0.0,
-                required: 0.0,
-                slope: 0.0,
-            });
-            // Not yet in contact: kept aside, to be looked at again when the string has been moved.
-            let touches = before > 0.0 || penetration > 0.0 || after > 0.0;
-            if !touches && let Some(finger) = scratch.active.pop() {
-                scratch.solver.aside.push(finger);
+    /// Shows all that is held how the string would move, and adds what that drives the string into.
+    #[inline(always)]
+    pub(crate) fn touch(&self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
+        for index in 0..scratch.active.len() {
+            let free = scratch.free(&scratch.active[index].reading, free_pull);
+            scratch.active[index].meet(free);
+        }
+        for position in 0..scratch.near.len() {
+            let close = &self.close[scratch.near[position]];
+            let index = close.index as usize;
+            let free = scratch.free(&model.contacts[index].reading, free_pull);
+            if close.displacement + free.motion < self.heights_next[index] {
+                self.activate(model, index, self.overlap(close), scratch);
+                scratch.show_last(free);
             }
         }
+        // Fingers not yet in contact stay aside, to be looked at again when the string has been moved.
+        let mut position = 0;
+        while position < scratch.solver.aside.len() {
+            let free = scratch.free(&scratch.solver.aside[position].reading, free_pull);
+            let finger = &mut scratch.solver.aside[position];
+            finger.meet(free);
+            if finger.before.penetration + finger.centre > 0.0 {
+                scratch.active.push(scratch.solver.aside.remove(position));
+            } else {
+                position += 1;
+            }
+        }
+    }
+
+    /// How deep the string is in a fixed contact.
+    #[inline(always)]
+    fn overlap(&self, close: &Close) -> Overlap {
+        let index = close.index as usize;
+        let before = self.heights_before[index] - close.before;
+        Overlap { before, now: self.heights[index] - close.displacement }
+    }
+
+    /// Adds a fixed contact, which the string's prediction has yet to be shown to.
+    #[inline(always)]
+    fn activate(&self, model: &Model, index: usize, overlap: Overlap, scratch: &mut Scratch) {
+        let contact = &model.contacts[index];
+        let raised = self.heights_next[index] - self.heights_before[index];
+        let motion = contact.reading.of(&self.motion);
+        scratch.held[index] = self.steps + 1;
+        let mut active = Active {
+            slot: index,
+            reading: contact.reading,
+            lossy: model.lossy(&contact.law, contact.damping, overlap.now, 0.0),
+            before: Before::new(&contact.law, overlap.before),
+            rest: motion - raised,
+            raised,
+            mobility: model.mobility,
+            ..Active::of(contact.law)
+        };
+        active.evaluate(raised - 2.0 * motion);
+        scratch.active.push(active);
     }
 
     /// Whether the string at n + 1 overlaps a contact that the solution did not hold. Fingers of which that is true are
@@ -287,7 +258,8 @@ impl State {
                     now: self.heights[index] - displacement,
                 };
                 let free = scratch.free(reading, free_pull);
-                self.activate(model, index, overlap, free, scratch);
+                self.activate(model, index, overlap, scratch);
+                scratch.show_last(free);
             }
         }
     }
