@@ -8,7 +8,7 @@ use crate::decimate::DELAY;
 use crate::drive::Drive;
 use crate::error::Error;
 use crate::gesture::TimedGesture;
-use crate::intonation::finger_place;
+use crate::intonation::{Behind, finger_place};
 use crate::model::Model;
 use crate::observed::Observed;
 use crate::queue::Queue;
@@ -34,7 +34,7 @@ pub struct StringGeometry {
     pub highest_ratio: f64,
     /// Wave impedance √(Tρ), kg/s.
     pub wave_impedance: f64,
-    pub(crate) behind: f64,
+    pub(crate) behind: Behind,
 }
 
 impl StringGeometry {

@@ -204,9 +204,27 @@ impl Bench<'_> {
     }
 }
 
-/// Where a finger presses to stop the fret of index `fret`, m from the nut: the fraction `behind` of the
-/// fret's own space, from the crown towards the nut.
-pub fn finger_place(frets: &[f64], fret: usize, behind: f64) -> f64 {
+/// How far behind the crown of its fret, towards the nut, a finger presses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Behind {
+    /// The part of the fret's own space.
+    pub part: f64,
+    /// The least distance, m, where the space has room for it: half of what a fingertip covers.
+    pub nearest: f64,
+}
+
+/// The part of a fret's space beyond which a finger does not draw back only to be far enough from the crown.
+const ROOM: f64 = 0.65;
+
+impl Behind {
+    /// The distance, m, in a fret's space of this length, m.
+    pub fn distance(&self, space: f64) -> f64 {
+        (self.part * space).max(self.nearest.min(ROOM * space))
+    }
+}
+
+/// Where a finger presses to stop the fret of index `fret`, m from the nut.
+pub fn finger_place(frets: &[f64], fret: usize, behind: Behind) -> f64 {
     let below = if fret == 0 { 0.0 } else { frets[fret - 1] };
-    frets[fret] - behind * (frets[fret] - below)
+    frets[fret] - behind.distance(frets[fret] - below)
 }

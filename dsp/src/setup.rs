@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::curve::Curve;
 use crate::error::{Error, within};
+use crate::intonation::Behind;
 use crate::model::Barrier;
 use crate::neck::Neck;
 pub use player::{Damper, Fretting, Player};
@@ -230,9 +231,12 @@ impl Setup {
         Ok(barrier)
     }
 
-    /// Which part of a fret's own space a finger presses behind it: none where there are no frets.
-    pub fn behind(&self) -> f64 {
-        if self.neck.fretless { 0.0 } else { self.player.fretting.behind }
+    /// How far behind its fret a finger presses: not at all where there are no frets.
+    pub fn behind(&self) -> Behind {
+        if self.neck.fretless {
+            return Behind { part: 0.0, nearest: 0.0 };
+        }
+        Behind { part: self.player.fretting.behind, nearest: self.player.fretting.nearest }
     }
 
     /// The largest factor by which a bend may raise the tension of a string.

@@ -36,6 +36,8 @@ pub struct Fretting {
     pub landing: f64,
     /// Where it presses: this fraction of the fret's own space behind the crown, 0.05 to 0.95.
     pub behind: f64,
+    /// It presses at least so far behind the crown, m, 0 to 0.03, where there is room for that.
+    pub nearest: f64,
 }
 
 /// A finger or palm that rests on a string to silence it.
@@ -57,12 +59,13 @@ impl Player {
         on_scale("player.pluck_position", self.pluck_position, scale)?;
         within("player.pluck_duration", self.pluck_duration, 1e-4, 0.1, "s")?;
         within("player.pluck_force", self.pluck_force, 1e-3, 1e3, "N")?;
-        let Fretting { touch, force, hover, landing, behind } = &self.fretting;
+        let Fretting { touch, force, hover, landing, behind, nearest } = &self.fretting;
         touch.check("player.fretting")?;
         within("player.fretting.force", *force, 0.1, 100.0, "N")?;
         within("player.fretting.hover", *hover, 0.0, 0.1, "m")?;
         within("player.fretting.landing", *landing, 0.0, 1.0, "s")?;
         within("player.fretting.behind", *behind, 0.05, 0.95, "of the fret's space")?;
+        within("player.fretting.nearest", *nearest, 0.0, 0.03, "m")?;
         let Damper { touch, force, landing, position } = &self.damper;
         touch.check("player.damper")?;
         within("player.damper.force", *force, 1e-3, 100.0, "N")?;
@@ -87,6 +90,8 @@ struct FrettingFile {
     hover: f64,
     landing: f64,
     behind: f64,
+    #[serde(default)]
+    nearest: f64,
 }
 
 impl From<FrettingFile> for Fretting {
@@ -98,15 +103,16 @@ impl From<FrettingFile> for Fretting {
             hover: file.hover,
             landing: file.landing,
             behind: file.behind,
+            nearest: file.nearest,
         }
     }
 }
 
 impl From<Fretting> for FrettingFile {
     fn from(fretting: Fretting) -> Self {
-        let Fretting { touch, force, hover, landing, behind } = fretting;
+        let Fretting { touch, force, hover, landing, behind, nearest } = fretting;
         let Touch { mass, stiffness, exponent, damping, hand_damping } = touch;
-        Self { mass, stiffness, exponent, damping, hand_damping, force, hover, landing, behind }
+        Self { mass, stiffness, exponent, damping, hand_damping, force, hover, landing, behind, nearest }
     }
 }
 

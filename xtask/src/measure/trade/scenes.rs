@@ -265,7 +265,7 @@ fn hand(setup: &Setup, hand: Hand) -> Option<FingerSpec> {
     let place = |fret: usize| {
         let (crown, before) =
             (setup.neck.equal_place(fret as f64), setup.neck.equal_place(fret as f64 - 1.0));
-        crown - fretting.behind * (crown - before)
+        crown - setup.behind().distance(crown - before)
     };
     let pressed = Curve::Points(vec![[0.0, 0.0], [fretting.landing, fretting.force]]);
     let (position, height, force) = match hand {
