@@ -182,6 +182,55 @@ impl ContactLaw {
     #[inline(always)]
     fn curved_gradient(&self, before: &Before, r: f64) -> (f64, f64) {
         let after = before.penetration + r;
+        if before.penetration > 0.0 && after > 0.0 {
+            return self.pressed_gradient(before, r);
+        }
+        // Out of contact at one end: nothing is subtracted from what is stored at the other.
+        let (force, energy) = self.curved(after);
+        // (A division need not wait for the root.)
+        let inverse = 1.0 / r;
+        let lambda = (energy - before.energy) * inverse;
+        (lambda, ((force - lambda) * inverse).max(0.0))
+    }
+
+    /// The same in contact at both ends, a and b: with s = √a and t = √b the differences of powers are divided by
+    /// b − a = (t + s)(t − s) once and for all, so that no digit is lost however near a is to b, and nothing is decided
+    /// by how near. For α = 3/2, b^(5/2) − a^(5/2) = (t − s)(t⁴ + t³s + t²s² + ts³ + s⁴).
+    #[inline(always)]
+    fn pressed_gradient(&self, before: &Before, r: f64) -> (f64, f64) {
+        let (a, s) = (before.penetration, before.root);
+        let b = a + r;
+        // λ over K/(α + 1), and its slope likewise.
+        let (lambda, slope) = match self.power {
+            Power::One => (a + b, 1.0),
+            Power::ThreeHalves => {
+                let t = b.sqrt();
+                let inverse = 1.0 / (s + t);
+                let sum = (a * a + b * (a + b)) + (s * t) * (a + b);
+                let slope = t * (3.0 * b + 4.0 * a) + s * (6.0 * b + 2.0 * a);
+                (sum * inverse, 0.5 * slope * (inverse * inverse))
+            }
+            Power::Two => (a * a + b * (a + b), a + 2.0 * b),
+            Power::FiveHalves => {
+                let t = b.sqrt();
+                let inverse = 1.0 / (s + t);
+                let square = a * a + b * (a + b);
+                let sum = (a * a + b * b) * (a + b) + (s * t) * square;
+                let slope = t * (5.0 * b * b + a * (8.0 * b + 4.0 * a))
+                    + s * (10.0 * b * b + a * (6.0 * b + 2.0 * a));
+                (sum * inverse, 0.5 * slope * (inverse * inverse))
+            }
+            Power::Three => ((a * a + b * b) * (a + b), 3.0 * b * b + a * (2.0 * b + a)),
+            Power::General => return self.general_gradient(before, r),
+        };
+        let stiffness = self.stiffness * self.share;
+        (stiffness * lambda, stiffness * slope)
+    }
+
+    /// The same for exponents that are no multiples of a half: as a quotient, or about the midpoint where that would lose
+    /// digits.
+    #[inline(never)]
+    fn general_gradient(&self, before: &Before, r: f64) -> (f64, f64) {
         let alpha = self.exponent;
         let middle = before.penetration + 0.5 * r;
         if r.abs() < NEARLY_STILL * middle {
@@ -193,11 +242,9 @@ impl ContactLaw {
             let slope = force / middle * (0.5 * alpha + curved * x * (1.0 / 12.0 + (alpha - 2.0) / 48.0 * x));
             return (lambda, slope);
         }
-        let (force, energy) = self.curved(after);
-        // (A division need not wait for the root.)
-        let inverse = 1.0 / r;
-        let lambda = (energy - before.energy) * inverse;
-        (lambda, ((force - lambda) * inverse).max(0.0))
+        let (force, energy) = self.curved(before.penetration + r);
+        let lambda = (energy - before.energy) / r;
+        (lambda, ((force - lambda) / r).max(0.0))
     }
 
     /// The same where the change begins or ends beyond the knee.
@@ -243,12 +290,14 @@ pub struct Before {
     pub penetration: f64,
     /// Φ(ηⁿ⁻¹), J.
     pub energy: f64,
+    /// √\[ηⁿ⁻¹\]₊.
+    root: f64,
 }
 
 impl Before {
     /// The past of a contact of the given law.
     #[inline(always)]
     pub fn new(law: &ContactLaw, penetration: f64) -> Self {
-        Before { penetration, energy: law.energy(penetration) }
+        Before { penetration, energy: law.energy(penetration), root: penetration.max(0.0).sqrt() }
     }
 }
