@@ -1,5 +1,7 @@
 //! A contact that acts in the present step: what the solver must know of it, and what it found.
 
+use std::ops::{Deref, DerefMut};
+
 use crate::contact::{Before, ContactLaw};
 use crate::grid::Reading;
 use crate::response::Row;
@@ -47,14 +49,13 @@ pub(crate) struct Active {
 }
 
 impl Active {
-    /// A contact of a law of which nothing else is known yet.
-    #[inline(always)]
-    pub fn of(law: ContactLaw) -> Self {
+    /// A place for a contact, with nothing in it yet.
+    fn nothing() -> Self {
         Active {
             slot: 0,
             reading: Reading::default(),
             sign: 1.0,
-            law,
+            law: ContactLaw::known(1.0, 1.0),
             lossy: 0.0,
             before: Before::default(),
             rest: 0.0,
@@ -112,5 +113,55 @@ impl Row for Active {
     #[inline]
     fn pull(&self) -> f64 {
         self.pull
+    }
+}
+
+/// The active contacts of a step. Each is put together where it then stands: one that was written number by number and then
+/// copied in whole vectors would be waited for until it is in memory.
+#[derive(Debug, Clone)]
+pub(crate) struct Rows {
+    places: Vec<Active>,
+    count: usize,
+}
+
+impl Rows {
+    /// Room for so many.
+    pub fn with_capacity(capacity: usize) -> Self {
+        Rows { places: vec![Active::nothing(); capacity], count: 0 }
+    }
+
+    /// None is active.
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// One more, of which everything is still to be written.
+    #[inline(always)]
+    pub fn next(&mut self) -> &mut Active {
+        let next = &mut self.places[self.count];
+        self.count += 1;
+        next
+    }
+
+    /// One less.
+    pub fn pop(&mut self) -> Option<Active> {
+        let last = self.last().copied();
+        self.count = self.count.saturating_sub(1);
+        last
+    }
+}
+
+impl Deref for Rows {
+    type Target = [Active];
+    #[inline(always)]
+    fn deref(&self) -> &[Active] {
+        &self.places[..self.count]
+    }
+}
+
+impl DerefMut for Rows {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [Active] {
+        &mut self.places[..self.count]
     }
 }

@@ -88,7 +88,7 @@ impl State {
     /// has come out, of which forces that all but cancel leave no digit when it is only added up.
     #[cold]
     fn recentre(&self, scratch: &mut Scratch) -> f64 {
-        for active in &mut scratch.active {
+        for active in scratch.active.iter_mut() {
             active.base = active.force;
             let moved = active.sign * active.reading.of(&scratch.motion);
             active.centre = -(moved + active.rest + active.own_mobility * active.base);
@@ -124,7 +124,7 @@ impl State {
     fn finish(&mut self, model: &Model, scratch: &mut Scratch) {
         scratch.solver.aside.clear();
         let contacts = model.contacts.len();
-        for active in &scratch.active {
+        for active in scratch.active.iter() {
             if let Some(slot) = active.slot.checked_sub(contacts)
                 && let (Some(finger), Some(old)) = (&mut self.fingers[slot], &scratch.fingers[slot])
             {

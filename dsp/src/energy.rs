@@ -183,7 +183,7 @@ impl Ledger {
         // What contacts take besides what they store. Loss and solver share it; where a pad asks for far more than it
         // was given both are large, and their sum would be known less well than their common part.
         let (mut solver, mut taken) = (0.0, 0.0);
-        for active in &scratch.active {
+        for active in scratch.active.iter() {
             loss += (active.required - active.lambda) * active.change / two_k;
             solver += (active.force - active.required) * active.change / two_k;
             taken += (active.force - active.lambda) * active.change / two_k;
@@ -261,7 +261,7 @@ fn gross(model: &Model, stiffness: &Stiffness, shapes: &Shapes, state: &State, s
     // Forces that were taken back in part were rounded as large as they were.
     let forces = scratch.tried;
     let (mut contacts, mut fingers) = (0.0, 0.0);
-    for active in &scratch.active {
+    for active in scratch.active.iter() {
         let (before, after) = (active.before.penetration, active.before.penetration + active.change);
         let place = before.abs() + active.change.abs() + active.raised.abs();
         let place = place

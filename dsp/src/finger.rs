@@ -44,8 +44,8 @@ impl Under {
 }
 
 impl Finger {
-    /// Moves it by a step as if it were free. Returns it as a contact with a string of this displacement and motion at n,
-    /// and whether it touches that at n − 1 or n.
+    /// Moves it by a step as if it were free, and makes it an active contact with a string of this displacement and motion at
+    /// n. Returns whether it touches that at n − 1 or n.
     #[inline(always)]
     pub(crate) fn hold(
         &mut self,
@@ -53,7 +53,8 @@ impl Finger {
         hand: &Hand,
         (displacement, motion): (&Field, &Field),
         slot: usize,
-    ) -> (Active, bool) {
+        active: &mut Active,
+    ) -> bool {
         let before = self.before();
         let Inertia { mobility: own_mobility, persistence } = self.inertia;
         let free = persistence * before.motion - own_mobility * hand.force;
@@ -78,19 +79,28 @@ impl Finger {
             if self.reading.same_place(&before.reading_before) { 0.0 } else { here.before() - past.before() };
         let penetration_before = past.before() - (before.height - before.motion);
         let penetration = now.place - before.height;
-        let mut active = Active {
+        *active = Active {
             slot: model.contacts.len() + slot,
             reading: self.reading,
             sign: -1.0,
+            law: self.law,
             lossy: model.lossy(&self.law, self.touch.damping, penetration, own_mobility),
             before: Before::new(&self.law, penetration_before),
             rest: (free + before.motion) - slid - here.motion,
+            base: 0.0,
+            centre: 0.0,
+            raised: 0.0,
             own_mobility,
             mobility: model.mobility,
-            ..Active::of(self.law)
+            pull: 0.0,
+            force: 0.0,
+            change: 0.0,
+            lambda: 0.0,
+            required: 0.0,
+            slope: 0.0,
         };
         active.evaluate(2.0 * (now.motion - before.motion));
-        (active, penetration_before > 0.0 || penetration > 0.0)
+        penetration_before > 0.0 || penetration > 0.0
     }
 
     /// What a step overwrites of it.

@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use crate::active::Active;
+use crate::active::Rows;
 use crate::drive::Drive;
 use crate::field::Field;
 use crate::finger::FingerBefore;
@@ -30,7 +30,7 @@ pub struct Scratch {
     pub(crate) displacement: Field,
     pub(crate) solver: Solver,
     /// The contacts active in the last step, with their forces.
-    pub(crate) active: Vec<Active>,
+    pub(crate) active: Rows,
     /// Where in [`State::close`] those stand that are near but not yet active.
     pub(crate) near: Vec<usize>,
     /// The step in which each contact was last solved for, one more than its index.
@@ -63,7 +63,7 @@ impl Scratch {
             motion: grid(),
             displacement: grid(),
             solver: Solver::with_capacity(&spans, model.finger_slots),
-            active: Vec::with_capacity(contacts),
+            active: Rows::with_capacity(contacts),
             near: Vec::with_capacity(model.contacts.len()),
             held: vec![0; model.contacts.len()],
             clearances: vec![Clearance::default(); groups(&model.grid)],

@@ -97,8 +97,10 @@ impl State {
             if resting {
                 hand.position = finger.position;
             }
-            let (active, touches) = finger.hold(model, &hand, string, slot);
-            if touches { scratch.active.push(active) } else { scratch.solver.aside.push(active) }
+            let touches = finger.hold(model, &hand, string, slot, scratch.active.next());
+            if !touches && let Some(finger) = scratch.active.pop() {
+                scratch.solver.aside.push(finger);
+            }
         }
         let k = model.grid.time_step;
         scratch.finger_energy = 0.5 * squares / (k * k);
@@ -127,7 +129,7 @@ impl State {
             let finger = &mut scratch.solver.aside[position];
             finger.meet(free);
             if finger.before.penetration + finger.centre > 0.0 {
-                scratch.active.push(scratch.solver.aside.remove(position));
+                *scratch.active.next() = scratch.solver.aside.remove(position);
             } else {
                 position += 1;
             }
@@ -149,18 +151,28 @@ impl State {
         let raised = self.heights_next[index] - self.heights_before[index];
         let motion = contact.reading.of(&self.motion);
         scratch.held[index] = self.steps + 1;
-        let mut active = Active {
+        let active = scratch.active.next();
+        *active = Active {
             slot: index,
             reading: contact.reading,
+            sign: 1.0,
+            law: contact.law,
             lossy: model.lossy(&contact.law, contact.damping, overlap.now, 0.0),
             before: Before::new(&contact.law, overlap.before),
             rest: motion - raised,
+            base: 0.0,
+            centre: 0.0,
             raised,
+            own_mobility: 0.0,
             mobility: model.mobility,
-            ..Active::of(contact.law)
+            pull: 0.0,
+            force: 0.0,
+            change: 0.0,
+            lambda: 0.0,
+            required: 0.0,
+            slope: 0.0,
         };
         active.evaluate(raised - 2.0 * motion);
-        scratch.active.push(active);
     }
 
     /// Whether the string at n + 1 overlaps a contact that the solution did not hold. Fingers of which that is true are
@@ -180,7 +192,7 @@ impl State {
         while let Some(finger) = scratch.solver.aside.get(position) {
             let height = self.fingers[finger.slot - model.contacts.len()].map_or(0.0, |f| f.height);
             if finger.reading.of(&scratch.displacement) - height > 0.0 {
-                scratch.active.push(scratch.solver.aside.remove(position));
+                *scratch.active.next() = scratch.solver.aside.remove(position);
                 missed = true;
             } else {
                 position += 1;
