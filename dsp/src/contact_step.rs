@@ -47,7 +47,7 @@ impl State {
                 in_order(&mut scratch.active);
                 // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
                 let factor = model.mobility * model.stretch / (1.0 + model.stretch * products.curvature);
-                let scale = self.energy_scale(model, scratch);
+                let scale = self.energy_scale(scratch);
                 let mut products = *products;
                 for round in 0.. {
                     created = scratch.solver.solve(
@@ -111,9 +111,9 @@ impl State {
     /// The energy against which this sample's errors are judged: of the string as a linear one, of the
     /// contacts, of the fingers.
     #[inline(always)]
-    fn energy_scale(&mut self, model: &Model, scratch: &Scratch) -> EnergyScale {
+    fn energy_scale(&mut self, scratch: &Scratch) -> EnergyScale {
         let contacts: f64 = scratch.active.iter().map(|active| active.before.energy).sum();
-        let present = scratch.string_energy(model) + contacts + scratch.finger_energy;
+        let present = scratch.string_energy() + contacts + scratch.finger_energy;
         self.energy_scale = self.energy_scale.max(present);
         let credit = CREATED_AT_MOST * self.energy_scale - self.solver_balance;
         EnergyScale { present, credit }

@@ -154,6 +154,7 @@ impl State {
             }
             self.displacement.close_ends(&Ends::new(grid));
         }
+        self.no_finger_from = self.fingers.len();
         for slot in 0..self.fingers.len() {
             self.fingers[slot] = old.fingers[slot].and_then(|mut finger| {
                 finger.law = model.finger_law(&finger.touch).ok()?;

@@ -28,6 +28,8 @@ pub struct State {
     pub(crate) motion: Field,
     /// Fingers, by slot.
     pub(crate) fingers: Vec<Option<Finger>>,
+    /// From this slot on there is no finger, and was none in the last step.
+    pub(crate) no_finger_from: usize,
     /// Heights bⁿ and bⁿ⁻¹ of the fixed contacts, m.
     pub(crate) heights: Vec<f64>,
     pub(crate) heights_before: Vec<f64>,
@@ -63,6 +65,7 @@ impl State {
             displacement: Field::new(&model.grid),
             motion: Field::new(&model.grid),
             fingers: vec![None; model.finger_slots],
+            no_finger_from: 0,
             heights_before: heights.clone(),
             heights_next: heights.clone(),
             heights,
@@ -86,6 +89,7 @@ impl State {
         self.displacement.fill(0.0);
         self.motion.fill(0.0);
         self.fingers.fill(None);
+        self.no_finger_from = 0;
         for (height, contact) in self.heights.iter_mut().zip(&model.contacts) {
             *height = contact.height;
         }
@@ -172,6 +176,7 @@ impl State {
         let finger =
             Finger { touch, law, inertia, height, motion, position, reading, reading_before: reading };
         self.fingers[slot] = Some(finger);
+        self.no_finger_from = self.no_finger_from.max(slot + 1);
         self.finger_changes += 1;
         Ok(())
     }

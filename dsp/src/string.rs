@@ -21,6 +21,7 @@ pub struct Scratch {
     stiffness: Stiffness,
     weights: Weights,
     products: Products,
+    string_energy: f64,
     /// Undivided second differences of uⁿ.
     pub(crate) curvature: Field,
     /// The motion to n + 1 without contacts and tension modulation, then with contacts.
@@ -58,6 +59,7 @@ impl Scratch {
             weights: Weights::new(model, &stiffness),
             stiffness,
             products: Products::default(),
+            string_energy: 0.0,
             curvature: grid(),
             prediction: grid(),
             motion: grid(),
@@ -84,6 +86,7 @@ impl Scratch {
         self.active.clear();
         self.held.fill(0);
         self.products = Products::default();
+        self.string_energy = 0.0;
         self.fingers.fill(None);
         self.motion.fill(0.0);
         self.displacement.fill(0.0);
@@ -111,10 +114,8 @@ impl Scratch {
 
     /// Energy of the string as a linear one without bending at the sample the last step led from, J:
     /// what the step knew anyway.
-    pub fn string_energy(&self, model: &Model) -> f64 {
-        let (k, h) = (model.grid.time_step, model.grid.spacing);
-        0.5 * model.string.linear_density * h / (k * k) * self.products.motion
-            + 0.5 * self.stiffness.tension / h * self.products.steepness
+    pub fn string_energy(&self) -> f64 {
+        self.string_energy
     }
 
     /// Force of each active contact in the last step, N, by index: the model's contacts, then fingers.
@@ -157,12 +158,12 @@ impl State {
         scratch: &mut Scratch,
     ) -> Convergence {
         // What is known of the energy before anything is computed.
-        let resting = self.energy_scale.max(scratch.string_energy(model)) > MOST_ENERGY;
+        let resting = self.energy_scale.max(scratch.string_energy) > MOST_ENERGY;
         if drive.tension != scratch.stiffness.tension && !resting {
             scratch.stiffness = model.stiffness(drive.tension);
             scratch.weights = Weights::new(model, &scratch.stiffness);
         }
-        let convergence = if model.contacts.is_empty() && self.fingers.iter().all(Option::is_none) {
+        let convergence = if model.contacts.is_empty() && self.no_finger_from == 0 {
             // Nothing of the last contact may be left in the record.
             scratch.active.clear();
             scratch.fingers.fill(None);
@@ -199,6 +200,9 @@ impl State {
             (&mut scratch.curvature, &mut scratch.prediction),
         );
         scratch.products = products;
+        let (k, h) = (model.grid.time_step, model.grid.spacing);
+        scratch.string_energy = 0.5 * model.string.linear_density * h / (k * k) * products.motion
+            + 0.5 * scratch.stiffness.tension / h * products.steepness;
         for push in &drive.pushes {
             let motion = model.mobility * push.force;
             push.reading.spread(&mut scratch.prediction, motion);

@@ -83,14 +83,16 @@ impl State {
     fn hold_fingers(&mut self, model: &Model, drive: &Drive, resting: bool, scratch: &mut Scratch) {
         let string = (&self.displacement, &self.motion);
         let mut squares = 0.0;
+        let (fingers, mut last) = (&mut self.fingers[..self.no_finger_from], 0);
         let past = scratch.fingers.iter_mut().zip(&drive.hands);
-        for (slot, (finger, (before, hand))) in self.fingers.iter_mut().zip(past).enumerate() {
+        for (slot, (finger, (before, hand))) in fingers.iter_mut().zip(past).enumerate() {
             let Some(finger) = finger else {
                 if before.is_some() {
                     *before = None;
                 }
                 continue;
             };
+            last = slot + 1;
             *before = Some(finger.before());
             squares += finger.touch.mass * finger.motion * finger.motion;
             let mut hand = *hand;
@@ -102,6 +104,7 @@ impl State {
                 scratch.solver.aside.push(finger);
             }
         }
+        self.no_finger_from = last;
         let k = model.grid.time_step;
         scratch.finger_energy = 0.5 * squares / (k * k);
     }

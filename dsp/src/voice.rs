@@ -168,10 +168,7 @@ impl Voice {
             ledger.record(&self.model, &self.state, &self.scratch, &self.drive);
         }
         let signal = self.listener.hear(&self.model, &self.state, &self.scratch);
-        if self.hands.idle()
-            && self.settling.part.rests()
-            && self.scratch.string_energy(&self.model) < SILENCE
-        {
+        if self.hands.idle() && self.settling.part.rests() && self.scratch.string_energy() < SILENCE {
             self.fall_asleep();
         }
         signal

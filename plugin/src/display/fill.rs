@@ -31,7 +31,7 @@ impl StringSeen {
             .pluck
             .map(|pluck| PluckSeen { position: pluck.position as f32, force: pluck.force as f32 });
         self.tension = drive.tension as f32;
-        self.energy = scratch.string_energy(model) as f32;
+        self.energy = scratch.string_energy() as f32;
         self.iterations = observed.iterations as f32 / observed.steps.max(1) as f32;
         self.see_barrier(instrument, index);
         self.see_fingers(instrument, index);
