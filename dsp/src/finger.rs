@@ -55,17 +55,17 @@ impl Finger {
         slot: usize,
         active: &mut Active,
     ) -> bool {
-        let before = self.before();
+        let (height, motion_before, reading_before) = (self.height, self.motion, self.reading_before);
         let Inertia { mobility: own_mobility, persistence } = self.inertia;
-        let free = persistence * before.motion - own_mobility * hand.force;
+        let free = persistence * motion_before - own_mobility * hand.force;
         let under = |reading: &Reading| {
             let [place, motion] = reading.of_each([displacement, motion]);
             Under { place, motion }
         };
         // A finger that stays where it is reads the string once.
         let now = under(&self.reading);
-        let stayed = before.reading_before.same_place(&self.reading);
-        let past = if stayed { now } else { under(&before.reading_before) };
+        let stayed = reading_before.same_place(&self.reading);
+        let past = if stayed { now } else { under(&reading_before) };
         self.reading_before = self.reading;
         let mut here = now;
         if hand.position != self.position {
@@ -74,11 +74,10 @@ impl Finger {
             here = under(&self.reading);
         }
         self.motion = free;
-        self.height = before.height + free;
-        let slid =
-            if self.reading.same_place(&before.reading_before) { 0.0 } else { here.before() - past.before() };
-        let penetration_before = past.before() - (before.height - before.motion);
-        let penetration = now.place - before.height;
+        self.height = height + free;
+        let slid = if self.reading.same_place(&reading_before) { 0.0 } else { here.before() - past.before() };
+        let penetration_before = past.before() - (height - motion_before);
+        let penetration = now.place - height;
         *active = Active {
             slot: model.contacts.len() + slot,
             reading: self.reading,
@@ -86,7 +85,7 @@ impl Finger {
             law: self.law,
             lossy: model.lossy(&self.law, self.touch.damping, penetration, own_mobility),
             before: Before::new(&self.law, penetration_before),
-            rest: (free + before.motion) - slid - here.motion,
+            rest: (free + motion_before) - slid - here.motion,
             base: 0.0,
             centre: 0.0,
             raised: 0.0,
@@ -99,14 +98,26 @@ impl Finger {
             required: 0.0,
             slope: 0.0,
         };
-        active.evaluate(2.0 * (now.motion - before.motion));
+        active.evaluate(2.0 * (now.motion - motion_before));
         penetration_before > 0.0 || penetration > 0.0
     }
 
     /// What a step overwrites of it.
-    #[inline(always)]
-    pub(crate) fn before(&self) -> FingerBefore {
+    fn before(&self) -> FingerBefore {
         FingerBefore { height: self.height, motion: self.motion, reading_before: self.reading_before }
+    }
+
+    /// Keeps what a step overwrites of it, number by number: a whole that is put together first is waited for.
+    #[inline(always)]
+    pub(crate) fn remember(&self, place: &mut Option<FingerBefore>) {
+        match place {
+            Some(before) => {
+                before.height = self.height;
+                before.motion = self.motion;
+                before.reading_before = self.reading_before;
+            }
+            None => *place = Some(self.before()),
+        }
     }
 
     /// The finger before the last step.

@@ -238,6 +238,8 @@ pub struct Model {
     pub(crate) inverse_s: f64,
     /// k²/(ρhs): displacement in one step per newton at a grid point, m/N.
     pub(crate) mobility: f64,
+    /// 1/(2k), 1/s.
+    pub(crate) half_rate: f64,
     /// The contacts beside each group of grid points.
     pub(crate) blocks: Blocks,
     /// k²EA/(4ρLh³s), the strength of tension modulation in units of undivided second differences.
@@ -288,6 +290,7 @@ impl Model {
             decay,
             inverse_s,
             mobility,
+            half_rate: 0.5 / time_step,
             blocks,
             stretch,
         })
@@ -347,7 +350,7 @@ impl Model {
         if damping == 0.0 || penetration <= 0.0 {
             return 0.0;
         }
-        let lossy = damping * law.force(penetration) / (2.0 * self.grid.time_step);
+        let lossy = damping * law.force(penetration) * self.half_rate;
         let mobility = self.mobility + own_mobility;
         if lossy * mobility > STEEPEST { STEEPEST / mobility } else { lossy }
     }

@@ -93,7 +93,7 @@ impl State {
                 continue;
             };
             last = slot + 1;
-            *before = Some(finger.before());
+            finger.remember(before);
             squares += finger.touch.mass * finger.motion * finger.motion;
             let mut hand = *hand;
             if resting {
