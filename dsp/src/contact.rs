@@ -301,3 +301,60 @@ impl Before {
         Before { penetration, energy: law.energy(penetration), root: penetration.max(0.0).sqrt() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Before, ContactLaw};
+
+    /// ∫₀¹ f(x) dx by Gauss and Legendre's rule of five in each of many pieces.
+    fn integral(f: impl Fn(f64) -> f64) -> f64 {
+        const RULE: [(f64, f64); 5] = [
+            (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+            (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+            (0.0, 0.568_888_888_888_888_9),
+            (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+            (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+        ];
+        const PIECES: usize = 64;
+        let piece = |index: usize| -> f64 {
+            let at = |x: f64| (index as f64 + 0.5 + 0.5 * x) / PIECES as f64;
+            RULE.iter().map(|(x, weight)| 0.5 * weight * f(at(*x))).sum()
+        };
+        (0..PIECES).map(piece).sum::<f64>() / PIECES as f64
+    }
+
+    /// λ = ∫₀¹ φ(a + xr) dx and its slope ∫₀¹ xφ′(a + xr) dx, whatever the exponent and however small the change; and
+    /// λr is the difference of what is stored.
+    #[test]
+    fn the_discrete_gradient_is_the_mean_of_the_law() {
+        for exponent in [1.0, 1.5, 2.0, 2.3, 2.5, 3.0, 4.7] {
+            let law = ContactLaw::new("test", 3e9, exponent).expect("it is in range");
+            for before in [1e-9, 1e-6, 2e-4] {
+                for part in [1e-15, 1e-9, 1e-5, 0.9e-3, 1.1e-3, 0.03, 0.4, 3.0] {
+                    for r in [part * before, -part * before / (1.0 + part)] {
+                        let past = Before::new(&law, before);
+                        let (lambda, slope) = law.gradient(&past, r);
+                        let at = |x: f64| before + x * r;
+                        let (mean, steep) =
+                            (integral(|x| law.force(at(x))), integral(|x| x * law.slope(at(x))));
+                        // Exponents that are no multiples of a half are taken as a quotient, which loses three digits of λ
+                        // and six of its slope, or as a series.
+                        let (force, stiffness) =
+                            if (2.0 * exponent).fract() == 0.0 { (4e-15, 8e-15) } else { (2e-12, 2e-9) };
+                        assert!(
+                            (lambda / mean - 1.0).abs() < force,
+                            "{exponent}, {before}, {r}: {lambda} {mean}"
+                        );
+                        assert!(
+                            (slope / steep - 1.0).abs() < stiffness,
+                            "{exponent}, {before}, {r}: {slope}"
+                        );
+                        let (stored, then) = (law.energy(before + r), law.energy(before));
+                        let off = lambda * r - (stored - then);
+                        assert!(off.abs() < 4e-15 * (stored + then), "{exponent}, {before}, {r}: {off:e}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -12,8 +12,8 @@ pub enum Quality {
     /// Least work: every string at the host's rate, contacts to 1e-8 m. Thin strings ring too short high on the
     /// neck.
     Draft,
-    /// For playing: grids no wider than 6 mm, so that thin strings take two or three steps a sample; contacts to
-    /// 1e-9 m.
+    /// For playing: grids no wider than 6 mm, so that thin strings take one and a half or two steps a sample; contacts
+    /// to 1e-9 m.
     #[default]
     Live,
     /// For a finished recording: grids no wider than 3 mm.

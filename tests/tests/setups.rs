@@ -93,8 +93,14 @@ fn frets_stay_in_order_and_near_equal_temperament() {
                 let moved = place - equal;
                 // A luthier moves a saddle by as much.
                 assert!(moved.abs() < 5.5e-3, "{name} {} fret {}: {moved} m", string.name, fret + 1);
-                let finger = finger_place(&found.frets, fret, setup.player.fretting.behind);
+                let finger = finger_place(&found.frets, fret, setup.behind());
                 assert!(finger > 0.0 && finger < *place);
+                // A fingertip never lies on its fret, nor on the one before.
+                let space = place - fret.checked_sub(1).map_or(0.0, |below| found.frets[below]);
+                let distance = place - finger;
+                let least = 0.007_f64.min(0.65 * space) - 1e-12;
+                assert!(distance >= least, "{name} fret {}: {distance} m", fret + 1);
+                assert!(distance < 0.66 * space, "{name} fret {}: {distance} m", fret + 1);
             }
         }
     }
@@ -152,7 +158,7 @@ fn frequencies_follow_the_midi_tuning_standard() {
 
 #[test]
 fn wrong_setups_are_refused_in_one_line() {
-    let cases: [(&str, &str, &[&str]); 19] = [
+    let cases: [(&str, &str, &[&str]); 20] = [
         ("frets = 22", "frets = 99", &["neck.frets", "99"]),
         ("frets = 22", "fretz = 22", &["fretz"]),
         ("action = 0.0016", "action = 0.0001", &["neck.action", "1e-4"]),
@@ -168,6 +174,7 @@ fn wrong_setups_are_refused_in_one_line() {
         ("loss_0 = 0.757", "loss_0 = -1.0", &["string[1].loss_0", "-1"]),
         ("pan = 0.25", "pan = 2", &["string[1].pan", "2"]),
         ("behind = 0.4", "behind = 1.5", &["player.fretting.behind", "1.5"]),
+        ("nearest = 0.007", "nearest = 0.5", &["player.fretting.nearest", "0.5", "0.03 m"]),
         ("pluck_position = 0.12", "pluck_position = 0.7", &["player.pluck_position", "0.7", "0.6477"]),
         ("position = 0.162", "position = 0.001", &["pickup.aperture", "0.02"]),
         ("kind = \"magnetic\"", "kind = \"laser\"", &["laser"]),
