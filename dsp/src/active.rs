@@ -49,29 +49,27 @@ pub(crate) struct Active {
 }
 
 impl Active {
-    /// A place for a contact, with nothing in it yet.
-    fn nothing() -> Self {
-        Active {
-            slot: 0,
-            reading: Reading::default(),
-            sign: 1.0,
-            law: ContactLaw::known(1.0, 1.0),
-            lossy: 0.0,
-            before: Before::default(),
-            rest: 0.0,
-            base: 0.0,
-            centre: 0.0,
-            raised: 0.0,
-            own_mobility: 0.0,
-            mobility: 0.0,
-            pull: 0.0,
-            force: 0.0,
-            change: 0.0,
-            lambda: 0.0,
-            required: 0.0,
-            slope: 0.0,
-        }
-    }
+    /// A contact of which nothing is known yet.
+    pub const NOTHING: Active = Active {
+        slot: 0,
+        reading: Reading::NOTHING,
+        sign: 1.0,
+        law: ContactLaw::known(1.0, 1.0),
+        lossy: 0.0,
+        before: Before::NOTHING,
+        rest: 0.0,
+        base: 0.0,
+        centre: 0.0,
+        raised: 0.0,
+        own_mobility: 0.0,
+        mobility: 0.0,
+        pull: 0.0,
+        force: 0.0,
+        change: 0.0,
+        lambda: 0.0,
+        required: 0.0,
+        slope: 0.0,
+    };
 
     /// Learns how the string would move under it without contact forces.
     #[inline(always)]
@@ -127,7 +125,7 @@ pub(crate) struct Rows {
 impl Rows {
     /// Room for so many.
     pub fn with_capacity(capacity: usize) -> Self {
-        Rows { places: vec![Active::nothing(); capacity], count: 0 }
+        Rows { places: vec![Active::NOTHING; capacity], count: 0 }
     }
 
     /// None is active.

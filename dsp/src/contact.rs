@@ -45,7 +45,7 @@ impl ContactLaw {
     }
 
     /// A law whose numbers are known to be good.
-    pub(crate) fn known(stiffness: f64, exponent: f64) -> Self {
+    pub(crate) const fn known(stiffness: f64, exponent: f64) -> Self {
         let power = match exponent {
             1.0 => Power::One,
             1.5 => Power::ThreeHalves,
@@ -295,6 +295,9 @@ pub struct Before {
 }
 
 impl Before {
+    /// Out of contact.
+    pub(crate) const NOTHING: Before = Before { penetration: 0.0, energy: 0.0, root: 0.0 };
+
     /// The past of a contact of the given law.
     #[inline(always)]
     pub fn new(law: &ContactLaw, penetration: f64) -> Self {

@@ -86,17 +86,9 @@ impl Finger {
             lossy: model.lossy(&self.law, self.touch.damping, penetration, own_mobility),
             before: Before::new(&self.law, penetration_before),
             rest: (free + motion_before) - slid - here.motion,
-            base: 0.0,
-            centre: 0.0,
-            raised: 0.0,
             own_mobility,
             mobility: model.mobility,
-            pull: 0.0,
-            force: 0.0,
-            change: 0.0,
-            lambda: 0.0,
-            required: 0.0,
-            slope: 0.0,
+            ..Active::NOTHING
         };
         active.evaluate(2.0 * (now.motion - motion_before));
         penetration_before > 0.0 || penetration > 0.0

@@ -81,6 +81,9 @@ pub const READING_NORM: f64 = 1.25;
 const AT_NODE: f64 = 1e-9;
 
 impl Reading {
+    /// Reads nothing.
+    pub(crate) const NOTHING: Reading = Reading { first: 0, weights: [0.0; 4], cells: [0; 4] };
+
     fn new(grid: &Grid, position: f64) -> Self {
         let nodes = grid.intervals;
         let place = (position / grid.spacing).clamp(0.0, nodes as f64);

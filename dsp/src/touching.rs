@@ -158,22 +158,13 @@ impl State {
         *active = Active {
             slot: index,
             reading: contact.reading,
-            sign: 1.0,
             law: contact.law,
             lossy: model.lossy(&contact.law, contact.damping, overlap.now, 0.0),
             before: Before::new(&contact.law, overlap.before),
             rest: motion - raised,
-            base: 0.0,
-            centre: 0.0,
             raised,
-            own_mobility: 0.0,
             mobility: model.mobility,
-            pull: 0.0,
-            force: 0.0,
-            change: 0.0,
-            lambda: 0.0,
-            required: 0.0,
-            slope: 0.0,
+            ..Active::NOTHING
         };
         active.evaluate(raised - 2.0 * motion);
     }
