@@ -47,7 +47,7 @@ impl Quality {
             Self::Draft => "least work, high frets ring too short",
             Self::Live => "within 1 cent, buzz within 25 %",
             Self::Studio => "3 × the work, buzz within 10 %",
-            Self::Reference => "9 × the work, buzz within 5 %",
+            Self::Reference => "8 × the work, buzz within 5 %",
         }
     }
 
