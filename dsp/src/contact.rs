@@ -227,7 +227,7 @@ impl ContactLaw {
         (stiffness * lambda, stiffness * slope)
     }
 
-    /// The same for exponents that are no multiples of a half: as a quotient, or about the midpoint where that would lose
+    /// The same for other exponents: as a quotient, or about the midpoint where that would lose
     /// digits.
     #[inline(never)]
     fn general_gradient(&self, before: &Before, r: f64) -> (f64, f64) {
@@ -284,13 +284,13 @@ const LEAST_KNEE: f64 = 1e-50;
 const NEARLY_STILL: f64 = 1e-3;
 
 /// A contact as it was one step before the present one.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Before {
     /// Penetration ηⁿ⁻¹, m.
     pub penetration: f64,
     /// Φ(ηⁿ⁻¹), J.
     pub energy: f64,
-    /// √\[ηⁿ⁻¹\]₊.
+    /// √\[ηⁿ⁻¹\]₊, m^½.
     root: f64,
 }
 
@@ -308,20 +308,14 @@ impl Before {
 #[cfg(test)]
 mod tests {
     use super::{Before, ContactLaw};
+    use crate::pickup::FIELD;
 
-    /// ∫₀¹ f(x) dx by Gauss and Legendre's rule of five in each of many pieces.
+    /// ∫₀¹ f(x) dx by the rule of five that pickups have, in each of many pieces.
     fn integral(f: impl Fn(f64) -> f64) -> f64 {
-        const RULE: [(f64, f64); 5] = [
-            (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-            (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-            (0.0, 0.568_888_888_888_888_9),
-            (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-            (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-        ];
         const PIECES: usize = 64;
         let piece = |index: usize| -> f64 {
             let at = |x: f64| (index as f64 + 0.5 + 0.5 * x) / PIECES as f64;
-            RULE.iter().map(|(x, weight)| 0.5 * weight * f(at(*x))).sum()
+            FIELD.iter().map(|(x, weight)| 0.5 * weight * f(at(*x))).sum()
         };
         (0..PIECES).map(piece).sum::<f64>() / PIECES as f64
     }
@@ -340,7 +334,7 @@ mod tests {
                         let at = |x: f64| before + x * r;
                         let (mean, steep) =
                             (integral(|x| law.force(at(x))), integral(|x| x * law.slope(at(x))));
-                        // Exponents that are no multiples of a half are taken as a quotient, which loses three digits of λ
+                        // Exponents without a closed form are taken as a quotient, which loses three digits of λ
                         // and six of its slope, or as a series.
                         let (force, stiffness) =
                             if (2.0 * exponent).fract() == 0.0 { (4e-15, 8e-15) } else { (2e-12, 2e-9) };

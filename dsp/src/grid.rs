@@ -62,7 +62,7 @@ impl Grid {
 /// At a grid point all but one weight vanish.
 ///
 /// (Aligned so that it is copied in whole vectors: one that overlaps two others waits until they are in memory.)
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(32))]
 pub struct Reading {
     /// The first of the four nodes.

@@ -213,7 +213,8 @@ pub struct Behind {
     pub nearest: f64,
 }
 
-/// The part of a fret's space beyond which a finger does not draw back only to be far enough from the crown.
+/// The part of a fret's space beyond which a finger does not draw back only to be far enough from the crown: a little
+/// past the middle (chosen, not measured), or it would lie on the fret before.
 const ROOM: f64 = 0.65;
 
 impl Behind {

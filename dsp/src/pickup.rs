@@ -82,7 +82,7 @@ enum Source {
 
 /// Points at which the field of a coil is sampled, a Gauss–Legendre rule of five: exact for all that a
 /// string can do within 2 cm.
-const FIELD: [(f64, f64); 5] = [
+pub(crate) const FIELD: [(f64, f64); 5] = [
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
     (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
     (0.0, 0.568_888_888_888_888_9),

@@ -173,7 +173,7 @@ impl State {
             self.advance(simd, pull, scratch);
             Convergence::default()
         } else {
-            // What is known without the prediction is worked out while the sweep goes on.
+            // What is known of contacts without the prediction need not wait for it.
             self.hold(model, drive, resting, scratch);
             let products = self.predict(simd, model, drive, scratch);
             self.contact_step(simd, model, drive, &products, scratch)

@@ -111,6 +111,7 @@ impl Voice {
     /// Begins a gesture.
     pub fn begin(&mut self, gesture: Gesture) {
         if self.is_at_rest() {
+            // It wakes with the first of two samples that may share a step: its sound does not depend on when.
             self.decimator.reset();
         }
         self.asleep = false;

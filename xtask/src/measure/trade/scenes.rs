@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 
 use anyhow::{Context, Result};
 use low_action_dsp::curve::{CountOrList, Curve, OneOrEach};
+use low_action_dsp::intonation::finger_place;
 use low_action_dsp::scene::{
     FingerSpec, FretPlacement, FretboardSpec, ListeningPoint, OutputSpec, PluckSpec, StringSpec,
 };
@@ -262,11 +263,8 @@ fn fretboard(setup: &Setup, setting: &Setting) -> Result<FretboardSpec> {
 /// The finger of a hand on a string.
 fn hand(setup: &Setup, hand: Hand) -> Option<FingerSpec> {
     let fretting = &setup.player.fretting;
-    let place = |fret: usize| {
-        let (crown, before) =
-            (setup.neck.equal_place(fret as f64), setup.neck.equal_place(fret as f64 - 1.0));
-        crown - setup.behind().distance(crown - before)
-    };
+    let frets = setup.neck.equal_places();
+    let place = |fret: usize| finger_place(&frets, fret - 1, setup.behind());
     let pressed = Curve::Points(vec![[0.0, 0.0], [fretting.landing, fretting.force]]);
     let (position, height, force) = match hand {
         Hand::Open => return None,
