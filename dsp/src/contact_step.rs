@@ -8,7 +8,7 @@ use crate::drive::Drive;
 use crate::field::Field;
 use crate::kernel::Products;
 use crate::model::Model;
-use crate::response::ONE_BLOCK;
+use crate::response::FEW;
 use crate::solver::{Convergence, EnergyScale};
 use crate::state::State;
 use crate::string::{Scratch, pull};
@@ -140,10 +140,10 @@ impl State {
     }
 }
 
-/// Puts contacts in order of place, where the response wants it: a few make one block in any order.
+/// Puts contacts in order of place, where the response wants it.
 #[inline]
 fn in_order(rows: &mut [Active]) {
-    if rows.len() > ONE_BLOCK {
+    if rows.len() > FEW {
         rows.sort_unstable_by(|a, b| {
             a.reading.centre().total_cmp(&b.reading.centre()).then(a.slot.cmp(&b.slot))
         });

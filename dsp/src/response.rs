@@ -2,16 +2,16 @@
 //!
 //! M = D + S − ω z zᵀ, where D is the fingers' own mobility, S the mobility of the string at places that
 //! share grid points, and the last term the pull of tension modulation. Contacts fall into blocks that
-//! share no grid points, so S and D are dense only within blocks, and z couples them all. A few
-//! contacts make one block that holds everything.
+//! share no grid points, so S and D are dense only within blocks, and z couples them all. Of a few
+//! contacts the whole matrix is kept.
 
 use nalgebra::linalg::Cholesky;
 use nalgebra::{DVectorViewMut, Dyn, OMatrix, VecStorage};
 
 use crate::solver::Answer;
 
-/// Up to this many contacts are one block, with the rank-one term inside.
-pub(crate) const ONE_BLOCK: usize = 6;
+/// Up to this many contacts are [`Few`], in any order.
+pub(crate) const FEW: usize = 6;
 
 /// Points of the string that a finger may touch at once, by cubic interpolation.
 const FINGER_POINTS: usize = 4;
@@ -25,14 +25,14 @@ struct Block {
     offset: usize,
 }
 
-/// The answer matrix M of the active contacts, and room to solve with it.
+/// The answer matrix M of many contacts, and room to solve with it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Response {
     blocks: Vec<Block>,
     /// Room to find the blocks.
     starts: Vec<usize>,
     entries: Vec<f64>,
-    /// z and its factor ω ≥ 0; 0 when it is inside the only block.
+    /// z and its factor ω ≥ 0.
     pull: Vec<f64>,
     pull_factor: f64,
     /// Room for one block's matrix and roots, and for what springs make of z.
@@ -104,10 +104,9 @@ impl Response {
         // Fingers join what they touch; at worst all of it becomes one block.
         let joined = fingers * (touched.max().unwrap_or(0) + 1);
         let all = spans.len() + fingers;
-        let largest =
-            blocks.iter().map(|block| block.0).max().unwrap_or(0).max(joined).min(all).max(ONE_BLOCK);
+        let largest = blocks.iter().map(|block| block.0).max().unwrap_or(0).max(joined).min(all);
         let fixed: usize = blocks.iter().map(|block| block.0 * block.0).sum();
-        let entries = (fixed + joined * joined).min(all * all).max(ONE_BLOCK * ONE_BLOCK);
+        let entries = (fixed + joined * joined).min(all * all);
         Response {
             blocks: Vec::with_capacity(all),
             starts: Vec::with_capacity(all),
@@ -122,34 +121,22 @@ impl Response {
 
     /// Gathers M for contacts in order of place.
     pub fn gather<R: Row>(&mut self, rows: &[R], pull_factor: f64) {
-        let count = rows.len();
         self.blocks.clear();
         self.entries.clear();
         self.pull.clear();
         self.pull.extend(rows.iter().map(Row::pull));
-        let inside = count <= ONE_BLOCK;
-        self.pull_factor = if inside { 0.0 } else { pull_factor };
-        let Response { blocks, starts, entries, pull, .. } = self;
-        let mut add_block = |start: usize, end: usize| {
+        self.pull_factor = pull_factor;
+        let Response { blocks, starts, entries, .. } = self;
+        let add_block = |start: usize, end: usize| {
             blocks.push(Block { start, len: end - start, offset: entries.len() });
             for i in start..end {
                 for j in start..end {
-                    let mut entry = rows[i].coupling(&rows[j]);
-                    if inside {
-                        entry -= pull_factor * (pull[i] * pull[j]);
-                    }
-                    if i == j {
-                        entry += rows[i].own_mobility();
-                    }
-                    entries.push(entry);
+                    let own = if i == j { rows[i].own_mobility() } else { 0.0 };
+                    entries.push(rows[i].coupling(&rows[j]) + own);
                 }
             }
         };
-        if inside && count > 0 {
-            add_block(0, count);
-        } else {
-            split(starts, count, |i| rows[i].span(), add_block);
-        }
+        split(starts, rows.len(), |i| rows[i].span(), add_block);
     }
 }
 
@@ -202,6 +189,8 @@ impl Response {
             2 => springs_of_few::<2>(|i, j| entries[2 * i + j], slopes, x),
             3 => springs_of_few::<3>(|i, j| entries[3 * i + j], slopes, x),
             4 => springs_of_few::<4>(|i, j| entries[4 * i + j], slopes, x),
+            5 => springs_of_few::<5>(|i, j| entries[5 * i + j], slopes, x),
+            FEW => springs_of_few::<FEW>(|i, j| entries[FEW * i + j], slopes, x),
             _ => springs_of_any(&mut self.matrix, &mut self.roots, entries, slopes, x),
         }
     }
@@ -243,10 +232,14 @@ impl<const N: usize> Answer for Few<N> {
     }
 }
 
+/// So many rows are multiplied by their pivots.
+const MULTIPLIED: usize = 4;
+
 /// Solves (1 + D M) x = D g by elimination without pivots. None are needed: where a slope is 0 its row is done, and
-/// the others are those of the positive D⁻¹ + M, scaled, so that every pivot is at least 1. Rows are multiplied by the
-/// pivot and not divided by it, and the last two unknowns are found together, so that only one division is waited
-/// for. (For so few unknowns what counts is how long each operation waits for the one before.)
+/// the others are those of the positive D⁻¹ + M, scaled, so that every pivot is at least 1. The last four rows are
+/// multiplied by the pivot and not divided by it, and the last two unknowns are found together, so that only one division
+/// is waited for. (For so few unknowns what counts is how long each operation waits for the one before. With more rows the
+/// products of steep slopes could pass the largest number.)
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "indices are how the formulas are written")]
 fn springs_of_few<const N: usize>(entry: impl Fn(usize, usize) -> f64, slopes: &[f64], x: &mut [f64]) {
@@ -266,10 +259,12 @@ fn springs_of_few<const N: usize>(entry: impl Fn(usize, usize) -> f64, slopes: &
     for j in 0..pair {
         inverses[j] = 1.0 / a[j][j];
         for i in j + 1..N {
+            let (pivot, share) =
+                if N - j > MULTIPLIED { (1.0, a[i][j] * inverses[j]) } else { (a[j][j], a[i][j]) };
             for k in j + 1..N {
-                a[i][k] = a[j][j] * a[i][k] - a[i][j] * a[j][k];
+                a[i][k] = pivot * a[i][k] - share * a[j][k];
             }
-            x[i] = a[j][j] * x[i] - a[i][j] * x[j];
+            x[i] = pivot * x[i] - share * x[j];
         }
     }
     let last = pair + 1;
@@ -360,6 +355,46 @@ mod tests {
             readings.sort_by(|a, b| a.centre().total_cmp(&b.centre()));
         }
         (fixed, all)
+    }
+
+    /// x/D + M x = g for any few contacts, two of which share a point; and, where each has its own, for secants that have
+    /// been doubled some fifty times.
+    #[test]
+    fn springs_answer_what_they_are_asked() {
+        fn check<const N: usize>(slope: f64, apart: bool, state: &mut u64) {
+            let grid = Grid::new(1.0, 40, 1e-5);
+            let mut points = [0.0; N];
+            for (i, point) in points.iter_mut().enumerate() {
+                *point = 0.1 + if apart { 0.1 * i as f64 } else { 0.1 * random(state) };
+            }
+            if !apart {
+                points[N - 1] = points[0];
+            }
+            let points = points.map(|place| Point(grid.reading(place)));
+            let mut few = Few::gather(&points, 0.0);
+            let slopes = [(); N].map(|()| slope * random(state));
+            let asked = [(); N].map(|()| random(state) - 0.5);
+            let (mut forces, mut moved) = (asked, [0.0; N]);
+            few.springs(&slopes, &mut forces);
+            few.product(&forces, &mut moved);
+            let largest = forces.iter().fold(1.0f64, |most, force| most.max(force.abs()));
+            for i in 0..N {
+                let off = forces[i] / slopes[i] + moved[i] - asked[i];
+                // NaN is refused too.
+                assert!(off.abs() < 1e-13 * largest, "{N} springs of {slope:e}: {off:e} of {largest}");
+            }
+        }
+        let mut state = 1;
+        for _ in 0..100 {
+            for (slope, apart) in [(1e-3, false), (1.0, false), (1e4, false), (1e8, false), (1e24, true)] {
+                check::<1>(slope, apart, &mut state);
+                check::<2>(slope, apart, &mut state);
+                check::<3>(slope, apart, &mut state);
+                check::<4>(slope, apart, &mut state);
+                check::<5>(slope, apart, &mut state);
+                check::<FEW>(slope, apart, &mut state);
+            }
+        }
     }
 
     #[test]

@@ -10,7 +10,7 @@
 mod early_stop;
 
 use crate::active::Active;
-use crate::response::{Few, Response};
+use crate::response::{FEW, Few, Response};
 use crate::scene::SolverSettings;
 use early_stop::{bounded, stop_early};
 
@@ -123,12 +123,14 @@ impl Solver {
         convergence: &mut Convergence,
     ) -> f64 {
         let demands = Demands { settings, scale };
-        // The same code for any number of contacts; for the usual few the compiler knows how many.
+        // The same code for any number of contacts; of a few the compiler knows how many.
         match rows.len() {
             1 => solve_few::<1>(rows, pull_factor, demands, convergence),
             2 => solve_few::<2>(rows, pull_factor, demands, convergence),
             3 => solve_few::<3>(rows, pull_factor, demands, convergence),
             4 => solve_few::<4>(rows, pull_factor, demands, convergence),
+            5 => solve_few::<5>(rows, pull_factor, demands, convergence),
+            FEW => solve_few::<FEW>(rows, pull_factor, demands, convergence),
             count => {
                 self.response.gather(rows, pull_factor);
                 self.room.clear();
