@@ -232,13 +232,13 @@ impl<const N: usize> Answer for Few<N> {
     }
 }
 
-/// So many rows are multiplied by their pivots.
+/// Up to so many unknowns rows are multiplied by the pivots.
 const MULTIPLIED: usize = 4;
 
 /// Solves (1 + D M) x = D g by elimination without pivots. None are needed: where a slope is 0 its row is done, and
-/// the others are those of the positive D⁻¹ + M, scaled, so that every pivot is at least 1. The last four rows are
-/// multiplied by the pivot and not divided by it, and the last two unknowns are found together, so that only one division
-/// is waited for. (For so few unknowns what counts is how long each operation waits for the one before. With more rows the
+/// the others are those of the positive D⁻¹ + M, scaled, so that every pivot is at least 1. The last two unknowns are found
+/// together, and up to four rows are multiplied by the pivot and not divided by it, so that only one division is waited
+/// for. (For so few unknowns what counts is how long each operation waits for the one before. With more of them the
 /// products of steep slopes could pass the largest number.)
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "indices are how the formulas are written")]
@@ -260,7 +260,7 @@ fn springs_of_few<const N: usize>(entry: impl Fn(usize, usize) -> f64, slopes: &
         inverses[j] = 1.0 / a[j][j];
         for i in j + 1..N {
             let (pivot, share) =
-                if N - j > MULTIPLIED { (1.0, a[i][j] * inverses[j]) } else { (a[j][j], a[i][j]) };
+                if N > MULTIPLIED { (1.0, a[i][j] * inverses[j]) } else { (a[j][j], a[i][j]) };
             for k in j + 1..N {
                 a[i][k] = pivot * a[i][k] - share * a[j][k];
             }
