@@ -62,11 +62,12 @@ fn what_is_said_of_qualities_was_measured() {
         let bound: f64 = words.trim_end_matches(" %").parse().expect("a bound");
         assert!(found(&format!("`{quality}`: buzz, %")) < bound, "{quality}");
     }
-    said(Quality::Reference, "Eight times the work");
-    assert!((7.5..8.7).contains(&found("`reference`: price over that of `live`")));
-    said(Quality::Reference, "just has time for");
+    // A core of 2024 found 8.6 and 1.3 times real time, one of 2022 9.7 and 0.9.
+    said(Quality::Reference, "Eight to ten times the work");
+    assert!((7.5..10.5).contains(&found("`reference`: price over that of `live`")));
+    said(Quality::Reference, "the fastest computers just have time for it");
     let chord = &trade[trade.find("Six strings fretted and ringing").expect("a table")..];
-    assert!((1.0..1.5).contains(&numbers(chord, "`reference`, 48 kHz")[0]));
+    assert!((0.8..1.5).contains(&numbers(chord, "`reference`, 48 kHz")[0]));
 }
 
 #[test]

@@ -87,7 +87,7 @@ pub fn heard_of(quality: Quality) -> &'static str {
              cent."
         }
         Quality::Reference => {
-            "Eight times the work of Live: as much as a fast computer just has time for when six strings ring. There to \
+            "Eight to ten times the work of Live: the fastest computers just have time for it when six strings ring. There to \
              compare with; one cannot hear what it adds."
         }
     }
