@@ -8,7 +8,6 @@ use crate::drive::Drive;
 use crate::field::Field;
 use crate::kernel::Products;
 use crate::model::Model;
-use crate::response::FEW;
 use crate::solver::{Convergence, EnergyScale};
 use crate::state::State;
 use crate::string::{Scratch, pull};
@@ -44,7 +43,6 @@ impl State {
             if scratch.active.is_empty() {
                 largest = self.advance(simd, free_pull, scratch);
             } else {
-                in_order(&mut scratch.active);
                 // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
                 let factor = model.mobility * model.stretch / (1.0 + model.stretch * products.curvature);
                 let scale = self.energy_scale(scratch);
@@ -137,16 +135,6 @@ impl State {
             self.heights_before.copy_from_slice(&self.heights);
             self.heights.copy_from_slice(&self.heights_next);
         }
-    }
-}
-
-/// Puts contacts in order of place, where the response wants it.
-#[inline]
-fn in_order(rows: &mut [Active]) {
-    if rows.len() > FEW {
-        rows.sort_unstable_by(|a, b| {
-            a.reading.centre().total_cmp(&b.reading.centre()).then(a.slot.cmp(&b.slot))
-        });
     }
 }
 

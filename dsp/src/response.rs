@@ -10,9 +10,6 @@ use nalgebra::{DVectorViewMut, Dyn, OMatrix, VecStorage};
 
 use crate::solver::Answer;
 
-/// Up to this many contacts are [`Few`], in any order.
-pub(crate) const FEW: usize = 6;
-
 /// Points of the string that a finger may touch at once, by cubic interpolation.
 const FINGER_POINTS: usize = 4;
 
@@ -190,13 +187,13 @@ impl Response {
             3 => springs_of_few::<3>(|i, j| entries[3 * i + j], slopes, x),
             4 => springs_of_few::<4>(|i, j| entries[4 * i + j], slopes, x),
             5 => springs_of_few::<5>(|i, j| entries[5 * i + j], slopes, x),
-            FEW => springs_of_few::<FEW>(|i, j| entries[FEW * i + j], slopes, x),
+            6 => springs_of_few::<6>(|i, j| entries[6 * i + j], slopes, x),
             _ => springs_of_any(&mut self.matrix, &mut self.roots, entries, slopes, x),
         }
     }
 }
 
-/// The answer matrix of a few contacts, whole.
+/// The answer matrix of a few contacts, whole, in any order.
 pub(crate) struct Few<const N: usize> {
     entries: [[f64; N]; N],
 }
@@ -392,7 +389,7 @@ mod tests {
                 check::<3>(slope, apart, &mut state);
                 check::<4>(slope, apart, &mut state);
                 check::<5>(slope, apart, &mut state);
-                check::<FEW>(slope, apart, &mut state);
+                check::<6>(slope, apart, &mut state);
             }
         }
     }

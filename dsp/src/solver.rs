@@ -10,7 +10,7 @@
 mod early_stop;
 
 use crate::active::Active;
-use crate::response::{FEW, Few, Response};
+use crate::response::{Few, Response};
 use crate::scene::SolverSettings;
 use early_stop::{bounded, stop_early};
 
@@ -130,8 +130,9 @@ impl Solver {
             3 => solve_few::<3>(rows, pull_factor, demands, convergence),
             4 => solve_few::<4>(rows, pull_factor, demands, convergence),
             5 => solve_few::<5>(rows, pull_factor, demands, convergence),
-            FEW => solve_few::<FEW>(rows, pull_factor, demands, convergence),
+            6 => solve_few::<6>(rows, pull_factor, demands, convergence),
             count => {
+                in_order(rows);
                 self.response.gather(rows, pull_factor);
                 self.room.clear();
                 self.room.resize(ARRAYS * count, 0.0);
@@ -140,6 +141,11 @@ impl Solver {
             }
         }
     }
+}
+
+/// Puts contacts in order of place, where the response of many wants them.
+fn in_order(rows: &mut [Active]) {
+    rows.sort_unstable_by(|a, b| a.reading.centre().total_cmp(&b.reading.centre()).then(a.slot.cmp(&b.slot)));
 }
 
 #[inline(always)]
