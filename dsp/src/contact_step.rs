@@ -34,17 +34,18 @@ impl State {
         scratch: &mut Scratch,
     ) -> Convergence {
         let mut convergence = Convergence::default();
-        let free_pull = pull(model, products);
+        let free = self.stretching(products, scratch);
+        let free_pull = pull(model, free);
         self.touch(model, free_pull, scratch);
         let mut created = 0.0;
         for attempt in 0.. {
             let mut largest = 0.0;
             scratch.tried = 0.0;
             if scratch.active.is_empty() {
-                largest = self.advance(simd, free_pull, scratch);
+                largest = self.advance(simd, model, free, scratch);
             } else {
                 // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
-                let factor = model.mobility * model.stretch / (1.0 + model.stretch * products.curvature);
+                let factor = model.mobility * model.stretch * scratch.yielding;
                 let scale = self.energy_scale(scratch);
                 let mut products = *products;
                 for round in 0.. {
@@ -56,15 +57,16 @@ impl State {
                         &mut convergence,
                     );
                     let spread = spread(model, &mut scratch.active, &mut scratch.prediction);
-                    products.curvature_change += spread.along;
+                    products.along += spread.along;
                     scratch.tried += spread.sum;
-                    largest = self.advance(simd, pull(model, &products), scratch);
+                    let stretching = self.stretching(&products, scratch);
+                    largest = self.advance(simd, model, stretching, scratch);
                     let rounding = f64::EPSILON * model.mobility * spread.sum * spread.sum;
                     let exact = rounding <= ROUNDING * self.energy_scale && created <= scale.credit;
                     if exact || round == REFINEMENTS {
                         break;
                     }
-                    products.curvature_change = self.recentre(scratch);
+                    products.along = self.recentre(scratch);
                 }
             }
             if !self.find_missed(simd, model, largest, attempt > 0, scratch) {
@@ -73,6 +75,7 @@ impl State {
             // Something was driven into a contact that was not in the solution: take the forces back
             // and solve again with it.
             convergence.repeats += 1;
+            self.look_back(model);
             self.predict(simd, model, drive, scratch);
             self.begin_again(model, free_pull, scratch);
         }
@@ -82,7 +85,7 @@ impl State {
         convergence
     }
 
-    /// Takes the string as it has come out for the place from which forces are solved for. Returns vᵀ(w − d) as it
+    /// Takes the string as it has come out for the place from which forces are solved for. Returns vᵀ(u + w) as it
     /// has come out, of which forces that all but cancel leave no digit when it is only added up.
     #[cold]
     fn recentre(&self, scratch: &mut Scratch) -> f64 {
@@ -91,15 +94,15 @@ impl State {
             let moved = active.sign * active.reading.of(&scratch.motion);
             active.centre = -(moved + active.rest + active.own_mobility * active.base);
         }
-        let changes = scratch.prediction.iter().zip(&*self.motion).map(|(w, d)| w - d);
-        scratch.curvature.iter().zip(changes).map(|(v, change)| v * change).sum()
+        let moved = scratch.prediction.iter().zip(&*self.displacement).map(|(w, u)| u + w);
+        self.curvature.iter().zip(moved).map(|(v, moved)| v * moved).sum()
     }
 
     /// Starts from no forces again, with the contacts that were missed.
     #[cold]
     fn begin_again(&mut self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
         for index in 0..scratch.active.len() {
-            let free = scratch.free(&scratch.active[index].reading, free_pull);
+            let free = self.free(&scratch.active[index].reading, free_pull, scratch);
             scratch.active[index].base = 0.0;
             scratch.active[index].meet(free);
         }

@@ -13,7 +13,6 @@
 use std::ops::Range;
 
 use crate::energy::Ledger;
-use crate::field::Ends;
 use crate::finger::Inertia;
 use crate::gesture::FINGERS_PER_STRING;
 use crate::hands::Hands;
@@ -152,8 +151,8 @@ impl State {
                 self.displacement[grid.cell(node)] = reading.of(&old.displacement);
                 self.motion[grid.cell(node)] = share * reading.of(&old.motion);
             }
-            self.displacement.close_ends(&Ends::new(grid));
         }
+        self.close_shape(model);
         self.no_finger_from = self.fingers.len();
         for slot in 0..self.fingers.len() {
             self.fingers[slot] = old.fingers[slot].and_then(|mut finger| {

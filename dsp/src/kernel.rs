@@ -24,10 +24,10 @@ pub(crate) use weights::Weights;
 /// The inner products of a prediction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Products {
-    /// |δu|², the sum of squared differences between neighbours, = −vᵀu.
+    /// |δu|², the sum of squared differences between neighbours; of a string without stretching only.
     pub steepness: f64,
-    /// vᵀ(w − d), v the undivided second difference of u.
-    pub curvature_change: f64,
+    /// vᵀ(u + w), v the undivided second difference of u; of one with stretching only, as the next.
+    pub along: f64,
     /// vᵀv.
     pub curvature: f64,
     /// dᵀd.
@@ -63,7 +63,7 @@ impl Kernel {
         }
     }
 
-    /// Second differences v and the prediction w, with their products, from u and d.
+    /// The prediction w from u, d and v a step ago, and v of this step in the place of that; with their products.
     #[inline(always)]
     pub fn predict<S: Simd>(
         &self,
@@ -104,7 +104,7 @@ impl Kernel {
         to: (&mut Field, &mut Field),
     ) -> Products {
         // The last difference, to the bridge, belongs to no point that moves.
-        let last = from.0[self.ends.last()];
+        let last = if STRETCH { 0.0 } else { from.0[self.ends.last()] };
         let sweep = Predict::<REACH, STRETCH, LOSS> { weights, from, to, keep: &self.keep };
         let products = simd.vectorize(sweep);
         Products { steepness: products.steepness + last * last, ..products }
@@ -189,14 +189,14 @@ mod tests {
                 (1..intervals).for_each(|node| values[grid.cell(node)] = random());
                 values
             };
-            let (mut u, d) = (field(), field());
+            let (mut u, d, before) = (field(), field(), field());
             u.close_ends(&ends);
-            let weights = Weights { motion: 0.97, near: [0.7, -0.03, 0.001], beside: 0.01 };
+            let weights = Weights { motion: 0.97, near: [0.7, -0.03, 0.001], before: 0.01 };
             let run = |instructions: Instructions| {
                 let keep = moving(&grid);
                 let kernel = Kernel { reach: 2, stretch: true, loss: true, ends, keep };
                 let empty = || Field::new(&grid);
-                let (mut v, mut w, mut d_next, mut u_next) = (empty(), empty(), empty(), empty());
+                let (mut v, mut w, mut d_next, mut u_next) = (before.clone(), empty(), empty(), empty());
                 let mut clearances = vec![Clearance::default(); groups(&grid)];
                 let (products, largest) = instructions.run(Passes {
                     kernel: &kernel,
@@ -223,7 +223,7 @@ mod tests {
     /// The sweep gives what the formulas say point by point, oddly continued at both ends.
     #[test]
     fn rows_are_the_string_in_order() {
-        for intervals in 4..=60 {
+        for (intervals, stretch) in (4..=60).flat_map(|intervals| [(intervals, true), (intervals, false)]) {
             let grid = Grid::new(0.65, intervals, 1e-5);
             let ends = Ends::new(&grid);
             // Multiples of small powers of two, so that no order of adding rounds.
@@ -236,16 +236,16 @@ mod tests {
                     node => inside(node),
                 }
             };
-            let (mut u, mut d) = (Field::new(&grid), Field::new(&grid));
+            let [mut u, mut d, mut v, mut w, mut d_next, mut u_next] = [(); 6].map(|()| Field::new(&grid));
             for node in 1..intervals {
                 u[grid.cell(node)] = shape(node as i64);
                 d[grid.cell(node)] = 0.5 * shape(node as i64);
+                v[grid.cell(node)] = 3.0 * shape(node as i64) - 8.0;
             }
             u.close_ends(&ends);
-            let weights = Weights { motion: 0.75, near: [0.5, -0.25, 0.125], beside: 0.25 };
+            let weights = Weights { motion: 0.75, near: [0.5, -0.25, 0.125], before: 0.25 };
             let keep = moving(&grid);
-            let kernel = Kernel { reach: 2, stretch: true, loss: true, ends, keep };
-            let [mut v, mut w, mut d_next, mut u_next] = [(); 4].map(|()| Field::new(&grid));
+            let kernel = Kernel { reach: 2, stretch, loss: true, ends, keep };
             let (products, _) = Instructions::best().run(Passes {
                 kernel: &kernel,
                 weights: &weights,
@@ -255,18 +255,24 @@ mod tests {
             });
             let bend = |node: i64| shape(node + 1) - 2.0 * shape(node) + shape(node - 1);
             let last = shape(intervals as i64 - 1);
-            let mut expected = Products { steepness: last * last, ..Products::default() };
+            let mut steepness = last * last;
+            let mut expected = Products::default();
             for node in 1..intervals as i64 {
                 let beside = |away: i64| bend(node - away) + bend(node + away);
-                let motion = 0.5 * (0.75 * shape(node) + 0.25 * (shape(node - 1) + shape(node + 1)));
-                let value = 0.5 * bend(node) - 0.25 * beside(1) + 0.125 * beside(2) + motion;
+                let past = 0.5 * 0.75 * shape(node) - 0.25 * (3.0 * shape(node) - 8.0);
+                let value = 0.5 * bend(node) - 0.25 * beside(1) + 0.125 * beside(2) + past;
                 let cell = grid.cell(node as usize);
                 assert_eq!((v[cell], w[cell]), (bend(node), value), "node {node} of {intervals}");
                 let step = shape(node) - shape(node - 1);
-                expected.steepness += step * step;
-                expected.curvature += bend(node) * bend(node);
-                expected.curvature_change += bend(node) * (value - 0.5 * shape(node));
+                steepness += step * step;
                 expected.motion += 0.25 * shape(node) * shape(node);
+                if stretch {
+                    expected.curvature += bend(node) * bend(node);
+                    expected.along += bend(node) * (value + shape(node));
+                }
+            }
+            if !stretch {
+                expected.steepness = steepness;
             }
             assert_eq!(products, expected, "{intervals} intervals");
         }

@@ -48,6 +48,7 @@
 //! | v | `curvature` | m | undivided second difference of uⁿ |
 //! | w, ψ | `prediction`, `pull` | m, – | motion without contact and stretching; stretching takes ψv off it |
 //! | s | `inverse_s` is 1/s | – | 1 + σ₀k |
+//! | q, q̄ | `stretched`, `stretching` | m² | (δuⁿ)ᵀδuⁿ⁺¹, and the mean of that before and after n |
 //! | G | `stretch` | 1/m² | k²EA/(4ρLh³s), strength of tension modulation |
 //! | h g | `Reading::weights` | – | weights that read a point, and spread a force on it |
 //! | b | `height` | m | height of board or crown |

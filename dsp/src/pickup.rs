@@ -23,13 +23,13 @@ pub fn bridge_force(model: &Model, scratch: &Scratch) -> f64 {
         - model.string.linear_density * stiffness.kappa_2 * last_curvature / h
 }
 
-/// Tension added by stretching at n, EA/(2L)·∫(∂ₓu)² dx, N; 0 where the string has no tension modulation.
+/// Tension added by stretching at n, EA/(2L)·∫(∂ₓu)² dx, N, as the step had it; 0 where the string has no tension modulation.
 pub fn stretch_tension(model: &Model, scratch: &Scratch) -> f64 {
     if model.stretch == 0.0 {
         return 0.0;
     }
     let string = &model.string;
-    string.axial_stiffness() / (2.0 * string.length * model.grid.spacing) * scratch.steepness()
+    string.axial_stiffness() / (2.0 * string.length * model.grid.spacing) * scratch.stretching()
 }
 
 /// The pickups of a set-up over one string, and how much of each is heard.

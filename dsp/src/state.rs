@@ -26,6 +26,10 @@ pub struct State {
     pub(crate) displacement: Field,
     /// uⁿ − uⁿ⁻¹, m.
     pub(crate) motion: Field,
+    /// Undivided second differences of uⁿ⁻¹, m; once a step has been predicted, of uⁿ.
+    pub(crate) curvature: Field,
+    /// (δuⁿ)ᵀδuⁿ⁻¹, m²: how far the string was stretched between the last two samples, if it pulls itself tight.
+    pub(crate) stretched: f64,
     /// Fingers, by slot.
     pub(crate) fingers: Vec<Option<Finger>>,
     /// From this slot on there is no finger, and was none in the last step.
@@ -64,6 +68,8 @@ impl State {
         let mut state = State {
             displacement: Field::new(&model.grid),
             motion: Field::new(&model.grid),
+            curvature: Field::new(&model.grid),
+            stretched: 0.0,
             fingers: vec![None; model.finger_slots],
             no_finger_from: 0,
             heights_before: heights.clone(),
@@ -88,6 +94,8 @@ impl State {
     pub fn reset(&mut self, model: &Model) {
         self.displacement.fill(0.0);
         self.motion.fill(0.0);
+        self.curvature.fill(0.0);
+        self.stretched = 0.0;
         self.fingers.fill(None);
         self.no_finger_from = 0;
         for (height, contact) in self.heights.iter_mut().zip(&model.contacts) {
@@ -108,9 +116,29 @@ impl State {
         for node in 1..model.grid.intervals {
             self.displacement[model.grid.cell(node)] = shape.at(model.grid.place(node));
         }
-        self.displacement.close_ends(&Ends::new(&model.grid));
         self.motion.fill(0.0);
+        self.close_shape(model);
         self.look_at_all(model);
+    }
+
+    /// Finds all that follows from a displacement and a motion that no step has led to.
+    pub(crate) fn close_shape(&mut self, model: &Model) {
+        let grid = &model.grid;
+        self.displacement.close_ends(&Ends::new(grid));
+        self.look_back(model);
+        let (u, v) = (&self.displacement, &self.curvature);
+        let product: f64 = (1..grid.intervals).map(|node| u[grid.cell(node)] * v[grid.cell(node)]).sum();
+        self.stretched = if model.stretch > 0.0 { -product } else { 0.0 };
+    }
+
+    /// Finds how the string was bent a step ago.
+    pub(crate) fn look_back(&mut self, model: &Model) {
+        let grid = &model.grid;
+        let before = |node: usize| self.displacement[grid.cell(node)] - self.motion[grid.cell(node)];
+        for node in 1..grid.intervals {
+            let [behind, here, ahead] = [node - 1, node, node + 1].map(before);
+            self.curvature[grid.cell(node)] = (ahead - here) - (here - behind);
+        }
     }
 
     /// Has every fixed contact looked at in the next step, at its present height.

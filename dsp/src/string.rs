@@ -22,8 +22,10 @@ pub struct Scratch {
     weights: Weights,
     products: Products,
     string_energy: f64,
-    /// Undivided second differences of uⁿ.
-    pub(crate) curvature: Field,
+    /// 1/(1 + G vᵀv): how far the string gives way to what stretches it.
+    pub(crate) yielding: f64,
+    /// (δuⁿ)ᵀδ(uⁿ⁺¹ + uⁿ⁻¹)/2, m².
+    stretching: f64,
     /// The motion to n + 1 without contacts and tension modulation, then with contacts.
     pub(crate) prediction: Field,
     /// dⁿ⁺¹ and uⁿ⁺¹ before the step, dⁿ and uⁿ after it.
@@ -60,7 +62,8 @@ impl Scratch {
             stiffness,
             products: Products::default(),
             string_energy: 0.0,
-            curvature: grid(),
+            yielding: 1.0,
+            stretching: 0.0,
             prediction: grid(),
             motion: grid(),
             displacement: grid(),
@@ -87,6 +90,7 @@ impl Scratch {
         self.held.fill(0);
         self.products = Products::default();
         self.string_energy = 0.0;
+        self.stretching = 0.0;
         self.fingers.fill(None);
         self.motion.fill(0.0);
         self.displacement.fill(0.0);
@@ -107,9 +111,10 @@ impl Scratch {
         &self.stiffness
     }
 
-    /// Sum of squared differences between neighbours at the sample the last step led from, m².
-    pub fn steepness(&self) -> f64 {
-        self.products.steepness
+    /// How far the string was stretched around the sample the last step led from, m²: the sum of squared differences
+    /// between neighbours, by (δuⁿ)ᵀδ(uⁿ⁺¹ + uⁿ⁻¹)/2. 0 without tension modulation.
+    pub fn stretching(&self) -> f64 {
+        self.stretching
     }
 
     /// Energy of the string as a linear one without bending at the sample the last step led from, J:
@@ -169,8 +174,8 @@ impl State {
             scratch.fingers.fill(None);
             scratch.tried = 0.0;
             let products = self.predict(simd, model, drive, scratch);
-            let pull = pull(model, &products);
-            self.advance(simd, pull, scratch);
+            let stretching = self.stretching(&products, scratch);
+            self.advance(simd, model, stretching, scratch);
             Convergence::default()
         } else {
             // What is known of contacts without the prediction need not wait for it.
@@ -180,6 +185,7 @@ impl State {
         };
         std::mem::swap(&mut self.displacement, &mut scratch.displacement);
         std::mem::swap(&mut self.motion, &mut scratch.motion);
+        self.stretched = 2.0 * scratch.stretching - self.stretched;
         self.steps += 1;
         convergence
     }
@@ -187,38 +193,48 @@ impl State {
     /// The motion to n + 1 without contacts and stretching.
     #[inline(always)]
     pub(crate) fn predict<S: Simd>(
-        &self,
+        &mut self,
         simd: S,
         model: &Model,
         drive: &Drive,
         scratch: &mut Scratch,
     ) -> Products {
-        let mut products = scratch.kernel.predict(
-            simd,
-            &scratch.weights,
-            (&self.displacement, &self.motion),
-            (&mut scratch.curvature, &mut scratch.prediction),
-        );
+        let from = (&self.displacement, &self.motion);
+        let to = (&mut self.curvature, &mut scratch.prediction);
+        let mut products = scratch.kernel.predict(simd, &scratch.weights, from, to);
         scratch.products = products;
+        scratch.yielding = 1.0 / (1.0 + model.stretch * products.curvature);
+        let steepness = if model.stretch > 0.0 { self.stretched } else { products.steepness };
         let (k, h) = (model.grid.time_step, model.grid.spacing);
         scratch.string_energy = 0.5 * model.string.linear_density * h / (k * k) * products.motion
-            + 0.5 * scratch.stiffness.tension / h * products.steepness;
+            + 0.5 * scratch.stiffness.tension / h * steepness;
         for push in &drive.pushes {
             let motion = model.mobility * push.force;
             push.reading.spread(&mut scratch.prediction, motion);
-            products.curvature_change += motion * push.reading.of(&scratch.curvature);
+            products.along += motion * push.reading.of(&self.curvature);
         }
         products
     }
 
+    /// (δuⁿ)ᵀδ(uⁿ⁺¹ + uⁿ⁻¹)/2, m², of a prediction, the forces of contacts in it.
+    #[inline(always)]
+    pub(crate) fn stretching(&self, products: &Products, scratch: &Scratch) -> f64 {
+        0.5 * scratch.yielding * (self.stretched - products.along)
+    }
+
     /// The motion to n + 1 from the prediction; returns the largest of a point, m.
     #[inline(always)]
-    pub(crate) fn advance<S: Simd>(&self, simd: S, pull: f64, scratch: &mut Scratch) -> f64 {
-        let Scratch { kernel, prediction, curvature, motion, displacement, .. } = scratch;
-        kernel.advance(
-            simd,
-            Advance { pull, from: (prediction, curvature, &self.displacement), to: (motion, displacement) },
-        )
+    pub(crate) fn advance<S: Simd>(
+        &self,
+        simd: S,
+        model: &Model,
+        stretching: f64,
+        scratch: &mut Scratch,
+    ) -> f64 {
+        scratch.stretching = stretching;
+        let Scratch { kernel, prediction, motion, displacement, .. } = scratch;
+        let from = (&*prediction, &self.curvature, &self.displacement);
+        kernel.advance(simd, Advance { pull: pull(model, stretching), from, to: (motion, displacement) })
     }
 }
 
@@ -226,13 +242,8 @@ impl State {
 /// and if it were repeated for ever would reach infinity.
 const MOST_ENERGY: f64 = 1e30;
 
-/// ψ = G(vᵀ(w − d) + 2vᵀu)/(1 + G vᵀv), so that dⁿ⁺¹ = w − ψ v, w with the forces of contacts in
-/// it. With a = γv and G = γ²/s this is χγ/s of the rank-one update.
+/// ψ, by which dⁿ⁺¹ = w − ψ v, w with the forces of contacts in it: the tension that stretching adds, in the units of the step.
 #[inline(always)]
-pub(crate) fn pull(model: &Model, products: &Products) -> f64 {
-    if model.stretch == 0.0 {
-        return 0.0;
-    }
-    let sum = products.curvature_change - 2.0 * products.steepness;
-    model.stretch * sum / (1.0 + model.stretch * products.curvature)
+pub(crate) fn pull(model: &Model, stretching: f64) -> f64 {
+    -2.0 * model.stretch * stretching
 }

@@ -28,13 +28,6 @@ struct Overlap {
 }
 
 impl Scratch {
-    /// The motion of a point to n + 1 without contact forces, and the second difference there.
-    #[inline(always)]
-    pub(crate) fn free(&self, reading: &Reading, free_pull: f64) -> Free {
-        let [motion, curvature] = reading.of_each([&self.prediction, &self.curvature]);
-        Free { motion: motion - free_pull * curvature, curvature }
-    }
-
     /// Shows the last contact added how the string would move.
     #[inline(always)]
     fn show_last(&mut self, free: Free) {
@@ -113,13 +106,13 @@ impl State {
     #[inline(always)]
     pub(crate) fn touch(&self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
         for index in 0..scratch.active.len() {
-            let free = scratch.free(&scratch.active[index].reading, free_pull);
+            let free = self.free(&scratch.active[index].reading, free_pull, scratch);
             scratch.active[index].meet(free);
         }
         for position in 0..scratch.near.len() {
             let close = &self.close[scratch.near[position]];
             let index = close.index as usize;
-            let free = scratch.free(&model.contacts[index].reading, free_pull);
+            let free = self.free(&model.contacts[index].reading, free_pull, scratch);
             if close.displacement + free.motion < self.heights_next[index] {
                 self.activate(model, index, self.overlap(close), scratch);
                 scratch.show_last(free);
@@ -128,7 +121,7 @@ impl State {
         // Fingers not yet in contact stay aside, to be looked at again when the string has been moved.
         let mut position = 0;
         while position < scratch.solver.aside.len() {
-            let free = scratch.free(&scratch.solver.aside[position].reading, free_pull);
+            let free = self.free(&scratch.solver.aside[position].reading, free_pull, scratch);
             let finger = &mut scratch.solver.aside[position];
             finger.meet(free);
             if finger.before.penetration + finger.centre > 0.0 {
@@ -137,6 +130,13 @@ impl State {
                 position += 1;
             }
         }
+    }
+
+    /// The motion of a point to n + 1 without contact forces, and the second difference there.
+    #[inline(always)]
+    pub(crate) fn free(&self, reading: &Reading, free_pull: f64, scratch: &Scratch) -> Free {
+        let [motion, curvature] = reading.of_each([&scratch.prediction, &self.curvature]);
+        Free { motion: motion - free_pull * curvature, curvature }
     }
 
     /// How deep the string is in a fixed contact.
@@ -263,7 +263,7 @@ impl State {
                     before: self.heights_before[index] - past,
                     now: self.heights[index] - displacement,
                 };
-                let free = scratch.free(reading, free_pull);
+                let free = self.free(reading, free_pull, scratch);
                 self.activate(model, index, overlap, scratch);
                 scratch.show_last(free);
             }

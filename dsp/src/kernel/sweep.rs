@@ -11,8 +11,8 @@ use crate::field::{Field, LANES};
 struct Sums<S: Simd> {
     /// |δu|².
     steepness: S::f64s,
-    /// vᵀ(w − d).
-    change: S::f64s,
+    /// vᵀ(u + w).
+    along: S::f64s,
     /// vᵀv.
     curvature: S::f64s,
     /// dᵀd.
@@ -32,7 +32,17 @@ impl<S: Simd> Sums<S> {
 struct Splat<S: Simd> {
     motion: S::f64s,
     near: [S::f64s; 3],
-    beside: S::f64s,
+    before: S::f64s,
+}
+
+/// What a prediction reads in its own row.
+struct Here<S: Simd> {
+    u: S::f64s,
+    d: S::f64s,
+    /// v a step ago.
+    v_before: S::f64s,
+    /// 1 where it moves, 0 elsewhere.
+    keep: S::f64s,
 }
 
 /// What a sweep knows of the rows around the present one.
@@ -47,9 +57,9 @@ struct Around<S: Simd> {
 
 impl<S: Simd> Around<S> {
     /// Around the first row, of the three rows of u before it and the three from it on, and where the first three move.
-    /// Adds up their slopes.
+    /// Adds up their slopes, which say how a string is stretched that does not pull itself tight.
     #[inline(always)]
-    fn first(simd: S, u: [S::f64s; 6], keep: [S::f64s; 3], sums: &mut Sums<S>) -> Self {
+    fn first<const STRETCH: bool>(simd: S, u: [S::f64s; 6], keep: [S::f64s; 3], sums: &mut Sums<S>) -> Self {
         let slopes = [
             simd.sub_f64s(u[1], u[0]),
             simd.sub_f64s(u[2], u[1]),
@@ -63,15 +73,16 @@ impl<S: Simd> Around<S> {
             simd.sub_f64s(slopes[3], slopes[2]),
             simd.sub_f64s(slopes[4], slopes[3]),
         ];
-        sums.add_slope(simd, keep[0], slopes[2]);
-        sums.add_slope(simd, keep[1], slopes[3]);
-        sums.add_slope(simd, keep[2], slopes[4]);
+        if !STRETCH {
+            sums.add_slope(simd, keep[0], slopes[2]);
+            sums.add_slope(simd, keep[1], slopes[3]);
+            sums.add_slope(simd, keep[2], slopes[4]);
+        }
         Around { ahead: u[5], slope: slopes[4], v }
     }
 
-    /// v and w of the present row, given u three rows ahead, where that moves if it is not one of the first again, and d
-    /// of the rows before, here and after; goes on to the next. (d is read anew each time: where there are sixteen
-    /// registers they are needed for the sums.)
+    /// v and w of the present row, given u three rows ahead, where that moves if it is not one of the first again, and u,
+    /// d and v a step ago in this row; goes on to the next.
     ///
     /// The difference of differences is exact but for rounding of the differences themselves, so that the
     /// force on a smooth string is good to its own last digits and not to those of u.
@@ -80,17 +91,15 @@ impl<S: Simd> Around<S> {
         &mut self,
         simd: S,
         weights: &Splat<S>,
-        (u, moving): (S::f64s, Option<S::f64s>),
-        d: [S::f64s; 3],
-        keep: S::f64s,
+        (ahead, moving): (S::f64s, Option<S::f64s>),
+        Here { u, d, v_before, keep }: Here<S>,
         sums: &mut Sums<S>,
     ) -> [S::f64s; 2] {
-        let slope = simd.sub_f64s(u, self.ahead);
+        let slope = simd.sub_f64s(ahead, self.ahead);
         let v = [self.v[0], self.v[1], self.v[2], self.v[3], simd.sub_f64s(slope, self.slope)];
-        if let Some(moving) = moving {
+        if !STRETCH && let Some(moving) = moving {
             sums.add_slope(simd, moving, slope);
         }
-        let here = d[1];
         let mut value = simd.mul_f64s(weights.near[0], v[2]);
         if REACH > 0 {
             let beside = simd.add_f64s(v[1], v[3]);
@@ -101,18 +110,17 @@ impl<S: Simd> Around<S> {
             value = simd.add_f64s(value, simd.mul_f64s(weights.near[2], far));
         }
         if LOSS {
-            let beside = simd.add_f64s(d[0], d[2]);
-            value = simd.add_f64s(value, simd.mul_f64s(weights.beside, beside));
+            value = simd.sub_f64s(value, simd.mul_f64s(weights.before, v_before));
         }
-        value = simd.add_f64s(value, simd.mul_f64s(weights.motion, here));
+        value = simd.add_f64s(value, simd.mul_f64s(weights.motion, d));
         let w = simd.mul_f64s(keep, value);
         let curvature = simd.mul_f64s(keep, v[2]);
-        add_product(simd, &mut sums.motion, here, here);
+        add_product(simd, &mut sums.motion, d, d);
         if STRETCH {
-            add_product(simd, &mut sums.change, curvature, simd.sub_f64s(w, here));
+            add_product(simd, &mut sums.along, curvature, simd.add_f64s(u, w));
             add_product(simd, &mut sums.curvature, curvature, curvature);
         }
-        *self = Around { ahead: u, slope, v: [v[1], v[2], v[3], v[4]] };
+        *self = Around { ahead, slope, v: [v[1], v[2], v[3], v[4]] };
         [curvature, w]
     }
 }
@@ -123,29 +131,35 @@ struct Lanes<'a, S: Simd> {
     part: usize,
     weights: &'a Splat<S>,
     keep: &'a [Row],
+    /// u and d.
+    from: [&'a [Row]; 2],
     around: Around<S>,
     sums: Sums<S>,
+    /// Where the sweep has not yet been, v a step ago.
     v: &'a mut [Row],
     w: &'a mut [Row],
 }
 
 impl<S: Simd> Lanes<'_, S> {
-    /// Predicts a row from u three rows ahead and d around it.
+    /// Predicts a row, given u three rows ahead.
     #[inline(always)]
     fn predict<const REACH: usize, const STRETCH: bool, const LOSS: bool>(
         &mut self,
         at: usize,
-        (u, moving): (&Row, Option<&Row>),
-        d: [&Row; 3],
+        (ahead, moving): (&Row, Option<&Row>),
     ) {
         let part = self.part;
         let moving = moving.map(|moving| part_of::<S>(moving, part));
-        let u = part_of::<S>(u, part);
-        let d = [part_of::<S>(d[0], part), part_of::<S>(d[1], part), part_of::<S>(d[2], part)];
-        let keep = part_of::<S>(&self.keep[at], part);
+        let ahead = part_of::<S>(ahead, part);
+        let here = Here {
+            u: part_of::<S>(&self.from[0][at], part),
+            d: part_of::<S>(&self.from[1][at], part),
+            v_before: part_of::<S>(&self.v[at], part),
+            keep: part_of::<S>(&self.keep[at], part),
+        };
         let sums = &mut self.sums;
         let [v, w] =
-            self.around.step::<REACH, STRETCH, LOSS>(self.simd, self.weights, (u, moving), d, keep, sums);
+            self.around.step::<REACH, STRETCH, LOSS>(self.simd, self.weights, (ahead, moving), here, sums);
         S::as_mut_simd_f64s(&mut self.v[at]).0[part] = v;
         S::as_mut_simd_f64s(&mut self.w[at]).0[part] = w;
     }
@@ -157,7 +171,7 @@ pub(super) struct Predict<'a, const REACH: usize, const STRETCH: bool, const LOS
     pub weights: &'a Weights,
     /// u and d.
     pub from: (&'a Field, &'a Field),
-    /// v and w.
+    /// v, a step ago until the sweep has passed, and w.
     pub to: (&'a mut Field, &'a mut Field),
     /// 1 at each point that moves, 0 elsewhere.
     pub keep: &'a Field,
@@ -174,59 +188,41 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> WithSimd
         let splat = Splat::<S> {
             motion: simd.splat_f64s(weights.motion),
             near: weights.near.map(|weight| simd.splat_f64s(weight)),
-            beside: simd.splat_f64s(weights.beside),
+            before: simd.splat_f64s(weights.before),
         };
-        let (u_before, u_after, d_before, d_after) =
-            (rows_before::<3>(u), rows_after::<3>(u), rows_before::<1>(d), rows_after::<1>(d));
+        let (before, after) = (rows_before::<3>(u), rows_after::<3>(u));
         let (u, d, keep, v, w) = (rows(u), rows(d), rows(keep), rows_mut(v), rows_mut(w));
         let count = u.len();
         let (d, keep, v, w) = (&d[..count], &keep[..count], &mut v[..count], &mut w[..count]);
         let mut totals = [[0.0; LANES]; 4];
         for part in 0..vectors::<S>() {
             let zero = simd.splat_f64s(0.0);
-            let mut sums = Sums { steepness: zero, change: zero, curvature: zero, motion: zero };
-            let mut lanes = Lanes {
-                simd,
-                part,
-                weights: &splat,
-                keep,
-                around: Around::first(
-                    simd,
-                    [
-                        part_of::<S>(&u_before[0], part),
-                        part_of::<S>(&u_before[1], part),
-                        part_of::<S>(&u_before[2], part),
-                        part_of::<S>(&u[0], part),
-                        part_of::<S>(&u[1], part),
-                        part_of::<S>(&u[2], part),
-                    ],
-                    [
-                        part_of::<S>(&keep[0], part),
-                        part_of::<S>(&keep[1], part),
-                        part_of::<S>(&keep[2], part),
-                    ],
-                    &mut sums,
-                ),
-                sums,
-                v,
-                w,
-            };
-            let [d_first, d_last] =
-                [[&d_before[0], &d[0], &d[1]], [&d[count - 2], &d[count - 1], &d_after[0]]];
-            let around = |at: usize| [&d[at - 1], &d[at], &d[at + 1]];
-            lanes.predict::<REACH, STRETCH, LOSS>(0, (&u[3], Some(&keep[3])), d_first);
-            for at in 1..count - 3 {
-                lanes.predict::<REACH, STRETCH, LOSS>(at, (&u[at + 3], Some(&keep[at + 3])), around(at));
+            let mut sums = Sums { steepness: zero, along: zero, curvature: zero, motion: zero };
+            let first = [
+                part_of::<S>(&before[0], part),
+                part_of::<S>(&before[1], part),
+                part_of::<S>(&before[2], part),
+                part_of::<S>(&u[0], part),
+                part_of::<S>(&u[1], part),
+                part_of::<S>(&u[2], part),
+            ];
+            let moving =
+                [part_of::<S>(&keep[0], part), part_of::<S>(&keep[1], part), part_of::<S>(&keep[2], part)];
+            let around = Around::first::<STRETCH>(simd, first, moving, &mut sums);
+            let from = [u, d];
+            let mut lanes = Lanes { simd, part, weights: &splat, keep, from, around, sums, v, w };
+            for at in 0..count - 3 {
+                lanes.predict::<REACH, STRETCH, LOSS>(at, (&u[at + 3], Some(&keep[at + 3])));
             }
-            lanes.predict::<REACH, STRETCH, LOSS>(count - 3, (&u_after[0], None), around(count - 3));
-            lanes.predict::<REACH, STRETCH, LOSS>(count - 2, (&u_after[1], None), around(count - 2));
-            lanes.predict::<REACH, STRETCH, LOSS>(count - 1, (&u_after[2], None), d_last);
-            let Sums { steepness, change, curvature, motion } = lanes.sums;
-            for (total, sum) in totals.iter_mut().zip([steepness, change, curvature, motion]) {
+            lanes.predict::<REACH, STRETCH, LOSS>(count - 3, (&after[0], None));
+            lanes.predict::<REACH, STRETCH, LOSS>(count - 2, (&after[1], None));
+            lanes.predict::<REACH, STRETCH, LOSS>(count - 1, (&after[2], None));
+            let Sums { steepness, along, curvature, motion } = lanes.sums;
+            for (total, sum) in totals.iter_mut().zip([steepness, along, curvature, motion]) {
                 S::as_mut_simd_f64s(total).0[part] = sum;
             }
         }
-        let [steepness, curvature_change, curvature, motion] = totals.each_ref().map(total);
-        Products { steepness, curvature_change, curvature, motion }
+        let [steepness, along, curvature, motion] = totals.each_ref().map(total);
+        Products { steepness, along, curvature, motion }
     }
 }

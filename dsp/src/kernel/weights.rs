@@ -9,8 +9,8 @@ pub(crate) struct Weights {
     pub(super) motion: f64,
     /// Of v, by distance.
     pub(super) near: [f64; 3],
-    /// Of the motion on either side.
-    pub(super) beside: f64,
+    /// Of v a step ago, taken away.
+    pub(super) before: f64,
 }
 
 impl Weights {
@@ -22,14 +22,11 @@ impl Weights {
         let fourth = k2 * stiffness.kappa_2 / (h2 * h2);
         let sixth = k2 * stiffness.kappa_6 / (h2 * h2 * h2);
         let loss = 2.0 * model.string.loss_1 * k * model.inverse_s / h2;
-        // A multiple of 2⁻⁵² as `decay` is, so that their difference is exact: a string that moves as a whole
-        // decays by `decay` and no rounding.
-        let beside = (1.0 + loss) - 1.0;
-        // second·v − fourth·δ²v + sixth·δ⁴v, gathered by neighbour; decay·d + loss·δ²d likewise.
+        // second·v − fourth·δ²v + sixth·δ⁴v + loss·δ²d, gathered by neighbour; δ²d is what v has changed by.
         Weights {
-            motion: model.decay - 2.0 * beside,
-            near: [second + 2.0 * fourth + 6.0 * sixth, -fourth - 4.0 * sixth, sixth],
-            beside,
+            motion: model.decay,
+            near: [second + 2.0 * fourth + 6.0 * sixth + loss, -fourth - 4.0 * sixth, sixth],
+            before: loss,
         }
     }
 }

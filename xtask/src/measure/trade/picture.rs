@@ -101,7 +101,13 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
     }
     let names = Quality::ALL.iter().zip(&qualities).map(|(one, setting)| {
         let at = place(setting);
-        Layer::words((at.0 * 1.04, at.1 * (high / low).powf(-0.05)), one.name())
+        // Beside and below the dot, but for two whose neighbours stand there.
+        let (right, above) = match one {
+            Quality::Draft => (0.64, -0.01),
+            Quality::Studio => (1.0, 0.06),
+            Quality::Live | Quality::Reference => (1.04, -0.05),
+        };
+        Layer::words((at.0 * right, at.1 * (high / low).powf(above)), one.name())
     });
     panel = panel.with_all(names.collect::<Vec<_>>());
     let stroke = Stroke::new(colour::VERMILION);
