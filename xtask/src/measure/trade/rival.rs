@@ -210,16 +210,22 @@ impl Rival {
         for i in 1..last {
             next[i] = (next[i] - share * with_motion * second[i]) / s;
         }
-        let stretched = if strength > 0.0 {
-            let steep: f64 = (0..last).map(|i| (u[i + 1] - u[i]) * (u[i + 1] - u[i])).sum();
-            string.axial_stiffness() / (2.0 * string.length * h) * steep
+        Pull { share, mobility: k2 / (string.linear_density * h * s) }
+    }
+
+    /// Takes the force on the bridge, where the string is stretched by the mean of (δuⁿ)ᵀδuⁿ⁺¹ and (δuⁿ)ᵀδuⁿ⁻¹.
+    fn hear(&mut self) {
+        let Self { model, stiffness, displacement: u, motion: d, second, next, .. } = self;
+        let (string, h, last) = (&model.string, model.grid.spacing, model.grid.intervals);
+        let stretched = if string.tension_modulation {
+            let along: f64 = (1..last).map(|i| second[i] * (2.0 * u[i] - d[i] + next[i])).sum();
+            -0.5 * along * string.axial_stiffness() / (2.0 * string.length * h)
         } else {
             0.0
         };
         let slope = (u[last] - u[last - 1]) / h;
         self.heard = -(stiffness.tension + stretched) * slope
-            - string.linear_density * stiffness.kappa_2 * second[last - 1] / (h2 * h);
-        Pull { share, mobility: k2 / (string.linear_density * h * s) }
+            - string.linear_density * stiffness.kappa_2 * second[last - 1] / (h * h * h);
     }
 
     /// Moves string and finger on.
@@ -239,6 +245,9 @@ impl Rival {
         }
         for i in 1..last {
             self.next[i] -= pull.mobility * pull.share * felt * self.second[i];
+        }
+        self.hear();
+        for i in 1..last {
             self.motion[i] = self.next[i];
             self.displacement[i] += self.next[i];
         }
