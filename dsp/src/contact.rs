@@ -28,6 +28,16 @@ pub struct ContactLaw {
     /// 1/(α + 1).
     share: f64,
     knee: f64,
+    /// φ, Φ and φ′ at the knee.
+    at_knee: Knee,
+}
+
+/// A law where it becomes straight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Knee {
+    force: f64,
+    energy: f64,
+    slope: f64,
 }
 
 impl ContactLaw {
@@ -54,7 +64,9 @@ impl ContactLaw {
             3.0 => Power::Three,
             _ => Power::General,
         };
-        ContactLaw { stiffness, exponent, power, share: 1.0 / (exponent + 1.0), knee: f64::INFINITY }
+        // There is no knee.
+        let at_knee = Knee { force: 0.0, energy: 0.0, slope: 0.0 };
+        ContactLaw { stiffness, exponent, power, share: 1.0 / (exponent + 1.0), knee: f64::INFINITY, at_knee }
     }
 
     /// The same law, growing no steeper than `slope`, N/m: beyond the penetration where φ′ reaches it the
@@ -64,7 +76,33 @@ impl ContactLaw {
             return self.with_stiffness(self.stiffness.min(slope));
         }
         let knee = libm::pow(slope / (self.exponent * self.stiffness), 1.0 / (self.exponent - 1.0));
-        ContactLaw { knee: knee.max(LEAST_KNEE), ..*self }
+        if knee < self.knee { self.straight_beyond(knee.max(LEAST_KNEE)) } else { *self }
+    }
+
+    /// The same law with something in between that gives way by `flexibility`, m/N: beyond the penetration where it gives way
+    /// more easily than the contact itself, the force goes on as a straight line.
+    pub fn giving_way(&self, flexibility: f64) -> Self {
+        let slope = 1.0 / flexibility;
+        if self.exponent > 1.0 || slope >= self.stiffness {
+            return self.no_steeper_than(slope);
+        }
+        let (force, energy) = (slope * LEAST_KNEE, 0.0);
+        ContactLaw { knee: LEAST_KNEE, at_knee: Knee { force, energy, slope }, ..*self }
+    }
+
+    fn straight_beyond(&self, knee: f64) -> Self {
+        let (force, energy) = self.curved(knee);
+        let slope = self.exponent * force / knee;
+        ContactLaw { knee, at_knee: Knee { force, energy, slope }, ..*self }
+    }
+
+    /// How much of a penetration the contact itself is pressed in by, m: beyond the knee by as much as its force takes, and
+    /// what is between gives way by the rest.
+    pub fn own_penetration(&self, penetration: f64) -> f64 {
+        if penetration <= self.knee {
+            return penetration;
+        }
+        libm::pow(self.straight(penetration).0 / self.stiffness, 1.0 / self.exponent).min(penetration)
     }
 
     /// The penetration beyond which the force grows as a straight line, m.
@@ -90,7 +128,19 @@ impl ContactLaw {
     /// φ(η) = Φ′(η), K\[η\]₊^α up to the knee: the static force, N.
     #[inline(always)]
     pub fn force(&self, penetration: f64) -> f64 {
-        if penetration > self.knee { self.straight(penetration).0 } else { self.power(penetration) }
+        self.stored(penetration).0
+    }
+
+    /// φ(η) of what the contact itself is pressed in by at most: up to the knee, N. Beyond it something else gives way.
+    #[inline(always)]
+    pub fn own_force(&self, penetration: f64) -> f64 {
+        if penetration > self.knee { self.at_knee.force } else { self.curved(penetration).0 }
+    }
+
+    /// φ(η) and Φ(η).
+    #[inline(always)]
+    fn stored(&self, penetration: f64) -> (f64, f64) {
+        if penetration > self.knee { self.straight(penetration) } else { self.curved(penetration) }
     }
 
     /// K\[η\]₊^α and K\[η\]₊^(α+1)/(α+1).
@@ -113,24 +163,11 @@ impl ContactLaw {
         (force * last, force * (e * self.share) * last)
     }
 
-    /// K\[η\]₊^α.
-    #[inline(always)]
-    fn power(&self, penetration: f64) -> f64 {
-        self.curved(penetration).0
-    }
-
-    /// φ′ at the knee and beyond, N/m.
-    fn steepest(&self) -> f64 {
-        self.exponent * self.power(self.knee) / self.knee
-    }
-
     /// Force and energy beyond the knee.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn straight(&self, penetration: f64) -> (f64, f64) {
-        let (at_knee, beyond) = (self.power(self.knee), penetration - self.knee);
-        let force = at_knee + self.steepest() * beyond;
-        (force, at_knee * self.knee * self.share + 0.5 * (at_knee + force) * beyond)
+        let (Knee { force, energy, slope }, beyond) = (self.at_knee, penetration - self.knee);
+        (force + slope * beyond, energy + (force + 0.5 * slope * beyond) * beyond)
     }
 
     /// φ′(η), the static stiffness, N/m.
@@ -139,17 +176,16 @@ impl ContactLaw {
         if penetration <= 0.0 {
             return if self.exponent == 1.0 && penetration == 0.0 { self.stiffness } else { 0.0 };
         }
-        let at = penetration.min(self.knee);
-        self.exponent * self.power(at) / at
+        if penetration > self.knee {
+            return self.at_knee.slope;
+        }
+        self.exponent * self.curved(penetration).0 / penetration
     }
 
     /// Φ(η), the stored energy, J.
     #[inline(always)]
     pub fn energy(&self, penetration: f64) -> f64 {
-        if penetration > self.knee {
-            return self.straight(penetration).1;
-        }
-        self.curved(penetration).1
+        self.stored(penetration).1
     }
 
     /// The penetration at which the static force is `force`, m.
@@ -161,7 +197,7 @@ impl ContactLaw {
         if curved <= self.knee {
             return curved;
         }
-        self.knee + (force - self.power(self.knee)) / self.steepest()
+        self.knee + (force - self.at_knee.force) / self.at_knee.slope
     }
 
     /// The discrete gradient λ and its slope dλ/dr over a change `r` from the penetration `before`,
@@ -172,21 +208,19 @@ impl ContactLaw {
         if after <= NOTHING && before.penetration <= NOTHING {
             return (0.0, 0.0);
         }
-        if after > self.knee || before.penetration > self.knee {
-            return self.gradient_beyond(before, r);
-        }
-        self.curved_gradient(before, r)
-    }
-
-    /// The same where the law is curved.
-    #[inline(always)]
-    fn curved_gradient(&self, before: &Before, r: f64) -> (f64, f64) {
-        let after = before.penetration + r;
         if before.penetration > 0.0 && after > 0.0 {
-            return self.pressed_gradient(before, r);
+            let (low, high) = (before.penetration.min(after), before.penetration.max(after));
+            if high <= self.knee {
+                return self.pressed_gradient(before, r);
+            }
+            if low >= self.knee {
+                // On the straight part λ is the force half way, whatever the change.
+                return (self.straight(0.5 * (low + high)).0, 0.5 * self.at_knee.slope);
+            }
+            return self.gradient_across(before, r);
         }
         // Out of contact at one end: nothing is subtracted from what is stored at the other.
-        let (force, energy) = self.curved(after);
+        let (force, energy) = self.stored(after);
         // (A division need not wait for the root.)
         let inverse = 1.0 / r;
         let lambda = (energy - before.energy) * inverse;
@@ -235,7 +269,7 @@ impl ContactLaw {
         let middle = before.penetration + 0.5 * r;
         if r.abs() < NEARLY_STILL * middle {
             // λ about the midpoint m: λ = φ(m)[1 + α(α−1)/24 (r/m)²], its slope likewise.
-            let force = self.power(middle);
+            let force = self.curved(middle).0;
             let x = r / middle;
             let curved = alpha * (alpha - 1.0);
             let lambda = force * (1.0 + curved / 24.0 * x * x);
@@ -247,23 +281,17 @@ impl ContactLaw {
         (lambda, ((force - lambda) / r).max(0.0))
     }
 
-    /// The same where the change begins or ends beyond the knee.
+    /// The same in contact on both sides of the knee: the works on both parts add up.
     #[cold]
     #[inline(never)]
-    fn gradient_beyond(&self, before: &Before, r: f64) -> (f64, f64) {
+    fn gradient_across(&self, before: &Before, r: f64) -> (f64, f64) {
         let after = before.penetration + r;
-        let steepest = self.steepest();
         let (low, high) = (before.penetration.min(after), before.penetration.max(after));
-        // On the straight part λ is the force half way, whatever the change.
-        let half_way = |low: f64| self.straight(0.5 * (low + high)).0;
-        if low >= self.knee {
-            return (half_way(low), 0.5 * steepest);
-        }
-        // Across the knee the works on both parts add up.
         let at_knee = Before::new(self, self.knee);
         let (below, beyond) = (low - self.knee, high - self.knee);
-        let curved = self.curved_gradient(&at_knee, below).0;
-        let lambda = (half_way(self.knee) * beyond - curved * below) / (high - low);
+        let curved = self.pressed_gradient(&at_knee, below).0;
+        let lambda = (self.straight(0.5 * (self.knee + high)).0 * beyond - curved * below) / (high - low);
+        let steepest = self.at_knee.slope;
         let slope = if (high - low) < NEARLY_STILL * high {
             0.5 * steepest
         } else {

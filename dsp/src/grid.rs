@@ -43,6 +43,11 @@ impl Grid {
         Reading::new(self, position)
     }
 
+    /// The reading of the point `position` by the straight line between the two grid points beside it.
+    pub fn straight_reading(&self, position: f64) -> Reading {
+        Reading::straight(self, position)
+    }
+
     /// Refuses a point that is not strictly between the ends of the string.
     pub fn check_place(&self, name: &str, position: f64) -> Result<f64, Error> {
         if position.is_finite() && position > 0.0 && position < self.length {
@@ -54,7 +59,7 @@ impl Grid {
     }
 }
 
-/// Four-point cubic Lagrange interpolation: `weights` is hg on the nodes `first` to `first + 3`.
+/// Interpolation by four points, cubic (Lagrange) or straight: `weights` is hg on the nodes `first` to `first + 3`.
 ///
 /// The same weights read a value, hgᵀu, and spread a force, g f = weights·f/h, so that the power given
 /// to the string is exactly force times the velocity that is read. Beyond the ends the string
@@ -85,6 +90,24 @@ impl Reading {
     pub(crate) const NOTHING: Reading = Reading { first: 0, weights: [0.0; 4], cells: [0; 4] };
 
     fn new(grid: &Grid, position: f64) -> Self {
+        // Cubic Lagrange weights of the nodes cell − 1 … cell + 2 at fraction p of the cell.
+        let lagrange = |p: f64| {
+            [
+                -p * (p - 1.0) * (p - 2.0) / 6.0,
+                (p + 1.0) * (p - 1.0) * (p - 2.0) / 2.0,
+                -(p + 1.0) * p * (p - 2.0) / 2.0,
+                (p + 1.0) * p * (p - 1.0) / 6.0,
+            ]
+        };
+        Reading::between(grid, position, lagrange)
+    }
+
+    fn straight(grid: &Grid, position: f64) -> Self {
+        Reading::between(grid, position, |p| [0.0, 1.0 - p, p, 0.0])
+    }
+
+    /// The reading of a point by weights of the nodes cell − 1 … cell + 2 that depend on where it lies in its cell.
+    fn between(grid: &Grid, position: f64, weights_at: impl Fn(f64) -> [f64; 4]) -> Self {
         let nodes = grid.intervals;
         let place = (position / grid.spacing).clamp(0.0, nodes as f64);
         let nearest = place.round();
@@ -92,18 +115,10 @@ impl Reading {
             return Reading::at_node(grid, nearest as usize);
         }
         let cell = (place.floor() as usize).min(nodes - 1);
-        let p = place - cell as f64;
-        // Cubic Lagrange weights of the nodes cell − 1 … cell + 2 at fraction p of the cell.
-        let lagrange = [
-            -p * (p - 1.0) * (p - 2.0) / 6.0,
-            (p + 1.0) * (p - 1.0) * (p - 2.0) / 2.0,
-            -(p + 1.0) * p * (p - 2.0) / 2.0,
-            (p + 1.0) * p * (p - 1.0) / 6.0,
-        ];
         // The window of four nodes, kept inside 0 … N where the grid is long enough for that.
         let window = cell.saturating_sub(1).min((nodes + 1).saturating_sub(4)) as isize;
         let mut weights = [0.0; 4];
-        for (offset, &weight) in lagrange.iter().enumerate() {
+        for (offset, weight) in weights_at(place - cell as f64).into_iter().enumerate() {
             let node = cell as isize - 1 + offset as isize;
             let (node, sign) = match node {
                 n if n < 0 => (-n, -1.0),

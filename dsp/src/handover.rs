@@ -4,7 +4,7 @@
 //! The new instrument is built beforehand, elsewhere. It takes over displacement and motion of each
 //! string (read between the grid points where the grids differ), the fingers with the depth to which
 //! they are pressed in, plucks under way and the gestures that wait. A finger or fret that was in touch
-//! stays in touch just as deep; board and frets go on from there to their new places as a luthier's
+//! stays in touch, pressed just as hard; board and frets go on from there to their new places as a luthier's
 //! wrench would move them, and the tension from the old to the new. The step from one set of numbers to
 //! the other changes the energy that the same motion holds: the [`Ledger`] books it, and all work done
 //! by what moves afterwards. For a moment both are computed and the one sound fades into the other,
@@ -12,6 +12,7 @@
 
 use std::ops::Range;
 
+use crate::contact::ContactLaw;
 use crate::energy::Ledger;
 use crate::finger::Inertia;
 use crate::gesture::FINGERS_PER_STRING;
@@ -178,12 +179,13 @@ impl State {
         self.solver_balance = old.solver_balance;
         self.energy_scale = old.energy_scale;
         self.take_over_heights(model, old, old_model, same_grid);
+        self.calm.fill(0);
         self.heights_next.copy_from_slice(&self.heights);
         self.settling = 2;
         self.look_at_all(model);
     }
 
-    /// Puts every contact that was in touch where it is just as deep in touch, and every other one under
+    /// Puts every contact that was in touch where it is pressed just as hard, and every other one under
     /// the string.
     fn take_over_heights(&mut self, model: &Model, old: &State, old_model: &Model, same_grid: bool) {
         let same = |a: &Contact, b: &Contact| match a.kind {
@@ -211,6 +213,12 @@ impl State {
                 if share < 1.0 {
                     depth_before = depth + share * (depth_before - depth);
                 }
+                // On another grid a string gives way otherwise: as deep as the same force presses it.
+                let (law, old_law) = (&contact.law, &old_model.contacts[partner].law);
+                if law != old_law {
+                    depth = same_force(law, old_law, depth);
+                    depth_before = same_force(law, old_law, depth_before);
+                }
             }
             if depth.max(depth_before) > 0.0 {
                 self.heights[index] = now + depth;
@@ -222,6 +230,12 @@ impl State {
             }
         }
     }
+}
+
+/// How deep a contact of one law is pressed by the force that pressed one of another to `depth`, m; that itself where
+/// nothing touches.
+fn same_force(law: &ContactLaw, other: &ContactLaw, depth: f64) -> f64 {
+    if depth > 0.0 { law.penetration_at(other.force(depth)) } else { depth }
 }
 
 impl Hands {

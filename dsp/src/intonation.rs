@@ -10,7 +10,6 @@
 //! then the frequency of the lowest oscillation about it (`mode`), both with the very matrices the
 //! scheme steps through.
 
-mod band;
 mod equilibrium;
 mod mode;
 

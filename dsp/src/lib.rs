@@ -57,6 +57,7 @@
 //! | K, α, β | `stiffness`, `exponent`, `damping` | N/m^α, –, s/m | law of a contact: Kη^α, and its loss |
 //! | Φ, φ | `energy`, `force` of [`contact::ContactLaw`] | J, N | energy stored in a contact and its slope |
 //! | λ(r), P | `lambda`, `lossy` | N, N/m | force that the stored energy explains; the lossy part is P r |
+//! | C, 2√(Tρ) | `residual`, `radiation` | m/N, N s/m | how far a string gives way at a kinked fret and its grid does not; what waves take away there that are too short for it |
 //! | f | `force` | N | force of a contact, never below 0 |
 //! | M | `Response` | m/N | answer of the penetrations to the forces: r = −c − M f |
 //! | u_f, d_f | `height`, `motion` of [`finger::Finger`] | m | height of a finger's pad, and its last change |
@@ -66,6 +67,7 @@
 //! | 𝔥, 𝔮, 𝔭 | [`Energies`], `power_loss` and `power_solver`, `power_in` | J, W, W | stored, lost, put in |
 
 mod active;
+mod band;
 pub mod contact;
 mod contact_step;
 pub mod curve;
@@ -76,6 +78,7 @@ pub mod error;
 pub mod field;
 mod filter;
 pub mod finger;
+mod flexibility;
 pub mod gesture;
 pub mod grid;
 mod handover;

@@ -4,6 +4,7 @@ use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, OneOrEach};
 use crate::error::{Error, plain};
 use crate::finger::Inertia;
+use crate::flexibility::Flexibility;
 use crate::grid::{Grid, Reading};
 use crate::scene::{FretPlacement, FretboardSpec, SolverSettings, Stencil, StringSpec};
 use crate::skyline::Blocks;
@@ -112,8 +113,32 @@ pub struct Contact {
     pub damping: f64,
     /// Height of the barrier, m, when the model is made.
     pub height: f64,
+    /// What waves too short for the grid take away from a contact that has just been made, N s/m; 0 where frets act on grid
+    /// points alone.
+    pub radiation: f64,
     /// What it is.
     pub kind: ContactKind,
+}
+
+impl Contact {
+    /// Whether it takes energy from what moves into it.
+    #[inline(always)]
+    pub(crate) fn resists(&self) -> bool {
+        self.damping > 0.0 || self.radiation > 0.0
+    }
+
+    /// Lets the string bend round a fret as it does within a spacing of the grid: what makes it give way there is a spring
+    /// between the two, and what the waves that are too short for the grid take away a resistance, while they do.
+    fn bend_round(&mut self, string: &StringParameters, flexibility: &Flexibility) {
+        if !matches!(self.kind, ContactKind::Fret { .. }) {
+            return;
+        }
+        let residual = flexibility.residual(self.place, &self.reading);
+        if residual > 0.0 {
+            self.law = self.law.giving_way(residual);
+            self.radiation = 2.0 * (string.tension * string.linear_density).sqrt();
+        }
+    }
 }
 
 /// What a fixed contact is.
@@ -190,7 +215,15 @@ impl Barrier {
                 if !beyond {
                     let reading = Reading::at_node(grid, node);
                     let kind = ContactKind::Board { node };
-                    contacts.push(Contact { place, reading, law, damping, height: board.at(place), kind });
+                    contacts.push(Contact {
+                        place,
+                        reading,
+                        law,
+                        damping,
+                        height: board.at(place),
+                        radiation: 0.0,
+                        kind,
+                    });
                 }
             }
         }
@@ -198,13 +231,14 @@ impl Barrier {
             grid.check_place(&format!("fretboard.frets[{}]", index + 1), place)?;
             let (place, reading) = match self.placement {
                 FretPlacement::Exact => (place, grid.reading(place)),
+                FretPlacement::Kinked => (place, grid.straight_reading(place)),
                 FretPlacement::Nearest => {
                     let node = ((place / grid.spacing).round() as usize).clamp(1, grid.intervals - 1);
                     (grid.place(node), Reading::at_node(grid, node))
                 }
             };
             let kind = ContactKind::Fret { index };
-            let fret = Contact { place, reading, law: self.law, damping, height, kind };
+            let fret = Contact { place, reading, law: self.law, damping, height, radiation: 0.0, kind };
             let same = contacts.iter().position(|other| other.reading == reading);
             match same {
                 Some(i) if matches!(contacts[i].kind, ContactKind::Board { .. }) => contacts[i] = fret,
@@ -279,6 +313,13 @@ impl Model {
         for contact in &mut contacts {
             contact.law = conditioned("fretboard.stiffness", contact.law, mobility)?;
         }
+        if barrier.is_some_and(|barrier| barrier.placement == FretPlacement::Kinked) {
+            let kappa = string.kappa_squared();
+            let at_rest =
+                Stiffness::new(settings.stencil, string.linear_density, string.tension, kappa, &grid);
+            let flexibility = Flexibility::new(&string, &at_rest, &grid);
+            contacts.iter_mut().for_each(|contact| contact.bend_round(&string, &flexibility));
+        }
         let string = StringParameters { loss_0, ..string };
         let blocks = Blocks::new(&grid, &contacts);
         Ok(Model {
@@ -350,7 +391,7 @@ impl Model {
         if damping == 0.0 || penetration <= 0.0 {
             return 0.0;
         }
-        let lossy = damping * law.force(penetration) * self.half_rate;
+        let lossy = damping * law.own_force(penetration) * self.half_rate;
         let mobility = self.mobility + own_mobility;
         if lossy * mobility > STEEPEST { STEEPEST / mobility } else { lossy }
     }

@@ -130,7 +130,7 @@ impl Neck {
             damping: self.damping,
             board: Some(Curve::Points(board)),
             frets: if self.fretless { Vec::new() } else { self.crowns(frets) },
-            placement: FretPlacement::Exact,
+            placement: FretPlacement::Kinked,
             board_reference_spacing: Some(self.board_reference_spacing),
         })
     }

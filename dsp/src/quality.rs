@@ -12,7 +12,7 @@ pub enum Quality {
     /// Least work: every string at the host's rate, contacts to 1e-8 m. Thin strings ring too short high on the
     /// neck.
     Draft,
-    /// For playing: grids no wider than 6 mm, so that thin strings take one and a half or two steps a sample; contacts
+    /// For playing: grids no wider than 9 mm, so that the thinnest strings take one and a half steps a sample; contacts
     /// to 1e-9 m.
     #[default]
     Live,
@@ -55,7 +55,7 @@ impl Quality {
     pub fn settings(self, sample_rate: f64) -> EngineSettings {
         let (widest_spacing, max_iterations, tolerance) = match self {
             Self::Draft => (f64::INFINITY, 20, 1e-8),
-            Self::Live => (6e-3, 20, 1e-9),
+            Self::Live => (9e-3, 20, 1e-9),
             Self::Studio => (3e-3, 50, 1e-14),
             Self::Reference => (1.5e-3, 200, 1e-16),
         };

@@ -130,6 +130,9 @@ pub enum FretPlacement {
     Exact,
     /// At the nearest grid points.
     Nearest,
+    /// At their places, and the string bends round them as it would if the grid had room for a kink: as exact on coarse
+    /// grids as the others are on fine ones.
+    Kinked,
 }
 
 /// A raised-cosine push, equation \[4\] of the paper.

@@ -362,12 +362,13 @@ impl SceneString {
         self.model.contacts.iter().any(|contact| matches!(contact.kind, ContactKind::Board { .. }))
     }
 
-    /// How far the string is in board and frets where it is deepest after the last step, m; 0 where it
+    /// How far board and frets are pressed in where they are most after the last step, m; 0 where the string
     /// touches nothing.
     pub fn penetration(&self) -> f64 {
         let fixed = self.scratch.forces().filter_map(|(index, _)| {
             let contact = self.model.contacts.get(index)?;
-            Some(self.state.heights()[index] - self.state.displacement_at(&contact.reading))
+            let penetration = self.state.heights()[index] - self.state.displacement_at(&contact.reading);
+            Some(contact.law.own_penetration(penetration))
         });
         fixed.fold(0.0, f64::max)
     }

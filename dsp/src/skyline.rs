@@ -152,7 +152,15 @@ mod tests {
                 let reading = if index % 3 == 0 { Reading::at_node(grid, node) } else { grid.reading(place) };
                 let law = ContactLaw::known(1e10, 1.5);
                 let kind = ContactKind::Fret { index };
-                Contact { place, reading, law, damping: 0.0, height: 0.5 * random(seed), kind }
+                Contact {
+                    place,
+                    reading,
+                    law,
+                    damping: 0.0,
+                    radiation: 0.0,
+                    height: 0.5 * random(seed),
+                    kind,
+                }
             })
             .collect();
         contacts.sort_by(|a, b| a.place.total_cmp(&b.place));

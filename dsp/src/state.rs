@@ -47,6 +47,8 @@ pub struct State {
     pub(crate) skyline: Field,
     /// Fixed contacts that are touched or near, in order.
     pub(crate) close: Vec<Close>,
+    /// The first step in which nothing is left of the waves that each contact sent off when it was made.
+    pub(crate) calm: Vec<u64>,
     /// By how much the string may still come nearer to a contact before those that are close are looked for anew, m.
     pub(crate) sure: f64,
     /// By how much it may have come nearer to any in the last step, m.
@@ -79,6 +81,7 @@ impl State {
             finger_changes: 0,
             skyline: Field::new(&model.grid),
             close: Vec::with_capacity(contacts),
+            calm: vec![0; contacts],
             sure: 0.0,
             nearer: 0.0,
             steps: 0,
@@ -106,6 +109,7 @@ impl State {
         self.settling = 0;
         self.finger_changes = 0;
         self.look_at_all(model);
+        self.calm.fill(0);
         self.steps = 0;
         self.solver_balance = 0.0;
         self.energy_scale = 0.0;

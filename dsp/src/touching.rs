@@ -44,6 +44,10 @@ const AHEAD: f64 = 2.0;
 /// How far ahead they are looked for, likewise: the farther, the less often, and the more are to be watched.
 const WATCHED: f64 = 12.0;
 
+/// For how many steps a contact that has just been made sends off waves that are too short for the grid, less and less:
+/// they are about as long as it takes to cross two or three spacings.
+const RADIATING: u64 = 5;
+
 impl State {
     /// Takes up what is known to act before the string is predicted: the fixed contacts that touched the string at n − 1, lossy
     /// ones also if they touch it at n, and the fingers that did at either. The other fingers are kept aside.
@@ -57,11 +61,15 @@ impl State {
         scratch.active.clear();
         scratch.near.clear();
         let near = AHEAD * self.nearer;
-        for (position, close) in (0..).zip(&self.close) {
+        for position in 0..self.close.len() {
+            let close = &self.close[position];
             let index = close.index as usize;
             let overlap = self.overlap(close);
+            if overlap.now > 0.0 && overlap.before <= 0.0 {
+                self.calm[index] = self.steps + RADIATING;
+            }
             // A lossy one resists at n what goes on into it, even if that is out of it before and after.
-            let resists = overlap.now > 0.0 && model.contacts[index].damping > 0.0;
+            let resists = overlap.now > 0.0 && model.contacts[index].resists();
             if overlap.before > 0.0 || resists {
                 self.activate(model, index, overlap, scratch);
             } else if overlap.now >= -near {
@@ -153,13 +161,18 @@ impl State {
         let contact = &model.contacts[index];
         let raised = self.heights_next[index] - self.heights_before[index];
         let motion = contact.reading.of(&self.motion);
+        let mut lossy = model.lossy(&contact.law, contact.damping, overlap.now, 0.0);
+        if overlap.now > 0.0 && self.steps < self.calm[index] {
+            let left = (self.calm[index] - self.steps) as f64 / RADIATING as f64;
+            lossy += left * contact.radiation * model.half_rate;
+        }
         scratch.held[index] = self.steps + 1;
         let active = scratch.active.next();
         *active = Active {
             slot: index,
             reading: contact.reading,
             law: contact.law,
-            lossy: model.lossy(&contact.law, contact.damping, overlap.now, 0.0),
+            lossy,
             before: Before::new(&contact.law, overlap.before),
             rest: motion - raised,
             raised,

@@ -1,6 +1,6 @@
 //! The string at rest under a finger.
 
-use super::band::{Band, RankOne, dot, read, weights};
+use crate::band::{Band, RankOne, dot, read, weights};
 use crate::grid::Reading;
 use crate::model::{Model, Stiffness};
 
@@ -80,7 +80,7 @@ impl Potential<'_> {
 
 /// The string's stiffness with another tension but the stencil's own corrections, which belong to the
 /// tension at rest.
-pub(super) fn stiffness_at<T: super::band::Number>(model: &Model, tension: f64) -> Band<T> {
+pub(super) fn stiffness_at<T: crate::band::Number>(model: &Model, tension: f64) -> Band<T> {
     let own = model.stiffness(model.string.tension);
     Band::of_string(&model.grid, model.string.linear_density, &Stiffness { tension, ..own })
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::Complex;
 
-use super::band::{Band, RankOne, dot};
 use super::equilibrium::{Equilibrium, axial_spring, stiffness_at};
+use crate::band::{Band, RankOne, dot};
 use crate::contact::ContactLaw;
 use crate::grid::Reading;
 use crate::model::{Model, Stiffness};

@@ -271,7 +271,7 @@ fn fretboard(draw: &mut Draw, strings: &[Drawn], length: f64, reach: f64) -> Tab
         };
         table.insert("frets".into(), Value::Array(places));
         table.insert("fret_top".into(), tops);
-        table.insert("fret_placement".into(), draw.one_of(&["exact", "exact", "nearest"]).into());
+        table.insert("fret_placement".into(), draw.one_of(&["exact", "kinked", "nearest"]).into());
     }
     table
 }

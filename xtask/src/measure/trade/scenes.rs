@@ -255,7 +255,7 @@ fn fretboard(setup: &Setup, setting: &Setting) -> Result<FretboardSpec> {
         board: barrier.board,
         frets: CountOrList::List(barrier.frets.iter().map(|fret| fret[0]).collect()),
         fret_top: Some(OneOrEach::Each(barrier.frets.iter().map(|fret| fret[1]).collect())),
-        fret_placement: FretPlacement::Exact,
+        fret_placement: FretPlacement::Kinked,
         board_reference_spacing: barrier.board_reference_spacing,
     })
 }

@@ -6,7 +6,7 @@ use crate::grid::{Grid, Reading};
 use crate::model::Stiffness;
 
 /// What the entries may be: real, or complex with plain (not conjugate) symmetry.
-pub(super) trait Number:
+pub(crate) trait Number:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
 }
@@ -23,7 +23,7 @@ const DIFFERENCES: [[f64; DIAGONALS]; 3] =
 
 /// A symmetric matrix over the unknowns of a grid; row i holds entries (i, i) to (i, i + 3).
 #[derive(Debug, Clone)]
-pub(super) struct Band<T> {
+pub(crate) struct Band<T> {
     rows: Vec<[T; DIAGONALS]>,
 }
 
@@ -112,7 +112,7 @@ impl<T: Number> Band<T> {
 
 /// A factored [`Band`].
 #[derive(Debug, Clone)]
-pub(super) struct Factored<T> {
+pub(crate) struct Factored<T> {
     rows: Vec<[T; DIAGONALS]>,
 }
 
@@ -137,13 +137,13 @@ impl<T: Number> Factored<T> {
 }
 
 /// aᵀb, without conjugation.
-pub(super) fn dot<T: Number>(a: &[T], b: &[T]) -> T {
+pub(crate) fn dot<T: Number>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).fold(T::from(0.0), |sum, (&x, &y)| sum + x * y)
 }
 
 /// A factored matrix plus `strength`·v vᵀ.
 #[derive(Debug, Clone)]
-pub(super) struct RankOne<T> {
+pub(crate) struct RankOne<T> {
     base: Factored<T>,
     vector: Vec<T>,
     solved: Vec<T>,
@@ -171,12 +171,12 @@ impl<T: Number> RankOne<T> {
 }
 
 /// The value of a point of the string, from the unknowns.
-pub(super) fn read(at: &Reading, v: &[f64]) -> f64 {
+pub(crate) fn read(at: &Reading, v: &[f64]) -> f64 {
     weights(at).map(|(i, weight)| weight * v[i]).sum()
 }
 
 /// The weights of a point that are not zero, with the unknowns they belong to.
-pub(super) fn weights(at: &Reading) -> impl Iterator<Item = (usize, f64)> + '_ {
+pub(crate) fn weights(at: &Reading) -> impl Iterator<Item = (usize, f64)> + '_ {
     let present = at.weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
     present.map(|(i, &weight)| (at.first + i - 1, weight))
 }
