@@ -129,17 +129,24 @@ impl Contact {
 
     /// Lets the string bend round a fret as it does within a spacing of the grid: what makes it give way there is a spring
     /// between the two, and what the waves that are too short for the grid take away a resistance, while they do.
-    fn bend_round(&mut self, string: &StringParameters, flexibility: &Flexibility) {
+    fn bend_round(&mut self, string: &StringParameters, grid: &Grid, flexibility: &Flexibility) {
         if !matches!(self.kind, ContactKind::Fret { .. }) {
             return;
         }
-        let residual = flexibility.residual(self.place, &self.reading);
-        if residual > 0.0 {
+        let reading = grid.straight_reading(self.place);
+        let residual = flexibility.residual(self.place, &reading);
+        if residual > LACKING * grid.spacing / string.tension {
+            self.reading = reading;
             self.law = self.law.giving_way(residual);
             self.radiation = 2.0 * (string.tension * string.linear_density).sqrt();
         }
     }
 }
+
+/// What a grid lacks is made up for where it is more than this part of h/T, the depth of the largest chord under a kink being
+/// a quarter. So small a part lets a hundredth of the losses behind a fret remain, and less of it makes a spring too stiff for
+/// the resistance beside it to keep a string from rattling.
+const LACKING: f64 = 0.1;
 
 /// What a fixed contact is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -230,8 +237,7 @@ impl Barrier {
         for (index, &[place, height]) in self.frets.iter().enumerate() {
             grid.check_place(&format!("fretboard.frets[{}]", index + 1), place)?;
             let (place, reading) = match self.placement {
-                FretPlacement::Exact => (place, grid.reading(place)),
-                FretPlacement::Kinked => (place, grid.straight_reading(place)),
+                FretPlacement::Exact | FretPlacement::Kinked => (place, grid.reading(place)),
                 FretPlacement::Nearest => {
                     let node = ((place / grid.spacing).round() as usize).clamp(1, grid.intervals - 1);
                     (grid.place(node), Reading::at_node(grid, node))
@@ -318,7 +324,7 @@ impl Model {
             let at_rest =
                 Stiffness::new(settings.stencil, string.linear_density, string.tension, kappa, &grid);
             let flexibility = Flexibility::new(&string, &at_rest, &grid);
-            contacts.iter_mut().for_each(|contact| contact.bend_round(&string, &flexibility));
+            contacts.iter_mut().for_each(|contact| contact.bend_round(&string, &grid, &flexibility));
         }
         let string = StringParameters { loss_0, ..string };
         let blocks = Blocks::new(&grid, &contacts);

@@ -18,8 +18,8 @@ use crate::setup::{Setup, SetupString};
 pub struct EngineSettings {
     /// Sample rate at which it is heard, Hz, 8e3 to 1e6.
     pub sample_rate: f64,
-    /// The widest grid a string may have, m, or two thirds of it over a wide bridge: one whose grid is wider at `sample_rate`
-    /// is computed at a multiple of it. Infinite: every string is computed at `sample_rate` itself.
+    /// The widest grid a string may have, m, or two thirds of it over a wide bridge or under a bar: one whose grid is wider at
+    /// `sample_rate` is computed at a multiple of it. Infinite: every string is computed at `sample_rate` itself.
     pub widest_spacing: f64,
     /// Difference operator of the strings.
     pub stencil: Stencil,
@@ -33,8 +33,9 @@ pub struct EngineSettings {
 /// nobody would string up stays within bounds.
 const HIGHEST_RATE: f64 = 400e3;
 
-/// A string that wraps over a wide bridge needs grid points that it can leave one after another: so much closer ones.
-const OVER_A_BRIDGE: f64 = 2.0 / 3.0;
+/// Strings bend round a fret on any grid. What else is hard, a wide bridge that they leave point by point or a bar, asks for one
+/// so much finer.
+const BETWEEN_FRETS: f64 = 2.0 / 3.0;
 
 impl EngineSettings {
     /// What they mean for the solver.
@@ -50,7 +51,7 @@ impl EngineSettings {
     pub fn ratio(&self, setup: &Setup, string: &SetupString) -> Ratio {
         let parameters = flexible(setup, string);
         let most = Ratio::of_halves((2.0 * HIGHEST_RATE / self.sample_rate) as usize);
-        let widest = self.widest_spacing * if setup.bridge.is_some() { OVER_A_BRIDGE } else { 1.0 };
+        let widest = self.widest_spacing * if setup.is_touched_between_frets() { BETWEEN_FRETS } else { 1.0 };
         let fine = |ratio: &Ratio| {
             let time_step = 1.0 / (ratio.value() * self.sample_rate);
             // A string too short for its grid is one whose grid is too wide.

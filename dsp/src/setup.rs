@@ -138,6 +138,9 @@ const FILES: [(&str, &str); 4] = [
     ("bass", include_str!("../instruments/bass.toml")),
 ];
 
+/// No finger presses a string down to a fret that is farther below it, m: high actions of guitars and basses are 4 mm.
+const OUT_OF_REACH: f64 = 6e-3;
+
 /// Pieces of the polyline that stands for a bridge's curve.
 const BRIDGE_PIECES: usize = 32;
 /// Where board and bridge end, the barrier drops within this distance, m, to this height, m: deeper than
@@ -211,6 +214,11 @@ impl Setup {
             string.check(&format!("string[{}]", i + 1))?;
         }
         Ok(())
+    }
+
+    /// Whether something hard touches strings elsewhere than at frets: a wide bridge, or a bar where frets are out of reach.
+    pub(crate) fn is_touched_between_frets(&self) -> bool {
+        self.bridge.is_some() || self.neck.action > OUT_OF_REACH
     }
 
     /// The barrier under a string whose frets stand at `frets` (m from the nut): frets, board and bridge.

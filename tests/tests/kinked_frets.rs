@@ -113,16 +113,15 @@ fn a_strike_is_met_by_the_force_of_two_strings() {
         forces[10..].iter().map(|force| (force / expected - 1.0).abs()).fold(0.0, f64::max)
     };
     for rate in [48e3, 96e3] {
-        for part in [0.0, 0.25, 0.5, 0.9] {
+        for part in [0.25, 0.5, 0.9] {
             let [exact, kinked] = ["exact", "kinked"].map(|placement| off(rate, placement, part));
             println!(
                 "{rate} Hz, {part} of a spacing: off by {:.1} %, kinked {:.1} %",
                 100.0 * exact,
                 100.0 * kinked
             );
-            // On a grid point there is least to add, and what is shorter than two spacings is missing altogether.
-            assert!(kinked < if part == 0.0 { 0.1 } else { 0.04 });
-            assert!(kinked < exact);
+            // What is left is what the grid itself rings with, waves of two spacings.
+            assert!(kinked < 0.04 && exact > 0.08);
         }
     }
 }
