@@ -127,6 +127,16 @@ impl Contact {
         self.damping > 0.0 || self.radiation > 0.0
     }
 
+    /// For how many steps a contact that has just been made sends off waves that are too short for the grid, less and less:
+    /// they are about as long as it takes to cross two or three spacings.
+    pub const RADIATING: u64 = 5;
+
+    /// The resistance, N s/m, of a contact that will radiate for so many steps more.
+    #[inline(always)]
+    pub fn radiating(&self, left: u64) -> f64 {
+        left as f64 / Self::RADIATING as f64 * self.radiation
+    }
+
     /// Lets the string bend round a fret as it does within a spacing of the grid: what makes it give way there is a spring
     /// between the two, and what the waves that are too short for the grid take away a resistance, while they do.
     fn bend_round(&mut self, string: &StringParameters, grid: &Grid, flexibility: &Flexibility) {

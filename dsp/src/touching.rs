@@ -6,7 +6,7 @@ use crate::active::Active;
 use crate::contact::Before;
 use crate::drive::Drive;
 use crate::grid::{READING_NORM, Reading};
-use crate::model::Model;
+use crate::model::{Contact, Model};
 use crate::skyline::draw;
 use crate::state::{Close, State};
 use crate::string::Scratch;
@@ -44,10 +44,6 @@ const AHEAD: f64 = 2.0;
 /// How far ahead they are looked for, likewise: the farther, the less often, and the more are to be watched.
 const WATCHED: f64 = 12.0;
 
-/// For how many steps a contact that has just been made sends off waves that are too short for the grid, less and less:
-/// they are about as long as it takes to cross two or three spacings.
-const RADIATING: u64 = 5;
-
 impl State {
     /// Takes up what is known to act before the string is predicted: the fixed contacts that touched the string at n − 1, lossy
     /// ones also if they touch it at n, and the fingers that did at either. The other fingers are kept aside.
@@ -66,7 +62,7 @@ impl State {
             let index = close.index as usize;
             let overlap = self.overlap(close);
             if overlap.now > 0.0 && overlap.before <= 0.0 {
-                self.calm[index] = self.steps + RADIATING;
+                self.calm[index] = self.steps + Contact::RADIATING;
             }
             // A lossy one resists at n what goes on into it, even if that is out of it before and after.
             let resists = overlap.now > 0.0 && model.contacts[index].resists();
@@ -163,8 +159,7 @@ impl State {
         let motion = contact.reading.of(&self.motion);
         let mut lossy = model.lossy(&contact.law, contact.damping, overlap.now, 0.0);
         if overlap.now > 0.0 && self.steps < self.calm[index] {
-            let left = (self.calm[index] - self.steps) as f64 / RADIATING as f64;
-            lossy += left * contact.radiation * model.half_rate;
+            lossy += contact.radiating(self.calm[index] - self.steps) * model.half_rate;
         }
         scratch.held[index] = self.steps + 1;
         let active = scratch.active.next();

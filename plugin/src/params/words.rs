@@ -74,20 +74,20 @@ pub fn heard(id: &str) -> Option<&'static str> {
 pub fn heard_of(quality: Quality) -> &'static str {
     match quality {
         Quality::Draft => {
-            "Three quarters of the work of Live, for many tracks at once. Open strings and clean notes on low frets \
-             are as good. Thin strings ring too short high on the neck, and plucked hard they buzz by up to a half \
-             more or less than they should."
+            "A tenth less work than Live, for many tracks at once. All is as good but for the thinnest string, which \
+             rings too short at the highest frets and, plucked hard, buzzes by up to a half more or less than it \
+             should."
         }
         Quality::Live => {
             "To play with. Every open string and every stopped note is within a cent. Buzz is about as hard and as \
              long as it should be: within a quarter."
         }
         Quality::Studio => {
-            "Three times the work of Live, for the bounce. Buzz is within a tenth, the highest frets are within a \
-             cent."
+            "Three and a half times the work of Live, for the bounce. Buzz is within an eighth, the highest frets are \
+             within a cent."
         }
         Quality::Reference => {
-            "Eight to ten times the work of Live: the fastest computers just have time for it when six strings ring. There to \
+            "Twelve times the work of Live: the fastest computers just have time for it when six strings ring. There to \
              compare with; one cannot hear what it adds."
         }
     }

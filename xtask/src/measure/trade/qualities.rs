@@ -40,8 +40,7 @@ fn aims(outcomes: &[Outcome]) -> String {
     let at = |one: Quality| quality(one, BASE.rate);
     let live = at(Quality::Live);
     let impulses = |one: &Outcome| 100.0 * one.errors.impulses;
-    let price = mean_load(&live, outcomes) / mean_load(&at(Quality::Draft), outcomes);
-    let over_live = |one: Quality| mean_load(&at(one), outcomes) / mean_load(&live, outcomes);
+    let price = |one: Quality| mean_load(&at(one), outcomes) / mean_load(&at(Quality::Draft), outcomes);
     let rows = [
         (
             "`live`: partials of every open string, up to 4 kHz, cents",
@@ -55,10 +54,10 @@ fn aims(outcomes: &[Outcome]) -> String {
         ),
         ("`live`: forces of pressed strings, %", 3.0, largest(live, &[Kind::Pressed], outcomes, impulses)),
         ("`live`: buzz, %", 50.0, largest(live, BUZZING, outcomes, impulses)),
-        ("`live`: price over that of `draft`", 2.0, price),
-        ("`studio`: price over that of `live`", 3.5, over_live(Quality::Studio)),
+        ("`live`: price over that of `draft`", 2.0, price(Quality::Live)),
+        ("`studio`: price over that of `draft`", 7.0, price(Quality::Studio)),
         ("`studio`: buzz, %", 25.0, largest(at(Quality::Studio), BUZZING, outcomes, impulses)),
-        ("`reference`: price over that of `live`", 10.0, over_live(Quality::Reference)),
+        ("`reference`: price over that of `draft`", 20.0, price(Quality::Reference)),
         ("`reference`: buzz, %", 15.0, largest(at(Quality::Reference), BUZZING, outcomes, impulses)),
     ];
     let mut text = head(["at most".into(), "found".into(), String::new()]);

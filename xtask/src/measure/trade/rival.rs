@@ -37,6 +37,8 @@ pub struct Rival {
     finger: Option<Finger>,
     /// ψ of each fixed contact, √J.
     psi: Vec<f64>,
+    /// The first step in which each is calm after it has been made.
+    calm: Vec<u64>,
     /// Fixed contacts near enough to be looked at, and steps until all are looked at again.
     near: Vec<usize>,
     patience: u32,
@@ -99,6 +101,7 @@ impl Rival {
             plucks: scene.pluck.iter().map(|p| (p.clone(), model.grid.reading(p.position))).collect(),
             finger,
             psi: vec![0.0; model.contacts.len()],
+            calm: vec![0; model.contacts.len()],
             near: Vec::new(),
             patience: 0,
             rows: Vec::new(),
@@ -148,7 +151,7 @@ impl Rival {
     pub fn penetration(&self) -> f64 {
         let fixed = self.rows.iter().filter_map(|row| row.fixed).map(|index| {
             let contact = &self.model.contacts[index];
-            contact.height - read(&contact.reading, &self.displacement)
+            contact.law.own_penetration(contact.height - read(&contact.reading, &self.displacement))
         });
         fixed.fold(0.0, f64::max)
     }

@@ -54,7 +54,13 @@ impl Rival {
             if penetration <= 0.0 && psi == 0.0 {
                 continue;
             }
-            let change = -(read(&contact.reading, &self.next) + read(&contact.reading, &self.motion));
+            let motion = read(&contact.reading, &self.motion);
+            if penetration > 0.0 && penetration + motion <= 0.0 {
+                self.calm[index] = self.step + Contact::RADIATING;
+            }
+            let radiating = contact.radiating(self.calm[index].saturating_sub(self.step));
+            let own = contact.damping * contact.law.own_force(penetration);
+            let change = -(read(&contact.reading, &self.next) + motion);
             self.rows.push(Row {
                 fixed: Some(index),
                 reading: contact.reading,
@@ -62,7 +68,7 @@ impl Rival {
                 own: 0.0,
                 psi,
                 g: slope(&contact.law, penetration, psi, change),
-                lossy: contact.damping * contact.law.force(penetration) / (2.0 * k),
+                lossy: (own + radiating) / (2.0 * k),
                 change,
                 force: 0.0,
             });
