@@ -9,8 +9,8 @@ use crate::settings::EngineSettings;
 /// How much computing a sound may take.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quality {
-    /// Least work: every string at the host's rate, contacts to 1e-8 m. Thin strings ring too short high on the
-    /// neck.
+    /// Least work: every string at the host's rate, contacts to 1e-8 m. The thinnest strings ring too short at the highest
+    /// frets.
     Draft,
     /// For playing: grids no wider than 9 mm, so that the thinnest strings take one and a half steps a sample; contacts
     /// to 1e-9 m.
@@ -44,10 +44,10 @@ impl Quality {
     /// `docs/trade.md` for a host's rate of 48 kHz.
     pub fn summary(self) -> &'static str {
         match self {
-            Self::Draft => "least work, high frets ring too short",
+            Self::Draft => "least work, buzz within 50 %",
             Self::Live => "within 1 cent, buzz within 25 %",
-            Self::Studio => "3 × the work, buzz within 10 %",
-            Self::Reference => "8 × the work, buzz within 5 %",
+            Self::Studio => "4 × the work, buzz within 15 %",
+            Self::Reference => "12 × the work, buzz within 10 %",
         }
     }
 

@@ -37,8 +37,8 @@ fn what_is_said_of_qualities_was_measured() {
     let found = |row: &str| numbers(&trade, row)[1];
     let said = |quality: Quality, words: &str| assert!(heard_of(quality).contains(words), "{words}");
     let price = |quality: &str| found(&format!("`{quality}`: price over that of `draft`"));
-    said(Quality::Draft, "A tenth less work");
-    assert!((0.86..0.96).contains(&price("live").recip()));
+    said(Quality::Draft, "A little less work");
+    assert!((0.85..0.98).contains(&price("live").recip()));
     said(Quality::Draft, "by up to a half");
     let buzzing = &trade[trade.find("Buzz, and the spacing of the grid").expect("a table")..];
     for string in ["E4", "B3", "G3", "D3", "A2", "E2"] {
@@ -46,7 +46,7 @@ fn what_is_said_of_qualities_was_measured() {
     }
     said(Quality::Draft, "too short at the highest frets");
     // The last number is how long the reference rings.
-    for (string, least, most) in [("E4", 0.5, 0.85), ("B3", 0.85, 1.05), ("G3", 0.85, 1.05)] {
+    for (string, least, most) in [("E4", 0.5, 0.9), ("B3", 0.9, 1.1), ("G3", 0.9, 1.1)] {
         let ringing = numbers(&trade, &format!("{string}, fret 21, T60, s"));
         assert!((least..most).contains(&(ringing[0] / ringing[ringing.len() - 1])), "{string}");
     }

@@ -74,7 +74,7 @@ pub fn heard(id: &str) -> Option<&'static str> {
 pub fn heard_of(quality: Quality) -> &'static str {
     match quality {
         Quality::Draft => {
-            "A tenth less work than Live, for many tracks at once. All is as good but for the thinnest string, which \
+            "A little less work than Live, for many tracks at once. All is as good but for the thinnest string, which \
              rings too short at the highest frets and, plucked hard, buzzes by up to a half more or less than it \
              should."
         }
