@@ -127,6 +127,12 @@ impl Contact {
         self.damping > 0.0 || self.radiation > 0.0
     }
 
+    /// How much of a penetration, m, the contact itself is pressed in by: the rest, if any, is how far a string gives way round
+    /// a kinked fret.
+    pub fn pressed_in(&self, penetration: f64) -> f64 {
+        if self.radiation > 0.0 { self.law.own_penetration(penetration) } else { penetration }
+    }
+
     /// For how many steps a contact that has just been made sends off waves that are too short for the grid, less and less:
     /// they are about as long as it takes to cross two or three spacings.
     pub const RADIATING: u64 = 5;

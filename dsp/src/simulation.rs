@@ -368,7 +368,7 @@ impl SceneString {
         let fixed = self.scratch.forces().filter_map(|(index, _)| {
             let contact = self.model.contacts.get(index)?;
             let penetration = self.state.heights()[index] - self.state.displacement_at(&contact.reading);
-            Some(contact.law.own_penetration(penetration))
+            Some(contact.pressed_in(penetration))
         });
         fixed.fold(0.0, f64::max)
     }

@@ -61,9 +61,7 @@ impl StringSeen {
                     *seen = FretSeen {
                         position: frets.get(fret).map_or(0.0, |&place| place as f32),
                         height: height as f32,
-                        penetration: contact
-                            .law
-                            .own_penetration(height - state.displacement_at(&contact.reading))
+                        penetration: contact.pressed_in(height - state.displacement_at(&contact.reading))
                             as f32,
                         force: 0.0,
                         hit: hit as f32,

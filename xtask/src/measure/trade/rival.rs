@@ -151,7 +151,7 @@ impl Rival {
     pub fn penetration(&self) -> f64 {
         let fixed = self.rows.iter().filter_map(|row| row.fixed).map(|index| {
             let contact = &self.model.contacts[index];
-            contact.law.own_penetration(contact.height - read(&contact.reading, &self.displacement))
+            contact.pressed_in(contact.height - read(&contact.reading, &self.displacement))
         });
         fixed.fold(0.0, f64::max)
     }
