@@ -48,6 +48,7 @@ impl State {
                 let factor = model.mobility * model.stretch * scratch.yielding;
                 let scale = self.energy_scale(scratch);
                 let mut products = *products;
+                let mut stretching = 0.0;
                 for round in 0.. {
                     created = scratch.solver.solve(
                         &mut scratch.active,
@@ -59,14 +60,16 @@ impl State {
                     let spread = spread(model, &mut scratch.active, &mut scratch.prediction);
                     products.along += spread.along;
                     scratch.tried += spread.sum;
-                    let stretching = self.stretching(&products, scratch);
-                    largest = self.advance(simd, model, stretching, scratch);
+                    let more = self.stretching(&products, scratch);
+                    stretching += more;
+                    largest = self.advance(simd, model, more, scratch);
+                    scratch.stretching = stretching;
                     let rounding = f64::EPSILON * model.mobility * spread.sum * spread.sum;
                     let exact = rounding <= ROUNDING * self.energy_scale && created <= scale.credit;
                     if exact || round == REFINEMENTS {
                         break;
                     }
-                    products.along = self.recentre(scratch);
+                    products.along = self.recentre(scratch) + 2.0 * stretching;
                 }
             }
             if !self.find_missed(simd, model, largest, attempt > 0, scratch) {
@@ -85,8 +88,9 @@ impl State {
         convergence
     }
 
-    /// Takes the string as it has come out for the place from which forces are solved for. Returns vᵀ(u + w) as it
-    /// has come out, of which forces that all but cancel leave no digit when it is only added up.
+    /// Takes the string as it has come out for the place from which forces are solved for: they and the pull of the
+    /// stretched string, each of which may have moved it much farther than both together did, are exact from here on but for
+    /// what is added to them. Returns vᵀu⁺ as it has come out.
     #[cold]
     fn recentre(&self, scratch: &mut Scratch) -> f64 {
         for active in scratch.active.iter_mut() {
@@ -94,8 +98,8 @@ impl State {
             let moved = active.sign * active.reading.of(&scratch.motion);
             active.centre = -(moved + active.rest + active.own_mobility * active.base);
         }
-        let moved = scratch.prediction.iter().zip(&*self.displacement).map(|(w, u)| u + w);
-        self.curvature.iter().zip(moved).map(|(v, moved)| v * moved).sum()
+        scratch.prediction.copy_from_slice(&scratch.motion);
+        self.curvature.iter().zip(&*scratch.displacement).map(|(v, u)| v * u).sum()
     }
 
     /// Starts from no forces again, with the contacts that were missed.

@@ -25,7 +25,7 @@ pub struct Scratch {
     /// 1/(1 + G vᵀv): how far the string gives way to what stretches it.
     pub(crate) yielding: f64,
     /// (δuⁿ)ᵀδ(uⁿ⁺¹ + uⁿ⁻¹)/2, m².
-    stretching: f64,
+    pub(crate) stretching: f64,
     /// The motion to n + 1 without contacts and tension modulation, then with contacts.
     pub(crate) prediction: Field,
     /// dⁿ⁺¹ and uⁿ⁺¹ before the step, dⁿ and uⁿ after it.
