@@ -1,7 +1,7 @@
 //! How far a string gives way under a force at one point, and how much of that its grid lacks.
 //!
 //! A force at a point bends a flexible string to a kink. A grid has no room for one between its points, nor for what is
-//! shorter than two spacings: there it gives way too little, by the residual flexibility C = G(x, x) − wᵀKₕ⁻¹w. G is the static
+//! shorter than two spacings: there it gives way too little, by the residual flexibility C = Γ(x, x) − wᵀKₕ⁻¹w. Γ is the static
 //! displacement of the string under one newton in the same place, Kₕ the stiffness of the grid, and w = hg the weights by
 //! which the place is read and driven. Structural dynamics adds the like to a sum of modes that has been cut short.
 
@@ -38,7 +38,7 @@ impl Flexibility {
         self.of_string(place) - self.of_grid(reading)
     }
 
-    /// G(x, x) between simple supports: that of a flexible string, two straight lines, less what bending takes from it.
+    /// Γ(x, x) between simple supports: that of a flexible string, two straight lines, less what bending takes from it.
     fn of_string(&self, place: f64) -> f64 {
         let (near, far, length) = (place, self.length - place, self.length);
         let straight = near * far / length;

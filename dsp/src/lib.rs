@@ -53,7 +53,7 @@
 //! | h g | `Reading::weights` | – | weights that read a point, and spread a force on it |
 //! | b | `height` | m | height of board or crown |
 //! | η | `penetration` | m | overlap of two bodies, positive when they touch |
-//! | r, c | `change`, −`opening` is what r would be without force | m | ηⁿ⁺¹ − ηⁿ⁻¹ |
+//! | r, c | `change`; −c is `centre` when a solution begins | m | ηⁿ⁺¹ − ηⁿ⁻¹, which without force would be −c |
 //! | K, α, β | `stiffness`, `exponent`, `damping` | N/m^α, –, s/m | law of a contact: Kη^α, and its loss |
 //! | Φ, φ | `energy`, `force` of [`contact::ContactLaw`] | J, N | energy stored in a contact and its slope |
 //! | λ(r), P | `lambda`, `lossy` | N, N/m | force that the stored energy explains; the lossy part is P r |

@@ -1,7 +1,7 @@
 //! How an instrument is computed: speed against accuracy.
 //!
 //! The lighter and tauter a string, the faster its waves and the wider the spacing of its grid: at 48 kHz
-//! that of a guitar's high E is 11 mm, as wide as its highest frets are apart, and that of a bass string 2 mm.
+//! that of a guitar's high E is 11 mm, as wide as its highest frets are apart, and that of a bass's low E 4 mm.
 //! What a string does at a fret is known no better than its grid tells places apart. So each string is
 //! computed at the smallest multiple of the host's rate, in steps of a half, at which its grid is fine enough; a light
 //! one needs more of them, and each costs it less.

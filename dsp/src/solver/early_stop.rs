@@ -20,7 +20,7 @@ const EASINGS: u32 = 6;
 
 /// Whether forces that should only push are bounded by what they do together. Between the same grid points
 /// barriers may push against each other by any amount that the string does not feel, but then some pull: where
-/// the pulls are less than half of the pushes no force is more than the net push and a half.
+/// the pulls are less than half of the pushes no force is more than twice the net push.
 #[inline(always)]
 pub(super) fn bounded(rows: &[Active], forces: &[f64], tolerance: f64) -> bool {
     let (mut pushes, mut pulls, mut mobility) = (0.0, 0.0, 0.0);

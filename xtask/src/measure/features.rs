@@ -25,7 +25,7 @@ const AGREEMENT: f64 = 0.05;
     after_help = "Examples:\n  cargo xtask measure features            measures and prints the table\n  \
                   cargo xtask measure features --write    puts it into docs/features.md\n  \
                   cargo xtask measure features --quick    counts only, and compares with docs/features.md\n  \
-                  cargo xtask measure features --quick --since v0.1.0    and with an earlier version"
+                  cargo xtask measure features --quick --since HEAD~1    and with an earlier version"
 )]
 struct Arguments {
     /// Count instructions only, and compare with the table in docs/features.md.
