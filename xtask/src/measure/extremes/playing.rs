@@ -171,7 +171,7 @@ fn other_setup(name: &str, draw: &mut Draw) -> Result<Setup> {
     let neck = &mut setup.neck;
     neck.nut_clearance = draw.over(1e-4, 1e-3);
     neck.action = neck.nut_clearance + draw.over(1e-5, 4e-3);
-    neck.relief = draw.over(1e-5, 5e-4);
+    neck.relief = draw.over(1e-5, 5e-4).min(neck.most_relief());
     neck.fret_height = draw.over(1e-4, 2e-3);
     // Some instruments keep their own.
     neck.damping = scenes::damping(draw).unwrap_or(neck.damping);
