@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::ContactLaw;
 use crate::curve::Curve;
-use crate::error::{Error, within};
+use crate::error::{Error, plain, within};
 use crate::model::Barrier;
 use crate::scene::FretPlacement;
 
@@ -43,6 +43,12 @@ pub struct Neck {
     pub board_reference_spacing: f64,
 }
 
+/// The least that a crown is below the string, m.
+const LEAST_CLEARANCE: f64 = 1e-5;
+
+/// The most relief there is, m, however high the strings are.
+const MOST_RELIEF: f64 = 0.01;
+
 /// How far the board goes on beyond the last fret, m.
 const OVERHANG: f64 = 0.008;
 
@@ -55,17 +61,42 @@ impl Neck {
     pub(crate) fn check(&self) -> Result<(), Error> {
         within("neck.scale_length", self.scale_length, 0.1, 5.0, "m")?;
         within("neck.frets", self.frets as f64, 0.0, 36.0, "")?;
-        within("neck.nut_clearance", self.nut_clearance, 1e-5, 0.02, "m")?;
+        within("neck.nut_clearance", self.nut_clearance, LEAST_CLEARANCE, 0.02, "m")?;
         within("neck.action", self.action, self.nut_clearance, 0.05, "m")?;
-        within("neck.relief", self.relief, 0.0, 0.01, "m")?;
         within("neck.fret_height", self.fret_height, 0.0, 0.02, "m")?;
         for (fret, wear) in &self.worn {
             within("neck.worn, fret", *fret as f64, 1.0, self.frets as f64, "")?;
             within("neck.worn, depth", *wear, 0.0, 0.02, "m")?;
         }
+        self.check_relief()?;
         ContactLaw::new("neck", self.stiffness, self.exponent)?;
         within("neck.damping", self.damping, 0.0, 1e5, "s/m")?;
         within("neck.board_reference_spacing", self.board_reference_spacing, 1e-6, 1.0, "m").map(drop)
+    }
+
+    fn check_relief(&self) -> Result<(), Error> {
+        let most = self.most_relief();
+        within("neck.relief", self.relief, 0.0, MOST_RELIEF, "m")?;
+        if self.relief > most {
+            let accepted = format!(
+                "it must lie between 0 and {} m, or crowns stand above the strings",
+                plain((1e6 * most).floor() / 1e6)
+            );
+            return Err(Error::range("neck.relief", plain(self.relief), accepted));
+        }
+        Ok(())
+    }
+
+    /// The most relief, m, with which all crowns are below the string. (Fret 12 has the action whatever the relief. So the
+    /// line under the crowns tilts with it, and those beyond fret 12 rise.)
+    pub fn most_relief(&self) -> f64 {
+        let straight = Neck { relief: 0.0, ..self.clone() };
+        let bowed = Neck { relief: 1.0, ..self.clone() };
+        let room = |place: f64| {
+            let (height, rise) = (straight.crown_height(place), bowed.crown_height(place));
+            if rise > height { (-LEAST_CLEARANCE - height) / (rise - height) } else { f64::INFINITY }
+        };
+        self.equal_places().into_iter().map(room).fold(MOST_RELIEF, f64::min).max(0.0)
     }
 
     /// Place of a fret in equal temperament, m from the nut; fractions of a fret lie between.

@@ -61,7 +61,7 @@ impl Luthier {
         let neck = &mut setup.neck;
         neck.nut_clearance = (neck.nut_clearance * self.action).clamp(1e-5, 0.02);
         neck.action = (neck.action * self.action).clamp(neck.nut_clearance, 0.05);
-        neck.relief = (neck.relief + self.relief).clamp(0.0, 0.01);
+        neck.relief = (neck.relief + self.relief).clamp(0.0, neck.most_relief());
         neck.fret_height = (neck.fret_height * self.fret_height).clamp(0.0, 0.02);
         let scale = neck.scale_length;
         if let Pickup::Magnetic { position, aperture, .. } = &mut setup.pickup {

@@ -94,12 +94,21 @@ pub fn read(path: &Path) -> Result<String> {
 /// # Errors
 /// When the file is no set-up, has the name of one that comes with the program, or cannot be copied.
 pub fn install(path: &Path, folder: &Path) -> Result<SetupFile> {
+    let (name, text) = check(path)?;
+    put(&name, &text, folder)
+}
+
+/// The name and the text of a set-up file that can be installed.
+///
+/// # Errors
+/// When the file cannot be read, is no set-up or has the name of one that comes with the program.
+pub fn check(path: &Path) -> Result<(String, String)> {
     let text = read(path)?;
     Setup::from_toml(&text).with_context(|| path.display().to_string())?;
     let name = path.file_stem().and_then(|name| name.to_str());
     let name = name.with_context(|| format!("{} has no name that could be shown", path.display()))?;
     ensure!(!SHIPPED.contains(&name), "{name} comes with the program: give {} another name", path.display());
-    put(name, &text, folder)
+    Ok((name.to_owned(), text))
 }
 
 /// Saves a set-up under its own name in a folder, which is made if need be, in place of one of the same name.

@@ -385,7 +385,6 @@ fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
         (&["render", "song.mid", "-o", "no/such/folder/x.wav"], "cannot write no/such/folder/x.wav"),
         (&["render", "song.mid", "-o", "text.mid/x.wav"], "cannot write text.mid/x.wav"),
         (&["render", "song.mid", "-o", "folder"], "it is a folder"),
-        (&["render", "song.mid", "-o", "song.mid"], "the song itself"),
         (&["render", "song.mid", "--stems", "text.mid"], "cannot make the folder text.mid"),
         (&["render", "song.mid", "--instrument", "missing.toml"], "missing.toml"),
         (&["render", "song.mid", "--instrument", "bad.toml"], "bogus"),
@@ -399,6 +398,39 @@ fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
 }
 
 #[test]
+fn no_sound_takes_the_place_of_another_or_of_what_it_is_made_from() {
+    let room = Room::new();
+    let own = "name = \"own\"\ndescription = \"mine\"\nbased_on = \"electric\"\n";
+    fs::write(room.path("own.toml"), own).unwrap();
+    fs::create_dir(room.path("same")).unwrap();
+    fs::write(room.path("same/1-E4.wav"), song()).unwrap();
+    for (arguments, expected) in [
+        (&["render", "song.mid", "-o", "song.mid"][..], ["the song", "song.mid"]),
+        (&["render", "song.mid", "-o", "./same/../song.mid"], ["the song", "song.mid"]),
+        (&["render", "song.mid", "-i", "own.toml", "-o", "./own.toml"], ["the instrument", "own.toml"]),
+        (&["render", "same/1-E4.wav", "-o", "x.wav", "--stems", "same"], ["the song", "string E4"]),
+        (&["render", "song.mid", "-o", "new/1-E4.wav", "--stems", "./new"], ["the sound", "string E4"]),
+    ] {
+        let said = room.refuses(2, arguments);
+        let all = expected.iter().chain(&["name the same file"]).all(|word| said.contains(word));
+        assert!(all, "{arguments:?}: {said}");
+    }
+    assert_eq!(fs::read(room.path("song.mid")).unwrap(), song());
+    assert_eq!(fs::read(room.path("same/1-E4.wav")).unwrap(), song());
+    assert_eq!(fs::read_to_string(room.path("own.toml")).unwrap(), own);
+    assert!(!room.path("new").exists() && !room.path("x.wav").exists());
+}
+
+#[test]
+fn names_of_any_length_become_names_of_files() {
+    let room = Room::new();
+    let own = "name = \"own\"\ndescription = \"mine\"\nbased_on = \"electric\"\n[[string]]\nname = \"";
+    fs::write(room.path("own.toml"), format!("{own}{}\"\n", "E/é".repeat(200))).unwrap();
+    room.renders(&["song.mid", "-i", "own.toml", "--stems", "stems", "--tail", "none"]);
+    assert_eq!(fs::read_dir(room.path("stems")).unwrap().count(), 6);
+}
+
+#[test]
 fn an_hour_is_the_limit_unless_another_is_named() {
     let room = Room::new();
     // 17 seconds a beat, and two notes 240 beats apart: 68 minutes.
@@ -409,7 +441,7 @@ fn an_hour_is_the_limit_unless_another_is_named() {
     fs::write(room.path("long.mid"), midi(&events)).unwrap();
     let said = room.refuses(1, &["render", "long.mid"]);
     assert!(
-        said.contains("minutes") && said.contains("limit of 60") && said.contains("--max-length"),
+        said.contains("long.mid") && said.contains("minutes") && said.contains("limit of 60") && said.contains("--max-length"),
         "{said}"
     );
     // More than a WAV file holds, whatever is allowed.

@@ -168,7 +168,7 @@ fn any_setup(which: usize, numbers: &[f64]) -> Setup {
     let mut setup = Setup::builtin(Setup::BUILTIN[which]).expect("it is built in");
     setup.neck.nut_clearance = 5e-5 + 1e-3 * numbers[0];
     setup.neck.action = setup.neck.nut_clearance + 5e-3 * numbers[1];
-    setup.neck.relief = 1e-3 * numbers[2];
+    setup.neck.relief = (1e-3 * numbers[2]).min(setup.neck.most_relief());
     setup.neck.fret_height = 2e-3 * numbers[3];
     setup.tuning = 0.5 * numbers[4] - 0.25;
     setup.tension_modulation = numbers[5] > 0.3;

@@ -71,6 +71,9 @@ fn what_is_no_set_up_is_refused_in_one_line() {
         assert!(done.error.lines().count() == 1, "{}", done.error);
         assert!(words.iter().all(|word| done.error.contains(word)), "{}", done.error);
     }
+    // One that is refused keeps the others out.
+    place.write("lower.toml", LOWER);
+    assert_eq!(place.run(&["instruments", "--install", "lower.toml", "broken.toml"]).code, 1);
     assert!(installed(&place).is_empty());
     // One that was put there by hand is listed with what is wrong with it.
     std::fs::create_dir_all(place.path("instruments")).expect("there is room");

@@ -82,14 +82,20 @@ const BUILT: &[Built] = &[
         id: "action",
         ends: [0.0, 1.0],
         means: |options, high| {
-            options.setup.neck.nut_clearance *= pick(high, 0.1, 3.0);
-            options.setup.neck.action *= pick(high, 0.1, 3.0);
+            let neck = &mut options.setup.neck;
+            neck.nut_clearance *= pick(high, 0.1, 3.0);
+            neck.action *= pick(high, 0.1, 3.0);
+            // As low as that, the last crowns would stand above the strings.
+            neck.relief = neck.relief.min(neck.most_relief());
         },
     },
     Built {
         id: "relief",
         ends: [0.0, 1.0],
-        means: |options, high| options.setup.neck.relief = pick(high, 0.0, 0.0022),
+        means: |options, high| {
+            let neck = &mut options.setup.neck;
+            neck.relief = pick(high, 0.0, 0.0022).min(neck.most_relief());
+        },
     },
     Built {
         id: "fret_height",

@@ -277,6 +277,7 @@ fn wrong_usage_is_told_apart() {
         (&["scene", "scene.toml", "--wav", "x", "--trace", "x"], &["--wav", "--trace", "same file"]),
         (&["scene", "scene.toml", "--wav", "-", "--trace", "-"], &["--wav", "--trace", "same file"]),
         (&["scene", "scene.toml", "--wav", "./scene.toml"], &["the scene", "--wav", "same file"]),
+        (&["scene", "scene.toml", "--wav", "x", "--trace", "./x"], &["--wav", "--trace", "same file"]),
     ];
     for (arguments, words) in cases {
         assert_refused(&place.run(arguments), 2, words);

@@ -163,6 +163,7 @@ fn wrong_setups_are_refused_in_one_line() {
         ("frets = 22", "fretz = 22", &["fretz"]),
         ("action = 0.0016", "action = 0.0001", &["neck.action", "1e-4"]),
         ("action = 0.0016", "action = nan", &["neck.action", "NaN"]),
+        ("relief = 0.0002", "relief = 0.0018", &["neck.relief = 0.0018", "0.00165 m", "above the strings"]),
         ("\ndamping = 0.3", "\ndamping = -0.3", &["neck.damping", "-0.3", "100000 s/m"]),
         ("\ndamping = 0.3", "\ndamping = 1e6", &["neck.damping", "1e6", "100000 s/m"]),
         ("scale_length = 0.6477", "scale_length = -1.0", &["neck.scale_length", "-1"]),

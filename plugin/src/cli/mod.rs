@@ -10,11 +10,13 @@ mod instrument;
 mod instruments;
 mod npz;
 pub mod output;
+mod paths;
 mod progress;
 mod render;
 mod scene;
 mod stand_alone;
 mod trace;
+mod unfinished;
 mod wav;
 
 use std::ffi::OsString;

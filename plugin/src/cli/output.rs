@@ -1,11 +1,14 @@
 //! Files that appear whole or not at all.
 
-use std::fs::{self, File, Permissions};
+use std::fs::{self, File};
 use std::io::{self, Seek};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use tempfile::TempPath;
+
+use super::unfinished::Unfinished;
+use crate::files::usual_permissions;
 
 /// Where a result goes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,7 +27,7 @@ enum Target {
 pub struct Draft {
     target: Target,
     file: File,
-    beside: Option<TempPath>,
+    beside: Option<(TempPath, Unfinished)>,
 }
 
 impl Draft {
@@ -38,7 +41,8 @@ impl Draft {
         let (file, beside) = match &target {
             Target::File(path) => {
                 let (file, beside) = beside(path).with_context(describe)?.into_parts();
-                (file, Some(beside))
+                let unfinished = Unfinished::new(&beside);
+                (file, Some((beside, unfinished)))
             }
             Target::StandardOutput | Target::Stream(_) => {
                 (tempfile::tempfile().context("cannot make a temporary file")?, None)
@@ -70,7 +74,7 @@ impl Draft {
                 .and_then(|mut stream| copy(&mut self.file, &mut stream))
                 .with_context(|| format!("cannot write {}", path.display())),
             (Target::File(path), beside) => beside
-                .map_or(Ok(()), |beside| beside.persist(path).map_err(|error| error.error))
+                .map_or(Ok(()), |(beside, _unfinished)| beside.persist(path).map_err(|error| error.error))
                 .with_context(|| format!("cannot write {}", path.display())),
         }
     }
@@ -102,20 +106,11 @@ fn beside(path: &Path) -> io::Result<tempfile::NamedTempFile> {
     if let Some(permissions) = usual_permissions() {
         builder.permissions(permissions);
     }
-    builder.tempfile_in(folder)
-}
-
-/// What any new file gets (the user's mask still applies); temporary files are private otherwise.
-#[cfg(unix)]
-fn usual_permissions() -> Option<Permissions> {
-    use std::os::unix::fs::PermissionsExt;
-    Some(Permissions::from_mode(0o666))
-}
-
-/// Elsewhere a new file's permissions come from its folder.
-#[cfg(not(unix))]
-fn usual_permissions() -> Option<Permissions> {
-    None
+    // (The error would name the file beside it, which nobody has asked for.)
+    builder.tempfile_in(folder).map_err(|error| match error.raw_os_error() {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => error.kind().into(),
+    })
 }
 
 fn copy(from: &mut File, to: &mut impl io::Write) -> io::Result<()> {

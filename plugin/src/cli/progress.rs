@@ -1,18 +1,62 @@
-//! How far a long computation has come, for someone watching.
+//! How far a long computation has come, for someone watching, now or later in a log.
 
 use std::io::IsTerminal;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A bar on standard error that fills with seconds of sound, shown only on a terminal.
-pub(super) fn bar(seconds: f64) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
+use super::say;
+
+/// How often a line says how far it has come where there is no terminal to draw on.
+const BETWEEN_LINES: Duration = Duration::from_secs(60);
+
+const TEMPLATE: &str = "{wide_bar} {percent} %, {eta} to go";
+
+/// How many of so many samples are done: a bar on standard error if that is a terminal, and else a line there every
+/// minute.
+pub(super) struct Progress {
+    total: u64,
+    bar: Option<ProgressBar>,
+    started: Instant,
+    next_line: Duration,
+}
+
+impl Progress {
+    pub fn new(total: u64) -> Self {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let style = ProgressStyle::with_template(TEMPLATE);
+            let style = style.expect("the template is constant and the tests show it");
+            ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr()).with_style(style)
+        });
+        Self { total, bar, started: Instant::now(), next_line: BETWEEN_LINES }
     }
-    let style = ProgressStyle::with_template("{wide_bar} {pos} of {len} s, {eta} to go")
-        .expect("the template is constant and the tests show it");
-    let bar = ProgressBar::with_draw_target(Some(seconds.ceil() as u64), ProgressDrawTarget::stderr());
-    bar.with_style(style)
+
+    /// So many samples are done.
+    pub fn reach(&mut self, done: u64) {
+        if let Some(bar) = &self.bar {
+            bar.set_position(done);
+            return;
+        }
+        let elapsed = self.started.elapsed();
+        if elapsed >= self.next_line {
+            self.next_line += BETWEEN_LINES;
+            say("progress", &line(done as f64 / self.total as f64, elapsed.as_secs_f64()));
+        }
+    }
+
+    /// All of them are.
+    pub fn end(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// What is done, as a part of 1, after so many seconds, and how long the rest will take.
+fn line(part: f64, elapsed: f64) -> String {
+    let left = elapsed * (1.0 - part) / part;
+    let minutes = (left / 60.0).ceil();
+    format!("{:.0} %, about {minutes:.0} min to go", 100.0 * part)
 }
 
 #[cfg(test)]
@@ -21,6 +65,12 @@ mod tests {
 
     #[test]
     fn the_template_is_valid() {
-        assert!(ProgressStyle::with_template("{wide_bar} {pos} of {len} s, {eta} to go").is_ok());
+        assert!(ProgressStyle::with_template(TEMPLATE).is_ok());
+    }
+
+    #[test]
+    fn a_line_says_how_far_and_how_long() {
+        assert_eq!(line(0.25, 60.0), "25 %, about 3 min to go");
+        assert_eq!(line(0.99, 600.0), "99 %, about 1 min to go");
     }
 }

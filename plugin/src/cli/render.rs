@@ -4,13 +4,14 @@ mod files;
 mod options;
 mod playing;
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
 
+use super::paths::{is_dash, keep_apart};
 pub use super::wav::BitDepth;
 use super::{Failure, Outcome, RenderArgs, instrument, say};
 use crate::controls::Touching;
@@ -19,7 +20,7 @@ use crate::engine::{Engine, EngineOptions};
 use crate::midi_file::{LARGEST_FILE, Selection, Song};
 use crate::params::InputChoice;
 use crate::performance::Compromises;
-use files::Files;
+use files::{Files, stem_paths};
 pub use options::Tail;
 pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
 use playing::{Playing, Rendered};
@@ -28,7 +29,7 @@ use playing::{Playing, Rendered};
 pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let setup = instrument::load(&arguments.instrument)?;
     let song = read_song(arguments)?;
-    check_length(arguments, &song)?;
+    check_length(arguments, &song).with_context(|| song_name(arguments))?;
     for warning in &song.warnings {
         say("warning", &warning.to_string());
     }
@@ -45,11 +46,21 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     engine.touch(&Touching { ignore_rpn: arguments.ignore_rpn, ..touching });
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
     let output = output_path(arguments)?;
+    check_paths(arguments, &output, &names)?;
     let files = Files::begin(arguments, &output, &names)?;
 
     let started = Instant::now();
     let rendered = Playing { engine, song: &song, arguments, files }.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
+}
+
+/// What the song is called in messages.
+fn song_name(arguments: &RenderArgs) -> String {
+    match &arguments.song {
+        None => "the built-in demo".to_owned(),
+        Some(path) if is_dash(path) => "standard input".to_owned(),
+        Some(path) => path.display().to_string(),
+    }
 }
 
 /// Reads the song from wherever it is.
@@ -60,20 +71,18 @@ fn read_song(arguments: &RenderArgs) -> Result<Song> {
         tenth: matches!(arguments.input, InputChoice::Strings | InputChoice::Mpe),
     };
     let Some(path) = &arguments.song else {
-        return Song::from_midi(demo::MIDI, selection).context("the built-in demo");
+        return Song::from_midi(demo::MIDI, selection).with_context(|| song_name(arguments));
     };
     // One byte more than is accepted, so that an endless source ends and is refused.
     let limit = LARGEST_FILE as u64 + 1;
     let mut bytes = Vec::new();
-    let name = if is_dash(path) {
-        io::stdin().lock().take(limit).read_to_end(&mut bytes).context("cannot read standard input")?;
-        "standard input".to_owned()
+    let read = if is_dash(path) {
+        io::stdin().lock().take(limit).read_to_end(&mut bytes)
     } else {
-        let read = File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
-        read.with_context(|| format!("cannot read {}", path.display()))?;
-        path.display().to_string()
+        File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
     };
-    Song::from_midi(&bytes, selection).with_context(|| name)
+    read.with_context(|| format!("cannot read {}", song_name(arguments)))?;
+    Song::from_midi(&bytes, selection).with_context(|| song_name(arguments))
 }
 
 /// Refuses music that would take hours, or more than a WAV file holds.
@@ -98,38 +107,29 @@ fn check_length(arguments: &RenderArgs, song: &Song) -> Result<()> {
     Ok(())
 }
 
-fn is_dash(path: &Path) -> bool {
-    path == Path::new("-")
-}
-
 /// Where the sound goes: as asked, or named after the song in the current folder.
 fn output_path(arguments: &RenderArgs) -> Result<PathBuf> {
-    let path = match (&arguments.output, &arguments.song) {
-        (Some(output), _) => {
-            return refuse_overwriting(arguments.song.as_deref(), output).map(|()| output.clone());
-        }
-        (None, None) => PathBuf::from("demo.wav"),
-        (None, Some(song)) if is_dash(song) => PathBuf::from("song.wav"),
+    match (&arguments.output, &arguments.song) {
+        (Some(output), _) => Ok(output.clone()),
+        (None, None) => Ok("demo.wav".into()),
+        (None, Some(song)) if is_dash(song) => Ok("song.wav".into()),
         (None, Some(song)) => {
             let stem = song.file_stem().ok_or_else(|| anyhow!("{} is not a file's name", song.display()))?;
             let mut name = stem.to_owned();
             name.push(".wav");
-            PathBuf::from(name)
+            Ok(name.into())
         }
-    };
-    refuse_overwriting(arguments.song.as_deref(), &path)?;
-    Ok(path)
+    }
 }
 
-/// The song itself must not be replaced by its sound.
-fn refuse_overwriting(song: Option<&Path>, output: &Path) -> Result<()> {
-    let Some(song) = song.filter(|song| !is_dash(song) && !is_dash(output)) else { return Ok(()) };
-    match (fs::canonicalize(song), fs::canonicalize(output)) {
-        (Ok(song), Ok(output)) if song == output && fs::metadata(&song).is_ok_and(|song| song.is_file()) => {
-            bail!("the output {} is the song itself: choose another with -o", output.display())
-        }
-        _ => Ok(()),
-    }
+/// Refuses to write two sounds to one file, or in the place of the song or the instrument.
+fn check_paths(arguments: &RenderArgs, output: &Path, strings: &[&str]) -> Outcome {
+    let mut read = vec![("the instrument".to_owned(), PathBuf::from(&arguments.instrument))];
+    read.extend(arguments.song.clone().map(|song| ("the song".to_owned(), song)));
+    let mut written = vec![("the sound".to_owned(), output.to_owned())];
+    let stems = stem_paths(arguments, strings).into_iter().zip(strings);
+    written.extend(stems.map(|(path, string)| (format!("the sound of string {string}"), path)));
+    keep_apart(&read, &written)
 }
 
 /// Tells what came of it.

@@ -7,7 +7,7 @@
 
 mod summary;
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -17,9 +17,11 @@ use low_action_dsp::{Ledger, Scene, Simulation};
 use low_action_figures::SceneFigure;
 
 use super::output::Draft;
+use super::paths::{is_dash, keep_apart};
+use super::progress::Progress;
 use super::trace::Trace;
 use super::wav::{BitDepth, Findings, WavFile};
-use super::{Failure, Outcome, SceneArgs, progress};
+use super::{Failure, Outcome, SceneArgs, say};
 use summary::Summary;
 
 /// The largest scene file read, bytes: room for profiles of many thousand points.
@@ -27,8 +29,10 @@ const LARGEST_SCENE: u64 = 16 << 20;
 /// How far the energy balance may be open over a whole run, as a part of the largest energy. Rounding
 /// leaves some 1e-13 a second.
 const BALANCE: f64 = 1e-9;
-/// Samples between two looks at the progress bar.
-const LOOK: u64 = 4096;
+/// A trace of more bytes is announced.
+const LARGE_TRACE: u64 = 1_000_000_000;
+/// Samples between two looks at the progress: with the largest scenes a second or so.
+const LOOK: u64 = 64;
 
 /// Computes a scene.
 pub(super) fn run(arguments: &SceneArgs) -> Outcome {
@@ -40,6 +44,9 @@ pub(super) fn run(arguments: &SceneArgs) -> Outcome {
     }
     let mut outputs = Outputs::begin(arguments, &scene, &simulation)?;
     let trace_size = outputs.trace.as_ref().map(Trace::size);
+    if let Some((_, bytes)) = trace_size.filter(|(_, bytes)| *bytes > LARGE_TRACE) {
+        say("note", &format!("the trace will take {:.1} GB; --every N keeps less", bytes as f64 / 1e9));
+    }
     let started = Instant::now();
     let seen = compute(&mut simulation, &mut outputs)?;
     let elapsed = started.elapsed().as_secs_f64();
@@ -71,32 +78,11 @@ fn read(path: &Path) -> Result<Scene> {
     Scene::from_toml(&text).context(name)
 }
 
-fn is_dash(path: &Path) -> bool {
-    path == Path::new("-")
-}
-
 /// Refuses to write two results, or a result and the scene, to one file.
 fn check_paths(arguments: &SceneArgs) -> Outcome {
-    let wav = arguments.wav.as_deref().map(|path| ("--wav", path));
-    let trace = arguments.trace.as_deref().map(|path| ("--trace", path));
-    let file = Some(("the scene", &*arguments.file)).filter(|(_, path)| !is_dash(path));
-    let figure = arguments.figure.as_deref().map(|path| ("--figure", path));
-    for pair in [(file, wav), (file, trace), (file, figure), (wav, trace), (wav, figure), (trace, figure)] {
-        if let (Some((name, path)), Some((other, other_path))) = pair
-            && is_same_file(path, other_path)
-        {
-            let path = path.display();
-            return Err(Failure::Usage(format!("{name} and {other} name the same file, {path}")));
-        }
-    }
-    Ok(())
-}
-
-/// Whether two paths lead to one file, or to standard output; devices take any number of results.
-fn is_same_file(one: &Path, other: &Path) -> bool {
-    let is_device = |path| fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
-    let place = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    place(one) == place(other) && !is_device(one)
+    let written = [("--wav", &arguments.wav), ("--trace", &arguments.trace), ("--figure", &arguments.figure)];
+    let written = written.into_iter().filter_map(|(name, path)| Some((name.to_owned(), path.clone()?)));
+    keep_apart(&[("the scene".into(), arguments.file.clone())], &written.collect::<Vec<_>>())
 }
 
 /// What is written.
@@ -197,7 +183,7 @@ impl Seen {
 }
 
 fn compute(simulation: &mut Simulation, outputs: &mut Outputs) -> Result<Seen> {
-    let bar = progress::bar(simulation.samples() as f64 / simulation.sample_rate());
+    let mut progress = Progress::new(simulation.samples());
     let mut seen = Seen::default();
     while simulation.steps() < simulation.samples() {
         let entry = match &mut outputs.trace {
@@ -213,10 +199,10 @@ fn compute(simulation: &mut Simulation, outputs: &mut Outputs) -> Result<Seen> {
             wav.write(std::iter::once(output as f32))?;
         }
         if simulation.steps().is_multiple_of(LOOK) {
-            bar.set_position((simulation.steps() as f64 / simulation.sample_rate()) as u64);
+            progress.reach(simulation.steps());
         }
     }
-    bar.finish_and_clear();
+    progress.end();
     // A listening point may never meet what went wrong elsewhere.
     let still = |state: &low_action_dsp::State| state.displacement().all(f64::is_finite);
     if seen.not_finite.is_none() && !simulation.strings().iter().all(|string| still(&string.state)) {

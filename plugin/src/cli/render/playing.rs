@@ -4,8 +4,9 @@ use anyhow::Result;
 
 use super::files::Files;
 use super::options::Tail;
+use crate::cli::RenderArgs;
+use crate::cli::progress::Progress;
 use crate::cli::wav::Findings;
-use crate::cli::{RenderArgs, progress};
 use crate::engine::{Engine, INAUDIBLE, QUIET};
 use crate::midi_file::Song;
 use crate::performance::Compromises;
@@ -38,7 +39,7 @@ impl Playing<'_> {
     /// Plays it to its end and its tail, and lets the files appear.
     pub(super) fn play(mut self) -> Result<Rendered> {
         let rate = self.arguments.sample_rate;
-        let bar = progress::bar(self.song.duration());
+        let mut progress = Progress::new((self.song.duration() * f64::from(rate)) as u64);
         let mut buffers = Buffers::new(self.files.stems.len(), Engine::LATENCY as usize);
         let mut peak = 0.0_f64;
         let mut events =
@@ -52,7 +53,7 @@ impl Playing<'_> {
             let frames = (next - self.engine.now()).min(BLOCK as u64);
             self.block(&mut buffers, frames as usize)?;
             peak = peak.max(self.engine.level());
-            bar.set_position(self.engine.now() / u64::from(rate));
+            progress.reach(self.engine.now());
         }
         let samples = |seconds: f64| (seconds * f64::from(rate)).round() as u64;
         let tail = self.arguments.tail;
@@ -75,7 +76,7 @@ impl Playing<'_> {
         }
         // What happened last is still to be heard.
         self.block(&mut buffers, Engine::LATENCY as usize)?;
-        bar.finish_and_clear();
+        progress.end();
         self.finish()
     }
 
