@@ -5,59 +5,12 @@
 //! balance 𝔥ⁿ⁺½ − 𝔥ⁿ⁻½ + k(𝔮 − 𝔭) = 0 holds exactly in exact arithmetic, whatever the solver's cap.
 
 use crate::drive::Drive;
+use crate::entry::{Energies, Entry, Inputs, Losses};
 use crate::field::{Field, LANES};
 use crate::finger::Finger;
 use crate::model::{Model, Stiffness};
 use crate::state::State;
 use crate::string::Scratch;
-
-/// Stored energies at n + ½, J.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Energies {
-    /// Of the string as a linear one: motion, tension, bending, less the loss term of the scheme.
-    pub string: f64,
-    /// Of tension modulation.
-    pub tension: f64,
-    /// Of all contacts: board, frets and fingers' pads.
-    pub contact: f64,
-    /// Of the fingers' motion.
-    pub finger: f64,
-}
-
-impl Energies {
-    /// All of it, J.
-    pub fn total(&self) -> f64 {
-        self.string + self.tension + self.contact + self.finger
-    }
-}
-
-/// One sample of the ledger.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Entry {
-    /// Stored energies at n + ½.
-    pub energies: Energies,
-    /// Power lost at n: string losses, hands, pads, W.
-    pub power_loss: f64,
-    /// Power lost to inexact contact forces (negative when they put energy in), W.
-    pub power_solver: f64,
-    /// Power put in at n: pushes, hands, slides, moving tension and frets, fingers placed or removed, W.
-    pub power_in: f64,
-    /// Energy that the balance does not explain, J.
-    pub residual: f64,
-}
-
-impl std::ops::AddAssign for Entry {
-    fn add_assign(&mut self, other: Entry) {
-        self.energies.string += other.energies.string;
-        self.energies.tension += other.energies.tension;
-        self.energies.contact += other.energies.contact;
-        self.energies.finger += other.energies.finger;
-        self.power_loss += other.power_loss;
-        self.power_solver += other.power_solver;
-        self.power_in += other.power_in;
-        self.residual += other.residual;
-    }
-}
 
 /// The running ledger of one string.
 #[derive(Debug, Clone, PartialEq)]
@@ -143,22 +96,29 @@ impl Ledger {
         self.finger_changes = state.finger_changes;
     }
 
+    /// Counts what the fingers held before the step anew if any has been placed or taken away since the last one.
+    /// Gives back what has come in by that, J.
+    fn change_fingers(&mut self, model: &Model, state: &State, scratch: &Scratch) -> f64 {
+        if state.finger_changes == self.finger_changes {
+            return 0.0;
+        }
+        self.finger_changes = state.finger_changes;
+        let (now, motion_now) = (&scratch.displacement, &scratch.motion);
+        let before_that = self.energies.total();
+        let past = state.fingers.iter().zip(&scratch.fingers);
+        let past: Vec<_> = past.map(|(now, past)| Some((*now)?.back(past.as_ref()?))).collect();
+        self.energies.contact = self.board + fingers_energy(&past, now, &before(now, motion_now));
+        self.energies.finger = fingers_motion(model, &past);
+        self.energies.total() - before_that
+    }
+
     /// Books the step that has just been taken under `drive`.
     pub fn record(&mut self, model: &Model, state: &State, scratch: &Scratch, drive: &Drive) -> Entry {
         let k = model.grid.time_step;
         let two_k = 2.0 * k;
         // After the step the scratch holds uⁿ and dⁿ, and the fingers as they were at n.
         let (now, motion_now) = (&scratch.displacement, &scratch.motion);
-        let mut entered = 0.0;
-        if state.finger_changes != self.finger_changes {
-            self.finger_changes = state.finger_changes;
-            let before_that = self.energies.total();
-            let past = state.fingers.iter().zip(&scratch.fingers);
-            let past: Vec<_> = past.map(|(now, past)| Some((*now)?.back(past.as_ref()?))).collect();
-            self.energies.contact = self.board + fingers_energy(&past, now, &before(now, motion_now));
-            self.energies.finger = fingers_motion(model, &past);
-            entered = self.energies.total() - before_that;
-        }
+        let entered = self.change_fingers(model, state, scratch);
         let stiffness = *scratch.stiffness();
         self.shapes.take(model, now, motion_now, state);
         let (string, stretched) = string_energy(model, &stiffness, &self.shapes);
@@ -167,38 +127,43 @@ impl Ledger {
         let finger = fingers_motion(model, &state.fingers);
         let energies = Energies { string, tension: stretched, contact, finger };
 
-        let mut loss = string_loss(model, &self.shapes);
-        let mut input = entered / k;
+        let mut losses = string_losses(model, &self.shapes);
+        let mut loss = losses.loss_0 + losses.loss_1;
+        let mut inputs = Inputs { finger: entered / k, ..Inputs::default() };
+        let mut input = inputs.finger;
         for push in &drive.pushes {
             let motion = push.reading.of(&state.motion) + push.reading.of(motion_now);
-            input += push.force * motion / two_k;
+            book(push.force * motion / two_k, &mut input, &mut inputs.pluck);
         }
         for (slot, finger) in state.fingers.iter().enumerate() {
             let (Some(finger), Some(old)) = (finger, &scratch.fingers[slot]) else { continue };
             let velocity = (finger.motion + old.motion) / two_k;
-            loss += finger.touch.hand_damping * velocity * velocity;
-            input -= drive.hands[slot].force * velocity;
+            book(finger.touch.hand_damping * velocity * velocity, &mut loss, &mut losses.hand);
+            book(-drive.hands[slot].force * velocity, &mut input, &mut inputs.hand);
         }
         let lost_elsewhere = loss;
         // What contacts take besides what they store. Loss and solver share it; where a pad asks for far more than it
         // was given both are large, and their sum would be known less well than their common part.
         let (mut solver, mut taken) = (0.0, 0.0);
         for active in scratch.active.iter() {
-            loss += (active.required - active.lambda) * active.change / two_k;
+            let lossy = (active.required - active.lambda) * active.change / two_k;
+            book(lossy, &mut loss, &mut losses.contact);
             solver += (active.force - active.required) * active.change / two_k;
             taken += (active.force - active.lambda) * active.change / two_k;
-            input += active.force * active.raised / two_k;
+            book(active.force * active.raised / two_k, &mut input, &mut inputs.barrier);
             if let Some(slot) = active.slot.checked_sub(model.contacts.len())
                 && let Some(old) = &scratch.fingers[slot]
                 && old.reading_before != active.reading
             {
                 let past = |r: &crate::grid::Reading| r.of(now) - r.of(motion_now);
-                input += active.force * (past(&active.reading) - past(&old.reading_before)) / two_k;
+                let slid = past(&active.reading) - past(&old.reading_before);
+                book(active.force * slid / two_k, &mut input, &mut inputs.slide);
             }
         }
         if stiffness.tension != self.tension {
             let old = model.stiffness(self.tension);
-            input += stiffness_change(model, &stiffness, &old, &self.shapes) / k;
+            let change = stiffness_change(model, &stiffness, &old, &self.shapes);
+            book(change / k, &mut input, &mut inputs.tension);
             self.tension = stiffness.tension;
         }
         self.rounding += f64::EPSILON * gross(model, &stiffness, &self.shapes, state, scratch);
@@ -209,7 +174,7 @@ impl Ledger {
         self.put_in += k * input;
         self.residual_sum += residual;
         self.worst_residual = self.worst_residual.max(residual.abs() / self.largest.max(f64::MIN_POSITIVE));
-        Entry { energies, power_loss: loss, power_solver: solver, power_in: input, residual }
+        Entry { energies, power_loss: loss, losses, power_solver: solver, power_in: input, inputs, residual }
     }
 
     /// Books what was done to the string beside its steps, such as another model put under its motion: what
@@ -227,6 +192,13 @@ impl Ledger {
     pub fn energies(&self) -> Energies {
         self.energies
     }
+}
+
+/// Adds a power to a total and to the term of it that it belongs to. (The balance closes on the total, added up one by one:
+/// the sum of the terms is rounded otherwise.)
+fn book(power: f64, total: &mut f64, term: &mut f64) {
+    *total += power;
+    *term += power;
 }
 
 /// What is added and taken off in a step's balance, J, each part as large as it is however much of it cancels:
@@ -376,24 +348,24 @@ fn stiffness_change(model: &Model, new: &Stiffness, old: &Stiffness, shapes: &Sh
     stiffness_energy(model, &change, now, &past, slope)
 }
 
-/// Power lost in the string, W, from its motions dⁿ and dⁿ⁺¹.
-fn string_loss(model: &Model, shapes: &Shapes) -> f64 {
+/// Powers lost in the string, W, from its motions dⁿ and dⁿ⁺¹; nothing elsewhere.
+fn string_losses(model: &Model, shapes: &Shapes) -> Losses {
     let (now, next) = (&shapes.motion_now, &shapes.motion);
     let (k, h) = (model.grid.time_step, model.grid.spacing);
     let string = &model.string;
-    let mut loss = 0.0;
+    let mut losses = Losses::default();
     if string.loss_0 > 0.0 {
         let square = sum(now.iter().zip(next).map(|(a, b)| (a + b) * (a + b)));
-        loss += 2.0 * string.linear_density * string.loss_0 * h * square / (4.0 * k * k);
+        losses.loss_0 = 2.0 * string.linear_density * string.loss_0 * h * square / (4.0 * k * k);
     }
     if string.loss_1 > 0.0 {
         let square = sum((1..now.len()).map(|i| {
             let shear = (now[i] - now[i - 1]) + (next[i] - next[i - 1]);
             shear * shear
         }));
-        loss += 2.0 * string.linear_density * string.loss_1 * square / (4.0 * k * k * h);
+        losses.loss_1 = 2.0 * string.linear_density * string.loss_1 * square / (4.0 * k * k * h);
     }
-    loss
+    losses
 }
 
 /// Σ½(Φⁿ + Φⁿ⁺¹) over board and frets, J.

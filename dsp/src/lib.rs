@@ -64,7 +64,7 @@
 //! | M_f, R_f | `mass`, `hand_damping` | kg, N s/m | a finger, and the hand behind it |
 //! | f₀ | `force` of [`drive::Hand`] | N | push of the hand, towards the board |
 //! | f_e | `force` of [`drive::Push`] | N | a pluck |
-//! | 𝔥, 𝔮, 𝔭 | [`Energies`], `power_loss` and `power_solver`, `power_in` | J, W, W | stored, lost, put in |
+//! | 𝔥, 𝔮, 𝔭 | [`Energies`], `power_loss` (its terms are [`Losses`]) and `power_solver`, `power_in` ([`Inputs`]) | J, W, W | stored, lost, put in |
 
 mod active;
 mod band;
@@ -74,6 +74,7 @@ pub mod curve;
 mod decimate;
 pub mod drive;
 pub mod energy;
+pub mod entry;
 pub mod error;
 pub mod field;
 mod filter;
@@ -109,7 +110,8 @@ mod touching;
 mod voice;
 
 pub use drive::Drive;
-pub use energy::{Energies, Entry, Ledger};
+pub use energy::Ledger;
+pub use entry::{Energies, Entry, Inputs, Losses};
 pub use error::Error;
 pub use gesture::{FINGERS_PER_STRING, FingerSlot, Gesture, TimedGesture, Touch};
 pub use instrument::{Instrument, QueueFull, StringGeometry};

@@ -2,7 +2,8 @@
 
 use crate::curve::Curve;
 use crate::drive::{Drive, Push};
-use crate::energy::{Entry, Ledger};
+use crate::energy::Ledger;
+use crate::entry::Entry;
 use crate::error::{Error, plain};
 use crate::gesture::raised_cosine;
 use crate::grid::Reading;

@@ -60,6 +60,26 @@ velocity = -2.0
 position = 0.55
 "#;
 
+/// The ledger's arrays, by the alphabet.
+const LEDGER: [&str; 16] = [
+    "energy_contact",
+    "energy_finger",
+    "energy_string",
+    "energy_tension",
+    "power_in",
+    "power_in_hand",
+    "power_in_pluck",
+    "power_in_slide",
+    "power_in_tension",
+    "power_loss",
+    "power_loss_0",
+    "power_loss_1",
+    "power_loss_contact",
+    "power_loss_hand",
+    "power_solver",
+    "residual",
+];
+
 fn workplace() -> Workplace {
     Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
 }
@@ -158,10 +178,7 @@ fn the_trace_holds_the_motion_of_a_run_that_is_not_measured() {
         assert!(found["force_finger_1"].numbers.iter().any(|f| *f > 1.0), "the scene presses a finger");
         assert!(found["force_fret_1_3"].numbers.iter().any(|f| *f > 0.1), "the scene hits a fret");
         let rest: Vec<_> = found.keys().filter(|name| !expected.contains_key(*name)).collect();
-        let ledger = ["energy_contact", "energy_finger", "energy_string", "energy_tension"];
-        let ledger: Vec<_> =
-            ledger.into_iter().chain(["power_in", "power_loss", "power_solver", "residual"]).collect();
-        assert_eq!(rest, ledger.iter().collect::<Vec<_>>());
+        assert_eq!(rest, LEDGER.iter().collect::<Vec<_>>());
     }
 }
 
@@ -181,8 +198,16 @@ fn the_trace_holds_the_ledger() {
         ("energy_contact", column(|entry| entry.energies.contact)),
         ("energy_finger", column(|entry| entry.energies.finger)),
         ("power_loss", column(|entry| entry.power_loss)),
+        ("power_loss_0", column(|entry| entry.losses.loss_0)),
+        ("power_loss_1", column(|entry| entry.losses.loss_1)),
+        ("power_loss_contact", column(|entry| entry.losses.contact)),
+        ("power_loss_hand", column(|entry| entry.losses.hand)),
         ("power_solver", column(|entry| entry.power_solver)),
         ("power_in", column(|entry| entry.power_in)),
+        ("power_in_pluck", column(|entry| entry.inputs.pluck)),
+        ("power_in_hand", column(|entry| entry.inputs.hand)),
+        ("power_in_slide", column(|entry| entry.inputs.slide)),
+        ("power_in_tension", column(|entry| entry.inputs.tension)),
         ("residual", column(|entry| entry.residual)),
     ];
     for (name, numbers) in expected {
@@ -204,6 +229,20 @@ fn the_trace_holds_the_ledger() {
         })
         .sum();
     assert!(open.abs() < 1e-12 * largest, "{open} of {largest}");
+
+    // And can tell what was lost and put in by its terms.
+    for total in ["power_loss", "power_in"] {
+        let terms = found.iter().filter(|(name, _)| name.starts_with(&format!("{total}_")));
+        let terms: Vec<_> = terms.map(|(_, array)| &array.numbers).collect();
+        for (row, &total) in found[total].numbers.iter().enumerate() {
+            let sum: f64 = terms.iter().map(|numbers| numbers[row]).sum();
+            let size: f64 = terms.iter().map(|numbers| numbers[row].abs()).sum();
+            assert!(
+                (total - sum).abs() <= 16.0 * f64::EPSILON * size,
+                "{total} W is not {sum} W in row {row}"
+            );
+        }
+    }
 }
 
 #[test]

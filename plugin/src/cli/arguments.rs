@@ -111,6 +111,10 @@ the energies half a sample later.
   iterations                                           of the contact solver, all strings together
   energy_string, energy_tension, energy_contact, energy_finger    J
   power_loss, power_solver, power_in                   W
+  power_loss_0, power_loss_1,
+  power_loss_contact, power_loss_hand                  W; the terms of power_loss
+  power_in_pluck, power_in_hand,
+  power_in_slide, power_in_tension                     W; the terms of power_in
   residual                                             J in that sample: what the balance does not explain
 
 The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to

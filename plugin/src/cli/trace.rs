@@ -27,31 +27,29 @@ struct FingerArrays {
     force: usize,
 }
 
-/// The ledger's arrays, in the order in which an entry's numbers are [listed](ledger_row).
-const LEDGER: [&str; 8] = [
-    "energy_string",
-    "energy_tension",
-    "energy_contact",
-    "energy_finger",
-    "power_loss",
-    "power_solver",
-    "power_in",
-    "residual",
-];
+/// What an array of the ledger holds of an entry.
+type Part = fn(&Entry) -> f64;
 
-fn ledger_row(entry: &Entry) -> [f64; 8] {
-    let energies = &entry.energies;
-    [
-        energies.string,
-        energies.tension,
-        energies.contact,
-        energies.finger,
-        entry.power_loss,
-        entry.power_solver,
-        entry.power_in,
-        entry.residual,
-    ]
-}
+/// The ledger's arrays, without what only instruments do: moving frets, placing fingers. Readers add up all whose names
+/// begin with `energy_`: no other may.
+const LEDGER: [(&str, Part); 16] = [
+    ("energy_string", |entry| entry.energies.string),
+    ("energy_tension", |entry| entry.energies.tension),
+    ("energy_contact", |entry| entry.energies.contact),
+    ("energy_finger", |entry| entry.energies.finger),
+    ("power_loss", |entry| entry.power_loss),
+    ("power_loss_0", |entry| entry.losses.loss_0),
+    ("power_loss_1", |entry| entry.losses.loss_1),
+    ("power_loss_contact", |entry| entry.losses.contact),
+    ("power_loss_hand", |entry| entry.losses.hand),
+    ("power_solver", |entry| entry.power_solver),
+    ("power_in", |entry| entry.power_in),
+    ("power_in_pluck", |entry| entry.inputs.pluck),
+    ("power_in_hand", |entry| entry.inputs.hand),
+    ("power_in_slide", |entry| entry.inputs.slide),
+    ("power_in_tension", |entry| entry.inputs.tension),
+    ("residual", |entry| entry.residual),
+];
 
 /// The arrays of a trace and what fills them. Time is always the first.
 struct Plan {
@@ -97,7 +95,7 @@ impl Plan {
         let fingers = fingers.collect();
         let iterations = array("iterations".into(), Kind::Count, &[rows]);
         let ledger = iterations + 1;
-        for name in LEDGER {
+        for (name, _) in LEDGER {
             array(name.into(), Kind::Real, &[rows]);
         }
         Plan { arrays, strings, fingers, iterations, ledger, rows, every }
@@ -187,8 +185,10 @@ impl Trace {
             self.keep_forces(index, string)?;
         }
         self.npz.add_count(self.plan.iterations, iterations)?;
-        let ledger = self.plan.ledger;
-        ledger_row(entry).iter().zip(ledger..).try_for_each(|(&number, array)| self.npz.add(array, &[number]))
+        for (array, (_, number)) in (self.plan.ledger..).zip(LEDGER) {
+            self.npz.add(array, &[number(entry)])?;
+        }
+        Ok(())
     }
 
     fn keep_forces(&mut self, index: usize, string: &SceneString) -> io::Result<()> {

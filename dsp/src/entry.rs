@@ -1,0 +1,114 @@
+//! An entry of the energy ledger: one sample's energies and powers, term by term.
+
+use std::ops::AddAssign;
+
+/// Stored energies at n + ½, J.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Energies {
+    /// Of the string as a linear one: motion, tension, bending, less the loss term of the scheme.
+    pub string: f64,
+    /// Of tension modulation.
+    pub tension: f64,
+    /// Of all contacts: board, frets and fingers' pads.
+    pub contact: f64,
+    /// Of the fingers' motion.
+    pub finger: f64,
+}
+
+impl Energies {
+    /// All of it, J.
+    pub fn total(&self) -> f64 {
+        self.string + self.tension + self.contact + self.finger
+    }
+}
+
+impl AddAssign for Energies {
+    fn add_assign(&mut self, other: Energies) {
+        self.string += other.string;
+        self.tension += other.tension;
+        self.contact += other.contact;
+        self.finger += other.finger;
+    }
+}
+
+/// Powers lost at n, W, none below 0.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Losses {
+    /// In the string, to its `loss_0`: of all frequencies alike.
+    pub loss_0: f64,
+    /// In the string, to its `loss_1`: the more, the higher the frequency.
+    pub loss_1: f64,
+    /// In contacts, as their laws have it: to the damping of pads, frets and board, and to the waves that a kinked
+    /// fret sends off.
+    pub contact: f64,
+    /// In the hands behind the fingers.
+    pub hand: f64,
+}
+
+impl AddAssign for Losses {
+    fn add_assign(&mut self, other: Losses) {
+        self.loss_0 += other.loss_0;
+        self.loss_1 += other.loss_1;
+        self.contact += other.contact;
+        self.hand += other.hand;
+    }
+}
+
+/// Powers put in at n, W, negative where they are taken out.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Inputs {
+    /// By pushes on the string, which are plucks.
+    pub pluck: f64,
+    /// By the hands' forces on the fingers.
+    pub hand: f64,
+    /// By slides: fingers in contact whose places move along a string that is not level.
+    pub slide: f64,
+    /// By frets and board that move.
+    pub barrier: f64,
+    /// By tension that changes.
+    pub tension: f64,
+    /// By fingers that are placed or taken away: what they bring or carry off, spread over a step.
+    pub finger: f64,
+}
+
+impl AddAssign for Inputs {
+    fn add_assign(&mut self, other: Inputs) {
+        self.pluck += other.pluck;
+        self.hand += other.hand;
+        self.slide += other.slide;
+        self.barrier += other.barrier;
+        self.tension += other.tension;
+        self.finger += other.finger;
+    }
+}
+
+/// One sample of the ledger. The terms of a loss or an input add up to it but for rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Entry {
+    /// Stored energies at n + ½.
+    pub energies: Energies,
+    /// Power lost at n: string losses, hands, pads, frets and board, W.
+    pub power_loss: f64,
+    /// The terms of that.
+    pub losses: Losses,
+    /// Power lost to inexact contact forces (negative when they put energy in), W.
+    pub power_solver: f64,
+    /// Power put in at n: pushes, hands, slides, moving tension and frets, fingers placed or removed, W.
+    pub power_in: f64,
+    /// The terms of that.
+    pub inputs: Inputs,
+    /// Energy that the balance does not explain, J.
+    pub residual: f64,
+}
+
+impl AddAssign for Entry {
+    fn add_assign(&mut self, other: Entry) {
+        self.energies += other.energies;
+        self.power_loss += other.power_loss;
+        self.losses += other.losses;
+        self.power_solver += other.power_solver;
+        self.power_in += other.power_in;
+        self.inputs += other.inputs;
+        self.residual += other.residual;
+    }
+}
