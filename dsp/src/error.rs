@@ -40,12 +40,17 @@ impl Error {
         Error::OutOfRange { name: name.into(), value: value.to_string(), accepted: accepted.into() }
     }
 
-    /// The same error with the place it arose in before the name; of a fretboard that is under several
-    /// strings, the place after what is accepted.
+    /// The same error with the place it arose in before the name; of a fretboard, neck or hand that several
+    /// strings share, the place after what is accepted.
     pub(crate) fn under(self, place: &str) -> Self {
         match self {
-            Error::OutOfRange { name, value, accepted } if name.starts_with("fretboard") => {
+            Error::OutOfRange { name, value, accepted }
+                if name.starts_with("fretboard") || name.starts_with("neck.") =>
+            {
                 Error::OutOfRange { name, value, accepted: format!("{accepted} (under {place})") }
+            }
+            Error::OutOfRange { name, value, accepted } if name.starts_with("player.") => {
+                Error::OutOfRange { name, value, accepted: format!("{accepted} (on {place})") }
             }
             Error::OutOfRange { name, value, accepted } => {
                 let name = name.rsplit('.').next().unwrap_or(&name);
@@ -55,9 +60,27 @@ impl Error {
         }
     }
 
-    /// An error of a description that is put together from several texts: which key, what was expected.
-    pub(crate) fn merged(error: &toml::de::Error) -> Self {
-        Error::Syntax(printable(&in_plain_words(error.message())))
+    /// The same error of a model in the words of a set-up: what a scene calls its fretboard is the neck, and the
+    /// length of a string follows from the scale.
+    pub(crate) fn of_setup(self) -> Self {
+        match self {
+            // The length that the model asks for is no limit here: a longer string of the same pitch is tauter, too.
+            Error::OutOfRange { name, value, .. } if name == "length" => {
+                Error::range("neck.scale_length", value, TOO_COARSE)
+            }
+            Error::OutOfRange { name, value, accepted } => {
+                let name = name.strip_prefix("fretboard.").map(|key| format!("neck.{key}")).unwrap_or(name);
+                Error::OutOfRange { name, value, accepted }
+            }
+            other => other,
+        }
+    }
+
+    /// An error of a description that is put together from several texts: where, which key, what was expected.
+    pub(crate) fn merged(error: &toml::de::Error, place: Option<&str>) -> Self {
+        let message = in_plain_words(error.message());
+        let message = place.map_or(message.clone(), |place| format!("{place}: {message}"));
+        Error::Syntax(printable(&message))
     }
 
     /// A TOML error folded into one line: where it is, what is wrong there, what was expected.
@@ -68,9 +91,9 @@ impl Error {
         let line = before.matches('\n').count() + 1;
         let message = in_plain_words(error.message());
         let is_table = thing.starts_with('[');
-        let message = if thing.starts_with("[[") && message.starts_with("invalid type: map") {
+        let message = if thing.starts_with("[[") && message.starts_with("invalid type: table") {
             format!("line {line}, {thing}: there is only one: write {}", &thing[1..thing.len() - 1])
-        } else if is_table && message.starts_with("invalid type: map") {
+        } else if is_table && message.starts_with("invalid type: table") {
             format!("line {line}, {thing}: there may be several: write [{thing}]")
         } else if message.starts_with("missing key") && !is_table {
             // Of the file as a whole: no line is to blame.
@@ -83,6 +106,10 @@ impl Error {
         Error::Syntax(printable(&message))
     }
 }
+
+/// Why a string of a set-up is refused that is too short for its grid.
+const TOO_COARSE: &str = "at this sample rate the grid is too coarse for a string of such pitch, core_radius \
+                          and loss_1: one of these must be less";
 
 /// The last key or table header that begins a line of a text: what an error at the text's end is about.
 fn thing_at_end(text: &str) -> Option<&str> {
@@ -98,18 +125,46 @@ fn thing_at_end(text: &str) -> Option<&str> {
     })
 }
 
+/// Words of the TOML reader, and what they are for who writes the file.
+const WORDS: [(&str, &str); 17] = [
+    ("missing field", "missing key"),
+    ("unknown field", "unknown key"),
+    ("unknown variant", "unknown choice"),
+    ("invalid type: map", "invalid type: table"),
+    ("invalid type: sequence", "invalid type: list"),
+    ("expected f64", "expected a number"),
+    ("expected usize", "expected a whole number, 0 or more"),
+    ("expected a sequence", "expected a list"),
+    ("expected a tuple of size", "expected a list of"),
+    ("expected a string", "expected a text"),
+    // One of several names, in all the ways in which something else is refused.
+    ("expected variant identifier", "expected a text"),
+    ("invalid type: unit variant, expected string only", "expected a text"),
+    ("wanted string or table", "expected a text"),
+    ("wanted exactly 1 element, found 0 elements", "expected a text"),
+    ("wanted exactly 1 element, more than 1 element", "expected a text"),
+    (" as i128", ""),
+    (" as u128", ""),
+];
+
+/// Kinds of types that have a name of their own, which follows, and what both are in a file.
+const TYPES: [(&str, &str); 4] = [
+    ("expected internally tagged enum ", "expected a table"),
+    ("expected struct variant ", "expected a table"),
+    ("expected struct ", "expected a table"),
+    ("expected enum ", "expected a text"),
+];
+
 /// A message of the TOML reader without Rust's names of types.
 fn in_plain_words(message: &str) -> String {
-    let words = [
-        ("missing field", "missing key"),
-        ("unknown field", "unknown key"),
-        ("expected f64", "expected a number"),
-        ("expected usize", "expected a whole number, 0 or more"),
-        ("expected a sequence", "expected a list"),
-        (" as i128", ""),
-        (" as u128", ""),
-    ];
-    words.iter().fold(message.to_owned(), |message, (rust, plain)| message.replace(rust, plain))
+    let message = WORDS.iter().fold(message.to_owned(), |text, (rust, plain)| text.replace(rust, plain));
+    TYPES.iter().fold(message, |text, (rust, plain)| match text.rsplit_once(*rust) {
+        Some((before, after)) => {
+            let rest = after.trim_start_matches(|c: char| c.is_alphanumeric() || "_:".contains(c));
+            format!("{before}{plain}{rest}")
+        }
+        None => text,
+    })
 }
 
 /// The longest message made of what stands in a file, characters.

@@ -98,7 +98,7 @@ pub(crate) fn flexible(setup: &Setup, string: &SetupString) -> StringParameters 
 impl Bench<'_> {
     fn model(&self, string: &StringParameters, frets: &[f64]) -> Result<Model, Error> {
         let barrier = self.setup.barrier(frets)?;
-        Model::new(*string, Some(&barrier), 1, self.settings, self.sample_rate)
+        Model::new(*string, Some(&barrier), 1, self.settings, self.sample_rate).map_err(Error::of_setup)
     }
 
     /// The string with the tension that puts its first partial at `target` (1/s) on its own grid.
@@ -106,7 +106,10 @@ impl Bench<'_> {
         let mut tuned = flexible(self.setup, string);
         let mut tension = tuned.tension;
         for _ in 0..MOST_STEPS {
-            let off = open_frequency(&self.model(&tuned, &[])?, 1) / target;
+            // What a bare board refuses, its frets refuse by the lower of both limits.
+            let strictly = |error| self.model(&tuned, &self.neck.equal_places()).err().unwrap_or(error);
+            let model = self.model(&tuned, &[]).map_err(strictly)?;
+            let off = open_frequency(&model, 1) / target;
             tension /= off * off;
             tuned = StringParameters { tension, tension_limit: tension * ratio, ..tuned };
             if (off - 1.0).abs() < PITCH_TOLERANCE {
@@ -174,7 +177,7 @@ impl Bench<'_> {
         guess: Option<Vec<f64>>,
     ) -> Result<(f64, Vec<f64>), Error> {
         let model = self.model(string, frets)?;
-        let law = model.finger_law(&self.fretting.touch)?;
+        let law = model.finger_law(&self.fretting.touch).map_err(|error| error.under("player.fretting"))?;
         let place = finger_place(frets, fret, self.setup.behind());
         let at: Reading = model.grid.reading(place);
         let guess = guess.unwrap_or_else(|| self.folded(&model, place, frets[fret]));

@@ -332,8 +332,13 @@ impl Model {
             0.0
         };
         let mut contacts = barrier.map_or(Ok(Vec::new()), |barrier| barrier.contacts(&grid))?;
+        if let Some(barrier) = barrier {
+            // A board's points have each a share of the stiffness: what is the stiffest speaks for all.
+            let most = contacts.iter().map(|contact| contact.law.stiffness()).fold(0.0, f64::max);
+            check_stiffness("fretboard.stiffness", &barrier.law, most, mobility)?;
+        }
         for contact in &mut contacts {
-            contact.law = conditioned("fretboard.stiffness", contact.law, mobility)?;
+            contact.law = contact.law.no_steeper_than(STEEPEST / mobility);
         }
         if barrier.is_some_and(|barrier| barrier.placement == FretPlacement::Kinked) {
             let kappa = string.kappa_squared();
@@ -425,7 +430,8 @@ impl Model {
     pub fn finger_law(&self, touch: &crate::gesture::Touch) -> Result<ContactLaw, Error> {
         let law = ContactLaw::new("finger", touch.stiffness, touch.exponent)?;
         let mobility = self.mobility + Inertia::new(touch, self.grid.time_step).mobility;
-        conditioned("finger.stiffness", law, mobility)
+        check_stiffness("finger.stiffness", &law, law.stiffness(), mobility)?;
+        Ok(law.no_steeper_than(STEEPEST / mobility))
     }
 }
 
@@ -450,13 +456,17 @@ pub fn stiffest(exponent: f64, mobility: f64) -> f64 {
     libm::pow(CONDITIONING / conditioning, exponent)
 }
 
-/// Refuses a contact that is stiffer than that, and lets the law of any other grow no steeper than doubles
-/// can tell.
-fn conditioned(name: &str, law: ContactLaw, mobility: f64) -> Result<ContactLaw, Error> {
-    let limit = stiffest(law.exponent(), mobility);
-    if law.stiffness() <= limit {
-        return Ok(law.no_steeper_than(STEEPEST / mobility));
+/// Refuses a contact that is stiffer than that: of a stiffness, N/m^exponent, that is a part or a multiple of the one
+/// that its description gives it, which is the one named.
+fn check_stiffness(name: &str, given: &ContactLaw, stiffness: f64, mobility: f64) -> Result<(), Error> {
+    let limit = stiffest(given.exponent(), mobility);
+    if stiffness <= limit {
+        return Ok(());
     }
-    let accepted = format!("at this sample rate it must be at most {limit:.2e} N/m^exponent");
-    Err(Error::range(name, plain(law.stiffness()), accepted))
+    // Half a percent is as much as three digits can be too high by.
+    let accepted = format!(
+        "at this sample rate it must be at most {:.2e} N/m^exponent",
+        0.995 * limit * (given.stiffness() / stiffness)
+    );
+    Err(Error::range(name, plain(given.stiffness()), accepted))
 }

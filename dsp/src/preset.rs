@@ -66,9 +66,51 @@ pub(crate) fn read<T: DeserializeOwned>(
     };
     let below = base(&name)?;
     let mut whole: Table = toml::from_str(below).map_err(|error| Error::syntax(&error, below))?;
+    check_headers(&whole, &table)?;
     lay_over(&mut whole, table);
     // What is left is no longer any one text: lines cannot be named, keys can.
-    T::deserialize(Value::Table(whole)).map_err(|error| Error::merged(&error))
+    T::deserialize(Value::Table(whole.clone()))
+        .map_err(|error| Error::merged(&error, place::<T>(&whole, &error).as_deref()))
+}
+
+/// Refuses a list in the place of a table, and a table in the place of a list: the wrong brackets round a header.
+fn check_headers(below: &Table, above: &Table) -> Result<(), Error> {
+    let wrong = above.iter().find_map(|(key, value)| match (below.get(key)?, value) {
+        (Value::Table(_), Value::Array(_)) => Some(format!("{key}: there is only one: write [{key}]")),
+        (Value::Array(_), Value::Table(_)) => Some(format!("{key}: there may be several: write [[{key}]]")),
+        _ => None,
+    });
+    wrong.map_or(Ok(()), |wrong| Err(Error::Syntax(wrong)))
+}
+
+/// Where in a description an error stands, as errors of values say it: `neck.action`, `string[7].pitch`.
+fn place<T: DeserializeOwned>(whole: &Table, error: &toml::de::Error) -> Option<String> {
+    let keys = keys(error)?;
+    let section = keys.split('.').next()?.to_owned();
+    let Some(Value::Array(entries)) = whole.get(&section) else { return Some(keys) };
+    // The reader does not say which entry of a list it is. Entries are read in their order, so it is the last of
+    // the fewest with which the same error arises.
+    let arises_within = |count: usize| {
+        let mut part = whole.clone();
+        part.insert(section.clone(), Value::Array(entries[..count].to_vec()));
+        T::deserialize(Value::Table(part)).is_err_and(|found| found == *error)
+    };
+    if arises_within(0) {
+        return Some(keys);
+    }
+    let (mut fine, mut wrong) = (0, entries.len());
+    while wrong - fine > 1 {
+        let middle = fine + (wrong - fine) / 2;
+        if arises_within(middle) { wrong = middle } else { fine = middle }
+    }
+    Some(format!("{section}[{wrong}]{}", &keys[section.len()..]))
+}
+
+/// The keys that lead to an error, joined by dots. The reader knows them, and tells them only where it shows the error.
+fn keys(error: &toml::de::Error) -> Option<String> {
+    let shown = error.to_string();
+    let keys = shown.strip_prefix(error.message())?.trim().strip_prefix("in `")?.strip_suffix('`')?;
+    Some(keys.to_owned())
 }
 
 /// Puts the values of one table in the place of another's.

@@ -74,11 +74,11 @@ impl Voice {
         let placed = intonate(setup, spec, solver.stencil, rate).map_err(|error| error.under(&name))?;
         let barrier = setup.barrier(&placed.frets)?;
         let model = Model::new(placed.string, Some(&barrier), FINGERS_PER_STRING, solver, rate)
-            .map_err(|error| error.under(&name))?;
-        for (name, touch) in
+            .map_err(|error| error.of_setup().under(&name))?;
+        for (section, touch) in
             [("player.fretting", setup.player.fretting.touch), ("player.damper", setup.player.damper.touch)]
         {
-            model.finger_law(&touch).map_err(|error| error.under(name))?;
+            model.finger_law(&touch).map_err(|error| error.under(section).under(&name))?;
         }
         let angle = 0.25 * std::f64::consts::PI * (spec.pan + 1.0);
         Ok(Voice {

@@ -150,3 +150,44 @@ fn a_setup_can_be_another_with_a_few_things_changed() {
         assert!(!message.contains('\n') && words.iter().all(|word| message.contains(word)), "{message}");
     }
 }
+
+/// No line can be named of a set-up that is made of two texts; the keys that lead to what is wrong are.
+#[test]
+fn what_is_wrong_with_a_change_is_named_by_its_keys() {
+    let seventh = format!("{}pitch = 35.0", "[[string]]\n".repeat(7));
+    for (change, expected) in [
+        ("[neck]\naction = \"low\"", "neck.action: invalid type: string \"low\", expected a number"),
+        ("[neck]\nactoin = 0.003", "neck: unknown key `actoin`, expected one of"),
+        ("[neck]\nworn = [[3]]", "neck.worn: invalid length 1, expected a list of 2"),
+        (
+            "[player.fretting]\nforce = true",
+            "player.fretting.force: invalid type: boolean `true`, expected a number",
+        ),
+        ("[pickup]\naperture = []", "pickup: invalid type: list, expected a number"),
+        (
+            "[pickup]\nkind = \"laser\"",
+            "pickup.kind: unknown choice `laser`, expected `magnetic` or `bridge`",
+        ),
+        ("neck = 1", "neck: invalid type: integer `1`, expected a table"),
+        ("pickup = 1", "pickup: invalid type: integer `1`, expected a table"),
+        ("intonation = 3", "intonation: expected a text"),
+        ("intonation = \"just\"", "intonation: unknown choice `just`"),
+        ("name = 3", "name: invalid type: integer `3`, expected a text"),
+        ("name = [1, 2]", "name: invalid type: list, expected a text"),
+        ("nock = 1", "unknown key `nock`, expected one of"),
+        (seventh.as_str(), "string[7]: missing key `name`"),
+        (
+            "[[string]]\n[[string]]\npitch = \"B\"\n[[string]]\npitch = \"G\"",
+            "string[2].pitch: invalid type: string",
+        ),
+        ("[[string]]\n[[string]]\n[[string]]\nptich = 55.0", "string[3]: unknown key `ptich`"),
+        ("string = [1, 2]", "string[1]: invalid type: integer `1`, expected a table"),
+        ("string = \"E4\"", "string: invalid type: string \"E4\", expected a list"),
+        ("[[neck]]\naction = 0.003", "neck: there is only one: write [neck]"),
+        ("[string]\npitch = 63.0", "string: there may be several: write [[string]]"),
+    ] {
+        let text = format!("based_on = \"electric\"\n{change}");
+        let message = Setup::from_toml(&text).expect_err(&text).to_string();
+        assert!(message.starts_with(expected), "{change}: {message}");
+    }
+}

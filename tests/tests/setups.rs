@@ -3,7 +3,7 @@
 
 use low_action_dsp::intonation::{finger_place, intonate};
 use low_action_dsp::setup::{Intonation, Pickup, frequency};
-use low_action_dsp::{Model, Setup, SolverSettings, Stencil};
+use low_action_dsp::{Instrument, Model, Quality, Setup, SolverSettings, Stencil};
 
 const RATE: f64 = 48_000.0;
 
@@ -158,7 +158,7 @@ fn frequencies_follow_the_midi_tuning_standard() {
 
 #[test]
 fn wrong_setups_are_refused_in_one_line() {
-    let cases: [(&str, &str, &[&str]); 20] = [
+    let cases: [(&str, &str, &[&str]); 25] = [
         ("frets = 22", "frets = 99", &["neck.frets", "99"]),
         ("frets = 22", "fretz = 22", &["fretz"]),
         ("action = 0.0016", "action = 0.0001", &["neck.action", "1e-4"]),
@@ -179,7 +179,13 @@ fn wrong_setups_are_refused_in_one_line() {
         ("pluck_position = 0.12", "pluck_position = 0.7", &["player.pluck_position", "0.7", "0.6477"]),
         ("position = 0.162", "position = 0.001", &["pickup.aperture", "0.02"]),
         ("kind = \"magnetic\"", "kind = \"laser\"", &["laser"]),
-        ("\"compensated\"", "\"just\"", &["just", "physical"]),
+        ("\"compensated\"", "\"just\"", &["unknown choice `just`", "physical"]),
+        // What else is wrong with a text is said with its line, in words of the file.
+        ("\"compensated\"", "3", &["line 5, intonation: expected a text"]),
+        ("\"compensated\"", "[]", &["line 5, intonation: expected a text"]),
+        ("kind = \"magnetic\"", "kind = 3", &["kind: invalid type: integer `3`, expected a text"]),
+        ("[neck]", "neck = 1\n[nock]", &["neck: invalid type: integer `1`, expected a table"]),
+        ("[neck]", "[[neck]]", &["line 9, [[neck]]: there is only one: write [neck]"]),
     ];
     for (from, to, mentioned) in cases {
         let error = Setup::from_toml(&changed(from, to)).unwrap_err().to_string();
@@ -202,6 +208,46 @@ fn a_setup_without_strings_is_refused() {
 #[test]
 fn a_string_too_short_for_its_grid_is_refused() {
     let setup = Setup::from_toml(&changed("pitch = 64.0", "pitch = 127.0")).unwrap();
-    let error = intonate(&setup, &setup.string[0], Stencil::Wide, 22_050.0).unwrap_err();
-    assert!(error.to_string().contains("length"), "{error}");
+    let error = intonate(&setup, &setup.string[0], Stencil::Wide, 22_050.0).unwrap_err().to_string();
+    assert!(error.starts_with("neck.scale_length = 0.6477 is refused"), "{error}");
+    assert!(["sample rate", "pitch", "must be less"].iter().all(|word| error.contains(word)), "{error}");
+    // The same in the instrument, where every string has a rate that suits it.
+    let setup = Setup::from_toml(&changed("core_radius = 1.270e-4", "core_radius = 0.1")).unwrap();
+    let error = Instrument::new(&setup, &Quality::Live.settings(RATE)).unwrap_err().to_string();
+    assert!(error.starts_with("neck.scale_length = 0.6477") && error.contains("string[1]"), "{error}");
+}
+
+/// What is too stiff for the sample rate is named by the set-up's own keys, with the value in the file and a limit that
+/// can be written there in its place.
+#[test]
+fn what_is_too_stiff_is_named_as_in_the_file() {
+    let electric = include_str!("../../dsp/instruments/electric.toml");
+    let keys = [
+        ("neck.stiffness", "stiffness = 1e10", "under string[1]"),
+        ("player.fretting.stiffness", "stiffness = 1e7", "on string[1]"),
+        ("player.damper.stiffness", "stiffness = 1.5e4", "on string[1]"),
+    ];
+    for intonation in ["\"compensated\"", "\"physical\""] {
+        for (key, line, place) in keys {
+            assert!(electric.contains(line), "`{line}` is not in the file");
+            let text = electric.replacen("\"compensated\"", intonation, 1);
+            let with = |stiffness: &str| text.replacen(line, &format!("stiffness = {stiffness}"), 1);
+            for quality in [Quality::Live, Quality::Studio] {
+                let build = |stiffness: &str| {
+                    let setup = Setup::from_toml(&with(stiffness)).unwrap();
+                    Instrument::new(&setup, &quality.settings(RATE))
+                };
+                let error = build("1e30").unwrap_err().to_string();
+                assert!(error.starts_with(&format!("{key} = 1e30 is refused: ")), "{error}");
+                assert!(error.ends_with(&format!(" N/m^exponent ({place})")), "{error}");
+                if intonation == "\"physical\"" {
+                    let limit = error.split("at most ").nth(1).unwrap().split(' ').next().unwrap();
+                    let limit: f64 = limit.parse().unwrap();
+                    // Each string has a limit of its own, and its last digits depend on its tension.
+                    let built = build(&format!("{:e}", 0.1 * limit));
+                    assert!(built.is_ok(), "{key} = {limit}: {:?}", built.err());
+                }
+            }
+        }
+    }
 }
