@@ -66,7 +66,7 @@ impl Song {
         {
             return Err(MidiFileError::NoSuchTrack { asked, count: chunks.tracks.len() });
         }
-        let mut reader = Reader { selection, division: chunks.division, song: Song::empty() };
+        let mut reader = Reader { selection, division: chunks.division, no_tempos: 0, song: Song::empty() };
         let mut start = SongTime::zero(chunks.division);
         if chunks.sequential {
             for (index, data) in chunks.tracks.iter().enumerate() {
@@ -119,6 +119,8 @@ struct Track {
 struct Reader {
     selection: Selection,
     division: Division,
+    /// Changes to a tempo that is none, passed over.
+    no_tempos: usize,
     song: Song,
 }
 
@@ -153,7 +155,7 @@ impl Reader {
                     ended = true;
                     break;
                 }
-                TrackEventKind::Meta(MetaMessage::Tempo(tempo)) => Some(TickKind::Tempo(tempo.as_int())),
+                TrackEventKind::Meta(MetaMessage::Tempo(tempo)) => self.tempo(tempo.as_int()),
                 TrackEventKind::Midi { channel, message } if self.selects(index) => {
                     let chosen = |only| only == channel.as_int() + 1;
                     let event = player_event(channel.as_int(), message);
@@ -167,6 +169,15 @@ impl Reader {
             self.song.warnings.push(SongWarning::NoEndOfTrack { track: index + 1 });
         }
         Ok(track)
+    }
+
+    /// A change of tempo, microseconds a beat. Beats that take no time would be played all at once.
+    fn tempo(&mut self, tempo: u32) -> Option<TickKind> {
+        if tempo == 0 {
+            self.no_tempos += usize::from(self.division.follows_tempo());
+            return None;
+        }
+        Some(TickKind::Tempo(tempo))
     }
 
     /// Puts tracks that play together on the song's clock, from `start`; returns where they end.
@@ -188,7 +199,8 @@ impl Reader {
     }
 
     fn finish(mut self) -> Song {
-        let Self { selection, song: Song { events, warnings }, .. } = &mut self;
+        let Self { selection, no_tempos, song: Song { events, warnings }, .. } = &mut self;
+        warnings.extend((*no_tempos > 0).then_some(SongWarning::NoTempo { changes: *no_tempos }));
         let plays_tenth = selection.channel.is_some() || selection.tenth;
         if !plays_tenth && !announces_mpe(events.iter().map(|event| event.event)) {
             let notes = count_notes(events);

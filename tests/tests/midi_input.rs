@@ -83,6 +83,27 @@ fn a_tempo_map_an_hour_long_does_not_drift() {
 }
 
 #[test]
+fn a_tempo_that_is_none_is_passed_over_with_one_warning() {
+    let (fast, none) = (tempo(250_000), tempo(0));
+    let notes = track(&[
+        (0, &none),
+        (96, &[0x90, 60, 100]),
+        (0, &fast),
+        (96, &[0x90, 62, 100]),
+        (0, &none),
+        (96, &[0x90, 64, 100]),
+    ]);
+    let song = read(&file(0, 96, std::slice::from_ref(&notes)));
+    // The usual tempo, and then the one that was set, goes on.
+    assert_eq!(note_ons(&song), [(24_000, 60), (36_000, 62), (48_000, 64)]);
+    assert_eq!(song.warnings, [SongWarning::NoTempo { changes: 2 }]);
+    let said = song.warnings[0].to_string();
+    assert!(said.contains("1 to 16777215") && said.contains("2 changes to 0"), "{said}");
+    // Frames do not ask what the tempo is.
+    assert!(read(&file(0, 0xE728, &[notes])).warnings.is_empty());
+}
+
+#[test]
 fn odd_but_legal_contents_play() {
     let same_instant: Vec<[u8; 3]> = (0..100).map(|n| [0x90, n, 90]).collect();
     let hundred: Vec<(u32, &[u8])> = same_instant.iter().map(|event| (0, &event[..])).collect();

@@ -72,6 +72,11 @@ pub enum SongWarning {
         /// Track, counted from 1.
         track: usize,
     },
+    /// Changes to a tempo of 0 microseconds a beat, which is none, were passed over.
+    NoTempo {
+        /// How many.
+        changes: usize,
+    },
 }
 
 impl fmt::Display for SongWarning {
@@ -86,6 +91,15 @@ impl fmt::Display for SongWarning {
             }
             Self::NoEndOfTrack { track } => {
                 write!(out, "track {track} has no end-of-track event: it may be incomplete")
+            }
+            Self::NoTempo { changes } => {
+                let changes =
+                    if *changes == 1 { "1 change".to_owned() } else { format!("{changes} changes") };
+                write!(
+                    out,
+                    "a tempo must be 1 to 16777215 microseconds a beat: {changes} to 0 passed over, the tempo \
+                     before goes on"
+                )
             }
         }
     }

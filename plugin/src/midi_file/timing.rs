@@ -40,6 +40,11 @@ impl Division {
             ticks => Ok(Self { units: Some(units), per_second: frames * u64::from(ticks) }),
         }
     }
+
+    /// Whether the tempo decides what a tick lasts.
+    pub(super) fn follows_tempo(self) -> bool {
+        self.units.is_none()
+    }
 }
 
 /// A moment in a song, exact.
