@@ -345,18 +345,38 @@ fn wrong_usage_is_code_2() {
         (&["render", "song.mid", "--tail", "nan"], "auto, none or 0 to 3600"),
         (&["render", "song.mid", "--tail", "1e18"], "auto, none or 0 to 3600"),
         (&["render", "song.mid", "--quality", "best"], "draft, live, studio or reference"),
-        (&["render", "song.mid", "--channel", "17"], "1..=16"),
-        (&["render", "song.mid", "--track", "0"], "--track"),
+        (
+            &["render", "song.mid", "--channel", "17"],
+            "'17' for '--channel <N>': must be a whole number from 1 to 16",
+        ),
+        (&["render", "song.mid", "--channel", "1.5"], "must be a whole number from 1 to 16"),
+        (
+            &["render", "song.mid", "--track", "0"],
+            "'0' for '--track <N>': must be a whole number from 1 to 65535",
+        ),
         (&["render", "song.mid", "--max-length", "0"], "above 0"),
         (&["render", "song.mid", "--variation", "2"], "0 to 1"),
         (&["render", "song.mid", "--instrument", "banjo"], "electric, classical, steel, bass"),
         (&["render", "song.mid", "--input", "guitar"], "auto, keyboard, strings, mpe"),
-        (&["render", "song.mid", "--first-channel", "0"], "1..=16"),
+        (&["render", "song.mid", "--first-channel", "0"], "must be a whole number from 1 to 16"),
         (&["render", "song.mid", "--string-order", "up"], "first_first, last_first"),
         (&["render", "song.mid", "--bend-range", "97"], "0 to 96 semitones"),
         (&["render", "song.mid", "more.mid"], "more.mid"),
-        (&["render", "song.mid", "--seed", "-1"], "--seed"),
-        (&["render", "--bogus"], "--bogus"),
+        (
+            &["render", "song.mid", "--seed", "-1"],
+            "'-1' for '--seed <N>': must be a whole number from 0 to 184467",
+        ),
+        (
+            &["render", "song.mid", "--seed", "1.5"],
+            "must be a whole number from 0 to 18446744073709551615 (see",
+        ),
+        (&["render", "--bogus"], "'--bogus' found (see low-action render --help)"),
+        (
+            &["render", "--qualty", "studio"],
+            "found; tip: a similar argument exists: '--quality' (see low-action render --help)",
+        ),
+        (&["instruments", "--bogus"], "(see low-action instruments --help)"),
+        (&["--bogus"], "(see low-action --help)"),
         (&["sing"], "sing"),
     ] {
         let said = room.refuses(2, arguments);
@@ -476,6 +496,19 @@ fn a_link_stays_a_link() {
     room.renders(&["song.mid", "-o", "link.wav"]);
     assert!(fs::symlink_metadata(room.path("link.wav")).unwrap().is_symlink());
     assert!(peak(&room.path("real.wav")) > 0.01);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_who_has_seen_enough_of_the_help_is_no_failure() {
+    let room = Room::new();
+    for arguments in [&["--help"][..], &["render", "--help"], &["--version"]] {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = room.command(arguments).stdout(writer).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), said.as_str()), (Some(0), ""), "{arguments:?}");
+    }
 }
 
 #[test]

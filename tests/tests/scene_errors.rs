@@ -264,15 +264,28 @@ fn what_a_wav_file_cannot_hold_is_refused() {
     assert_eq!(place.names(), ["scene.toml"]);
 }
 
+/// What `--every` accepts.
+const EVERY: &str = "a whole number from 1 to 18446744073709551615";
+
 #[test]
 fn wrong_usage_is_told_apart() {
     let place = workplace();
     place.write("scene.toml", SCENE);
     let cases: &[(&[&str], &[&str])] = &[
-        (&["scene"], &["FILE"]),
-        (&["scene", "scene.toml", "--wave", "x"], &["--wave"]),
-        (&["scene", "scene.toml", "--trace", "x.npz", "--every", "0"], &["--every", "0"]),
-        (&["scene", "scene.toml", "--trace", "x.npz", "--every", "some"], &["--every", "some"]),
+        (&["scene"], &["FILE", "(see low-action scene --help)"]),
+        (
+            &["scene", "scene.toml", "--wave", "x"],
+            &["'--wave' found; tip: a similar argument exists: '--wav' (see low-action scene --help)"],
+        ),
+        (
+            &["scene", "scene.toml", "--trace", "x.npz", "--every", "0"],
+            &["'0' for '--every <N>': must be", EVERY],
+        ),
+        (&["scene", "scene.toml", "--trace", "x.npz", "--every", "-1"], &["'-1' for '--every <N>'", EVERY]),
+        (
+            &["scene", "scene.toml", "--trace", "x.npz", "--every", "some"],
+            &["'some' for '--every <N>'", EVERY],
+        ),
         (&["scene", "scene.toml", "--every", "2"], &["--trace"]),
         (&["scene", "scene.toml", "--wav", "x", "--trace", "x"], &["--wav", "--trace", "same file"]),
         (&["scene", "scene.toml", "--wav", "-", "--trace", "-"], &["--wav", "--trace", "same file"]),

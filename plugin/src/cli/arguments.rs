@@ -1,8 +1,10 @@
 //! What each command can be told.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::TypedValueParser;
 
 use super::render::{self, BitDepth, Tail};
 use crate::engine::{EngineOptions, Quality};
@@ -52,10 +54,10 @@ pub struct RenderArgs {
     #[arg(long, value_name = "auto|SECONDS|none", default_value_t = Tail::Auto)]
     pub tail: Tail,
     /// Play only this track, counted from 1; tempo changes of all tracks count.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=65_535))]
     pub track: Option<u16>,
     /// Play only this channel, 1 to 16.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
+    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=16))]
     pub channel: Option<u8>,
     /// What channels mean: auto (MPE if the song announces it, or else keyboard), keyboard (string and fret are
     /// chosen for each note), strings (each channel is a string, as guitar controllers send), mpe (each note has a
@@ -63,7 +65,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "MODE", default_value = "auto", value_parser = render::parse_choice::<InputChoice>())]
     pub input: InputChoice,
     /// The first channel that is a string, 1 to 16, with --input strings; the next string has the next channel.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=16))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u8>(1..=16))]
     pub first_channel: u8,
     /// Whether that is the set-up's first string, the highest on guitars, or its last.
     #[arg(long, value_name = "ORDER", default_value = "first_first", value_parser = render::parse_choice::<StringOrder>())]
@@ -81,11 +83,12 @@ pub struct RenderArgs {
     /// Also write each string's own sound, mono and before panning, into this folder.
     #[arg(long, value_name = "DIR")]
     pub stems: Option<PathBuf>,
-    /// Size of the small differences between one pluck and the next, 0 (none) to 1.
+    /// Size of the small differences between one pluck and the next, 0 (none: the hand does the same each time; what
+    /// sounds still depends on how the string moves when it is plucked) to 1.
     #[arg(long, value_name = "AMOUNT", default_value_t = EngineOptions::VARIATION, value_parser = render::parse_variation)]
     pub variation: f64,
     /// Which sequence of those differences.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>(0..=u64::MAX))]
     pub seed: u64,
 }
 
@@ -132,7 +135,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
     /// Keep every N-th sample of the trace, from the first.
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "trace", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "trace", value_parser = whole::<u64>(1..=u64::MAX))]
     pub every: u64,
     /// Picture to draw (SVG): the strings over the board, energies, contact forces, iterations, penetration.
     #[arg(long, value_name = "FILE")]
@@ -163,7 +166,7 @@ pub struct StandAloneArgs {
     #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate)]
     pub sample_rate: u32,
     /// Samples computed at a time: fewer answer sooner, more are safer. JACK has its own.
-    #[arg(short, long, value_name = "SAMPLES", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    #[arg(short, long, value_name = "SAMPLES", default_value_t = 256, value_parser = whole::<u32>(1..=65_536))]
     pub period_size: u32,
     /// Lists outputs and MIDI inputs, and plays nothing.
     #[arg(long)]
@@ -189,6 +192,19 @@ pub struct InstrumentsArgs {
     /// Set-up files to check and copy to the folder, in place of those of the same name.
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub install: Vec<PathBuf>,
+}
+
+/// Reads a whole number, and names the range where it is none or lies outside.
+fn whole<T>(range: RangeInclusive<u64>) -> impl TypedValueParser<Value = T>
+where
+    T: TryFrom<u64> + Clone + Send + Sync + 'static,
+{
+    move |text: &str| {
+        let number = text.parse::<u64>().ok().filter(|number| range.contains(number));
+        number
+            .and_then(|number| T::try_from(number).ok())
+            .ok_or_else(|| format!("must be a whole number from {} to {}", range.start(), range.end()))
+    }
 }
 
 /// The help of `--quality`.

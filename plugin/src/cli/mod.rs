@@ -23,7 +23,7 @@ use std::ffi::OsString;
 use std::io::Write;
 
 use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 pub use arguments::{InstrumentsArgs, RenderArgs, SceneArgs, StandAloneArgs};
 pub use render::{BitDepth, Tail};
@@ -111,14 +111,15 @@ where
     I: IntoIterator<Item = T>,
     T: Into<OsString> + Clone,
 {
-    let outcome = match CommandLine::try_parse_from(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    let outcome = match CommandLine::try_parse_from(&arguments) {
         Ok(CommandLine { command: Some(Command::Render(arguments)), .. }) => render::run(&arguments),
         Ok(CommandLine { command: Some(Command::Scene(arguments)), .. }) => scene::run(&arguments),
         Ok(CommandLine { command: Some(Command::Instruments(arguments)), .. }) => {
             instruments::run(&arguments)
         }
         Ok(CommandLine { command: None, playing }) => stand_alone::run(&playing),
-        Err(error) => explain(&error),
+        Err(error) => explain(&error, command_of(&arguments).as_deref()),
     };
     match outcome {
         Ok(()) => 0,
@@ -134,20 +135,41 @@ pub(crate) fn say(kind: &str, text: &str) {
     writeln!(std::io::stderr(), "{kind}: {}", one_line(text)).ok();
 }
 
-/// Help and version are printed in full; a mistake becomes one line.
-fn explain(error: &clap::Error) -> Outcome {
+/// The command that arguments, program name first, are for; a command comes before all options.
+fn command_of(arguments: &[OsString]) -> Option<String> {
+    let first = arguments.get(1)?.to_str()?;
+    let known = CommandLine::command();
+    known.get_subcommands().any(|command| command.get_name() == first).then(|| first.to_owned())
+}
+
+/// Help and version are printed in full; a mistake becomes one line, with what else may have been meant and whose
+/// help says more.
+fn explain(error: &clap::Error, command: Option<&str>) -> Outcome {
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
-            error.print()?;
+            unless_closed(error.print())?;
             Ok(())
         }
         _ => {
             let text = error.render().to_string();
             let first = text.split("\n\n").next().unwrap_or_default();
             let first = first.strip_prefix("error: ").unwrap_or(first);
-            Err(Failure::Usage(format!("{first} (see low-action --help)")))
+            // How to pass a word that begins with a dash is no help to who has misspelt an option.
+            let tips = text.lines().map(str::trim).filter(|line| line.starts_with("tip: "));
+            let tips: String =
+                tips.filter(|tip| !tip.starts_with("tip: to pass")).map(|tip| format!("; {tip}")).collect();
+            let program = command.map_or("low-action".to_owned(), |command| format!("low-action {command}"));
+            Err(Failure::Usage(format!("{first}{tips} (see {program} --help)")))
         }
     }
+}
+
+/// What came of writing to standard output. A reader who has seen enough and closed it is no failure.
+pub(crate) fn unless_closed(written: std::io::Result<()>) -> std::io::Result<()> {
+    written.or_else(|error| match error.kind() {
+        std::io::ErrorKind::BrokenPipe => Ok(()),
+        _ => Err(error),
+    })
 }
 
 /// A message folded into one line.

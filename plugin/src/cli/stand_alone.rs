@@ -5,17 +5,18 @@ use super::{Failure, Outcome, StandAloneArgs};
 /// Plays, or lists the devices there are.
 #[cfg(feature = "standalone")]
 pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
+    use std::io::Write;
     use std::path::Path;
 
     use low_action_dsp::Setup;
 
-    use super::instrument;
+    use super::{instrument, unless_closed};
     use crate::engine::{Engine, EngineOptions};
     use crate::params::Start;
     use crate::standalone::{self, Devices};
 
     if arguments.list_devices {
-        print!("{}", standalone::list());
+        unless_closed(std::io::stdout().write_all(standalone::list().as_bytes()))?;
         return Ok(());
     }
     let mut start = Start { quality: arguments.quality, ..Start::default() };
