@@ -20,8 +20,29 @@ struct Command {
     arguments: &'static str,
     /// What it does, in one line.
     summary: &'static str,
+    /// How it is called, for the help of its own; none where it says more by itself.
+    examples: &'static [&'static str],
     /// Does it.
     run: fn(Arguments) -> Result<()>,
+}
+
+impl Command {
+    /// The help of this command.
+    fn usage(&self) -> String {
+        let Self { name, arguments, summary, examples, .. } = self;
+        let mut text = format!("usage: cargo xtask {name} {arguments}\n\n{summary}\n\nexamples:\n");
+        for example in *examples {
+            let line = format!("  cargo xtask {name} {example}");
+            text += line.trim_end();
+            text.push('\n');
+        }
+        text
+    }
+
+    /// Whether it is asked for its help, and has one to be printed here.
+    fn is_asked_for_help(&self, arguments: &[String]) -> bool {
+        !self.examples.is_empty() && arguments.iter().any(|word| matches!(word.as_str(), "-h" | "--help"))
+    }
 }
 
 /// Everything `cargo xtask` can do, in the order of the help text.
@@ -30,12 +51,14 @@ const COMMANDS: &[Command] = &[
         name: "bundle",
         arguments: "low-action [--release] [cargo build options]",
         summary: "builds the plugin and lays out target/bundled/Low Action.clap and Low Action.vst3",
+        examples: &["low-action --release", "low-action --release --no-default-features"],
         run: |arguments| bundle("bundle", arguments),
     },
     Command {
         name: "bundle-universal",
         arguments: "low-action [--release]",
-        summary: "the same for both processors of macOS in one binary (on macOS only)",
+        summary: "bundles for both processors of macOS in one binary (on macOS only)",
+        examples: &["low-action --release"],
         run: |arguments| bundle("bundle-universal", arguments),
     },
     Command {
@@ -43,18 +66,21 @@ const COMMANDS: &[Command] = &[
         arguments: "[--quick] [NAME ...]",
         summary: "draws the pictures of the documentation, or those named, and writes docs/paper.md; \
                   with --quick compares them with what is there",
+        examples: &["--quick", "paper_figure_2 paper_figure_3"],
         run: |arguments| figures::run(&arguments),
     },
     Command {
         name: "hosts",
         arguments: "[dawdreamer] [pedalboard]",
         summary: "bundles the plugin and compares what hosts play through it with what is rendered",
+        examples: &["", "pedalboard"],
         run: |names| hosts::run(&names),
     },
     Command {
         name: "measure",
         arguments: "NAME [ARGUMENTS]",
         summary: "measures what the documentation states; `measure help` lists what there is",
+        examples: &[],
         run: xtask::measure::run,
     },
 ];
@@ -80,10 +106,15 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<()> {
         print!("{}", help());
         return Ok(());
     }
-    match COMMANDS.iter().find(|command| command.name == name) {
-        Some(command) => (command.run)(arguments.collect()),
-        None => bail!("unknown command `{name}`\n\n{}", help()),
+    let Some(command) = COMMANDS.iter().find(|command| command.name == name) else {
+        bail!("unknown command `{name}`\n\n{}", help());
+    };
+    let arguments: Arguments = arguments.collect();
+    if command.is_asked_for_help(&arguments) {
+        print!("{}", command.usage());
+        return Ok(());
     }
+    (command.run)(arguments)
 }
 
 fn main() -> ExitCode {
@@ -113,5 +144,19 @@ mod tests {
         }
         assert!(run(words("")).is_err());
         assert!(run(words("help")).is_ok());
+    }
+
+    #[test]
+    fn every_command_has_a_help_of_its_own() {
+        for command in COMMANDS {
+            for word in ["--help", "-h"] {
+                assert!(run(words(&format!("{} {word}", command.name))).is_ok(), "{} {word}", command.name);
+            }
+            let usage = command.usage();
+            assert!(usage.starts_with(&format!("usage: cargo xtask {} ", command.name)), "{usage}");
+            assert!(usage.contains(command.summary), "{usage}");
+        }
+        // Wherever it stands, and nothing is built.
+        assert!(run(words("bundle low-action --release --help")).is_ok());
     }
 }

@@ -54,7 +54,9 @@ fn root() -> PathBuf {
 
 /// Reads a measurement's arguments; nothing where they ask for help, which is then given.
 fn parse<T: Parser>(arguments: Vec<String>) -> Result<Option<T>> {
-    match T::try_parse_from(std::iter::once("measure".to_owned()).chain(arguments)) {
+    // The first argument is what usage begins with.
+    let name = T::command().get_name().to_owned();
+    match T::try_parse_from(std::iter::once(name).chain(arguments)) {
         Ok(arguments) => Ok(Some(arguments)),
         Err(error) if !error.use_stderr() => {
             print!("{error}");
@@ -89,7 +91,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::{MEASUREMENTS, run};
+    use super::{MEASUREMENTS, Measurement, run};
 
     #[test]
     fn unknown_measurements_are_answered_with_the_list() {
@@ -100,5 +102,14 @@ mod tests {
         }
         assert!(run(vec![]).is_err());
         assert!(run(vec!["help".into()]).is_ok());
+    }
+
+    #[test]
+    fn usage_names_the_measurement() {
+        for Measurement { name, run, .. } in MEASUREMENTS {
+            assert!(run(vec!["--help".into()]).is_ok());
+            let message = run(vec!["--nonsense".into()]).expect_err("not an argument").to_string();
+            assert!(message.contains(&format!("Usage: cargo xtask measure {name}")), "{message}");
+        }
     }
 }

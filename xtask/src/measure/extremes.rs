@@ -70,12 +70,7 @@ const QUICK: (u64, f64) = (1000, 8.0);
 /// # Errors
 /// When a promise is broken, the tables are not those of the documentation, or a file cannot be written.
 pub fn run(arguments: Vec<String>) -> Result<()> {
-    let name = "cargo xtask measure extremes".to_owned();
-    let arguments = match Arguments::try_parse_from(std::iter::once(name).chain(arguments)) {
-        Ok(arguments) => arguments,
-        Err(error) if !error.use_stderr() => return error.print().map_err(Into::into),
-        Err(error) => bail!("{}", error.render()),
-    };
+    let Some(arguments) = super::parse::<Arguments>(arguments)? else { return Ok(()) };
     if let Some(file) = &arguments.replay {
         let text = std::fs::read_to_string(file).with_context(|| format!("{}", file.display()))?;
         println!("{:#?}", Trial::from_toml(&text)?.run());
