@@ -40,7 +40,11 @@ const HEARD: [(&str, &str); 37] = [
         "velocity_curve",
         "How force follows velocity: low numbers are loud early, high ones late; 0 is always the hardest.",
     ),
-    ("variation", "How much plucks differ from one another, as a hand's do. At 0 all are exactly alike."),
+    (
+        "variation",
+        "How much plucks differ from one another, as a hand's do. At 0 the hand does the same each time; the sound \
+         still depends on how the string moves just then.",
+    ),
     ("finger_force", "How firmly fingers press. Too little and the note buzzes against its own fret."),
     ("finger_hardness", "Soft pads swallow the high notes, hard ones let the string rattle."),
     ("finger_mass", "A heavy finger lands with more of a thump."),
