@@ -461,7 +461,10 @@ fn an_hour_is_the_limit_unless_another_is_named() {
     fs::write(room.path("long.mid"), midi(&events)).unwrap();
     let said = room.refuses(1, &["render", "long.mid"]);
     assert!(
-        said.contains("long.mid") && said.contains("minutes") && said.contains("limit of 60") && said.contains("--max-length"),
+        said.contains("long.mid")
+            && said.contains("minutes")
+            && said.contains("limit of 60")
+            && said.contains("--max-length"),
         "{said}"
     );
     // More than a WAV file holds, whatever is allowed.

@@ -158,7 +158,7 @@ fn frequencies_follow_the_midi_tuning_standard() {
 
 #[test]
 fn wrong_setups_are_refused_in_one_line() {
-    let cases: [(&str, &str, &[&str]); 25] = [
+    let cases: [(&str, &str, &[&str]); 26] = [
         ("frets = 22", "frets = 99", &["neck.frets", "99"]),
         ("frets = 22", "fretz = 22", &["fretz"]),
         ("action = 0.0016", "action = 0.0001", &["neck.action", "1e-4"]),

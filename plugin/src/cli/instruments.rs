@@ -42,10 +42,6 @@ pub(super) fn run(arguments: &InstrumentsArgs) -> Outcome {
     if files.len() > MOST_FILES {
         text += &format!("  (the plugin has numbers for the first {MOST_FILES})\n");
     }
-    // A reader who has seen enough is no failure.
-    std::io::stdout().write_all(text.as_bytes()).or_else(|error| match error.kind() {
-        std::io::ErrorKind::BrokenPipe => Ok(()),
-        _ => Err(error),
-    })?;
+    super::unless_closed(std::io::stdout().write_all(text.as_bytes()))?;
     Ok(())
 }

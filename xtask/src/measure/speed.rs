@@ -56,14 +56,14 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     Ok(())
 }
 
-/// Mean time of a benchmark's iteration in the last run, ns.
-fn mean(group: &str, name: &str) -> Result<f64> {
+/// Median time of a benchmark's iterations in the last run, ns: neighbours on the machine move it less than the mean.
+fn median(group: &str, name: &str) -> Result<f64> {
     let file = criterion_folder().join(group).join(name).join("new/estimates.json");
     let text = std::fs::read_to_string(&file)
         .with_context(|| format!("`{group}/{name}` has not been timed: {} cannot be read", file.display()))?;
     let estimates: serde_json::Value = serde_json::from_str(&text)?;
-    let point = estimates["mean"]["point_estimate"].as_f64();
-    point.with_context(|| format!("{} has no mean", file.display()))
+    let point = estimates["median"]["point_estimate"].as_f64();
+    point.with_context(|| format!("{} has no median", file.display()))
 }
 
 fn criterion_folder() -> PathBuf {
@@ -78,7 +78,7 @@ const SAMPLES: f64 = 4800.0;
 fn table() -> Result<String> {
     let mut text = String::from("| measure | found | aim |\n|---|--:|--:|\n");
     let mut row = |name: &str, found: String, aim: &str| text += &format!("| {name} | {found} | {aim} |\n");
-    let chord = |name: &str| Ok::<_, anyhow::Error>(mean("chord", name)? / SAMPLES);
+    let chord = |name: &str| Ok::<_, anyhow::Error>(median("chord", name)? / SAMPLES);
     let real_time = |time: f64, rate: f64| format!("{:.1} × real time", 1e9 / (time * rate));
     row("six strings fretted and ringing, `live`, 48 kHz", real_time(chord("48 kHz")?, 48e3), "10 ×");
     for (rate, khz, aim) in [(48e3, "48 kHz", "10 ×, 350 ns"), (96e3, "96 kHz", "3.5 ×")] {
@@ -86,7 +86,7 @@ fn table() -> Result<String> {
         let found = format!("{:.0} ns a string-sample, {}", time / 6.0, real_time(time, rate));
         row(&format!("… every string at {khz}"), found, aim);
     }
-    let string = |name: &str| mean("string", name);
+    let string = |name: &str| median("string", name);
     let (copy, bare, free) = (string("copy")?, string("bare")?, string("free")?);
     let fretted = string("fretted")?;
     let times = |a: f64, b: f64| format!("{:.2} ×", a / b);
@@ -98,16 +98,20 @@ fn table() -> Result<String> {
     row("free string without vectors over with", scalar, "4 ×");
     let scalar = times(string("fretted, without vectors")?, fretted);
     row("fretted string without vectors over with", scalar, "4 ×");
-    let points = |count: &str| mean("points", count);
+    let points = |count: &str| median("points", count);
     let growth = points("691")? / points("151")?;
     row("free string of 691 points over one of 151 (4.58 times as many)", format!("{growth:.2} ×"), "linear");
-    row("six ringing strings over one", times(mean("strings", "6")?, mean("strings", "1")?), "6 ×");
+    row("six ringing strings over one", times(median("strings", "6")?, median("strings", "1")?), "6 ×");
     row(
         "six silent strings over one that rings",
-        times(mean("strings", "6 silent")?, mean("strings", "1")?),
+        times(median("strings", "6 silent")?, median("strings", "1")?),
         "",
     );
-    row("100 frets that nothing touches over one", times(mean("frets", "100")?, mean("frets", "1")?), "1 ×");
+    row(
+        "100 frets that nothing touches over one",
+        times(median("frets", "100")?, median("frets", "1")?),
+        "1 ×",
+    );
     let times = |work: &buzz::Work| format!("{:.1} ×", work.most / work.mean);
     let buzz = buzz::iterations()?;
     let found = format!("{} ({} and {:.2})", times(&buzz), buzz.most, buzz.mean);
