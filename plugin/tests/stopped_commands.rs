@@ -14,6 +14,16 @@ use std::time::{Duration, Instant};
 const LONG: &str = "sample_rate = 44100\nduration = 3600\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\n\
                     tension = 60.0\n";
 
+/// Whether this process was started with one of the signals ignored, as nohup does and shells do in the background. The
+/// commands it runs then ignore them too, as they should.
+fn ignores_signals() -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    // Signal n is bit n − 1: HUP 1, INT 2, TERM 15.
+    ignored.unwrap_or(0) & (1 | 1 << 1 | 1 << 14) != 0
+}
+
 /// Names of all there is in a folder, hidden or not, in order.
 fn names(folder: &Path) -> Vec<String> {
     let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name());
@@ -24,6 +34,10 @@ fn names(folder: &Path) -> Vec<String> {
 
 /// Runs a command until it has begun its files, and stops it by a signal.
 fn is_stopped(signal: &str, arguments: &[&str], begun: &str) {
+    if ignores_signals() {
+        println!("passed over: signals are ignored here");
+        return;
+    }
     let room = tempfile::tempdir().unwrap();
     fs::write(room.path().join("long.toml"), LONG).unwrap();
     fs::write(room.path().join("old.wav"), "old").unwrap();

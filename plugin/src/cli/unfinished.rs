@@ -71,7 +71,7 @@ fn watch() {
             }
             std::process::exit(STOPPED);
         };
-        // Where there is a handler already, that is the one to ask.
+        // Who has signals ignored, as nohup does and shells do in the background, keeps it so.
         ctrlc::try_set_handler(stop).ok();
     });
 }
