@@ -63,12 +63,14 @@ impl State {
                     let more = self.stretching(&products, scratch);
                     stretching += more;
                     largest = self.advance(simd, model, more, scratch);
+                    // (It knows of what is added in this round.)
                     scratch.stretching = stretching;
                     let rounding = f64::EPSILON * model.mobility * spread.sum * spread.sum;
                     let exact = rounding <= ROUNDING * self.energy_scale && created <= scale.credit;
                     if exact || round == REFINEMENTS {
                         break;
                     }
+                    // What q̄ still lacks: half of q − vᵀu⁺, less what it is already.
                     products.along = self.recentre(scratch) + 2.0 * stretching;
                 }
             }

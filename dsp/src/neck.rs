@@ -75,8 +75,8 @@ impl Neck {
     }
 
     fn check_relief(&self) -> Result<(), Error> {
-        let most = self.most_relief();
         within("neck.relief", self.relief, 0.0, MOST_RELIEF, "m")?;
+        let most = self.most_relief();
         if self.relief > most {
             let accepted = format!(
                 "it must lie between 0 and {} m, or crowns stand above the strings",
@@ -90,11 +90,10 @@ impl Neck {
     /// The most relief, m, with which all crowns are below the string. (Fret 12 has the action whatever the relief. So the
     /// line under the crowns tilts with it, and those beyond fret 12 rise.)
     pub fn most_relief(&self) -> f64 {
-        let straight = Neck { relief: 0.0, ..self.clone() };
-        let bowed = Neck { relief: 1.0, ..self.clone() };
         let room = |place: f64| {
-            let (height, rise) = (straight.crown_height(place), bowed.crown_height(place));
-            if rise > height { (-LEAST_CLEARANCE - height) / (rise - height) } else { f64::INFINITY }
+            let straight = self.bowed_height(place, 0.0);
+            let rise = self.bowed_height(place, 1.0) - straight;
+            if rise > 0.0 { (-LEAST_CLEARANCE - straight) / rise } else { f64::INFINITY }
         };
         self.equal_places().into_iter().map(room).fold(MOST_RELIEF, f64::min).max(0.0)
     }
@@ -114,11 +113,16 @@ impl Neck {
     /// The crowns lie on a straight line less a parabola that vanishes at fret 1 and the last fret; the
     /// line is set so that fret 1 has the nut clearance and fret 12 the action.
     pub fn crown_height(&self, place: f64) -> f64 {
+        self.bowed_height(place, self.relief)
+    }
+
+    /// The same with another relief, m.
+    fn bowed_height(&self, place: f64, relief: f64) -> f64 {
         let (first, twelfth) = (self.equal_place(1.0), self.equal_place(12.0));
         let last = self.equal_place(self.frets as f64);
         let dip = |x: f64| {
             let span = last - first;
-            if span <= 0.0 { 0.0 } else { self.relief * 4.0 * (x - first) * (last - x) / (span * span) }
+            if span <= 0.0 { 0.0 } else { relief * 4.0 * (x - first) * (last - x) / (span * span) }
         };
         let slope = (self.action - dip(twelfth) - self.nut_clearance) / (twelfth - first);
         -(self.nut_clearance + slope * (place - first) + dip(place))

@@ -1,10 +1,11 @@
 //! Files that are kept for the user.
 
 use std::fs::{self, Permissions};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use tempfile::NamedTempFile;
 
 /// Writes a text in place of what is there, in a folder that is made if need be.
 ///
@@ -14,12 +15,8 @@ pub(crate) fn put(target: &Path, text: &str) -> Result<()> {
     let folder = target.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     // Beside it and then renamed, so that nobody ever reads half of it.
-    let write = || -> std::io::Result<()> {
-        let mut builder = tempfile::Builder::new();
-        if let Some(permissions) = usual_permissions() {
-            builder.permissions(permissions);
-        }
-        let mut draft = builder.tempfile_in(folder)?;
+    let write = || -> io::Result<()> {
+        let mut draft = beside(target)?;
         draft.write_all(text.as_bytes())?;
         draft.persist(target)?;
         Ok(())
@@ -27,15 +24,36 @@ pub(crate) fn put(target: &Path, text: &str) -> Result<()> {
     write().with_context(|| format!("cannot write {}", target.display()))
 }
 
+/// A file in the same folder as another, so that renaming it is one step; gone when dropped.
+///
+/// # Errors
+/// When none can be made there.
+pub(crate) fn beside(path: &Path) -> io::Result<NamedTempFile> {
+    let folder = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".low-action-").suffix(".part");
+    if let Some(permissions) = usual_permissions() {
+        builder.permissions(permissions);
+    }
+    // (The error would name the file beside it, which nobody has asked for.)
+    builder.tempfile_in(folder).map_err(|error| match error.raw_os_error() {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => error.kind().into(),
+    })
+}
+
 /// What any new file gets (the user's mask still applies); temporary files are private otherwise.
 #[cfg(unix)]
-pub(crate) fn usual_permissions() -> Option<Permissions> {
+fn usual_permissions() -> Option<Permissions> {
     use std::os::unix::fs::PermissionsExt;
     Some(Permissions::from_mode(0o666))
 }
 
 /// Elsewhere a new file's permissions come from its folder.
 #[cfg(not(unix))]
-pub(crate) fn usual_permissions() -> Option<Permissions> {
+fn usual_permissions() -> Option<Permissions> {
     None
 }

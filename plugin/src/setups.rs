@@ -89,20 +89,18 @@ pub fn read(path: &Path) -> Result<String> {
     Ok(text)
 }
 
-/// Checks a set-up file and copies it into a folder, which is made if need be, in place of one of the same name.
+/// Checks set-up files and, if all are good, copies them into a folder, which is made if need be, in place of those of the
+/// same name.
 ///
 /// # Errors
-/// When the file is no set-up, has the name of one that comes with the program, or cannot be copied.
-pub fn install(path: &Path, folder: &Path) -> Result<SetupFile> {
-    let (name, text) = check(path)?;
-    put(&name, &text, folder)
+/// When one is no set-up, has the name of one that comes with the program, or cannot be copied.
+pub fn install(paths: &[PathBuf], folder: &Path) -> Result<Vec<SetupFile>> {
+    let checked = paths.iter().map(|path| check(path)).collect::<Result<Vec<_>>>()?;
+    checked.iter().map(|(name, text)| put(name, text, folder)).collect()
 }
 
 /// The name and the text of a set-up file that can be installed.
-///
-/// # Errors
-/// When the file cannot be read, is no set-up or has the name of one that comes with the program.
-pub fn check(path: &Path) -> Result<(String, String)> {
+fn check(path: &Path) -> Result<(String, String)> {
     let text = read(path)?;
     Setup::from_toml(&text).with_context(|| path.display().to_string())?;
     let name = path.file_stem().and_then(|name| name.to_str());

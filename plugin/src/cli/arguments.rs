@@ -28,7 +28,7 @@ Notes go to the string and fret nearest to the hand; those no string can give mo
 Channel 10 is percussion and left out unless asked for with --channel 10. Where channels are strings, or notes
 of MPE, it is one like the others.
 
-Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept)."
+Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept), 130 stopped."
 )]
 pub struct RenderArgs {
     /// MIDI file to play, - for standard input; without it, the built-in demo.
@@ -123,7 +123,7 @@ the energies half a sample later.
 The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to
 1e-9 of the largest energy.
 
-Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check."
+Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check, 130 stopped."
 )]
 pub struct SceneArgs {
     /// Scene file (TOML, SI units), - for standard input.

@@ -15,10 +15,7 @@ pub(super) fn run(arguments: &InstrumentsArgs) -> Outcome {
         format!("this system has no folder for a user's data: name one in {FOLDER_VARIABLE}")
     })?;
     if !arguments.install.is_empty() {
-        // One that is refused keeps the others from being installed.
-        arguments.install.iter().try_for_each(|path| setups::check(path).map(drop))?;
-        for path in &arguments.install {
-            let file = setups::install(path, &folder)?;
+        for file in setups::install(&arguments.install, &folder)? {
             say(&file.name, &format!("installed as {}", file.path.display()));
         }
         return Ok(());

@@ -2,7 +2,7 @@
 //! instrument.
 //!
 //! Exit codes: 0 done; 1 it could not be done (a file, its format, the disk, a limit); 2 wrong
-//! usage; 3 the result failed its own check, and is kept. Every error is one line on standard
+//! usage; 3 the result failed its own check, and is kept; 130 told to stop, by a signal. Every error is one line on standard
 //! error; standard output carries a result asked for with `-`, or else the summary of a scene.
 
 mod arguments;

@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 use tempfile::TempPath;
 
 use super::unfinished::Unfinished;
-use crate::files::usual_permissions;
+use crate::files::beside;
 
 /// Where a result goes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -93,24 +93,6 @@ impl Target {
             Err(_) => Ok(Self::File(path.to_owned())),
         }
     }
-}
-
-/// A file in the same folder, so that renaming it is one step.
-fn beside(path: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let folder = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".low-action-").suffix(".part");
-    if let Some(permissions) = usual_permissions() {
-        builder.permissions(permissions);
-    }
-    // (The error would name the file beside it, which nobody has asked for.)
-    builder.tempfile_in(folder).map_err(|error| match error.raw_os_error() {
-        Some(code) => io::Error::from_raw_os_error(code),
-        None => error.kind().into(),
-    })
 }
 
 fn copy(from: &mut File, to: &mut impl io::Write) -> io::Result<()> {

@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 /// All of it in this process.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// The exit code of programs that were told to stop.
+/// The exit code of programs that were told to stop: 128 and the number of Ctrl+C's signal, as shells have it.
 const STOPPED: i32 = 130;
 
 /// A file or folder that vanishes if the program is told to stop while this lives.
