@@ -237,6 +237,13 @@ fn what_plays_differently_from_the_page_is_said_once() {
     assert!(warnings[0].contains("channel 10") && warnings[0].contains("2 of its notes"), "{said}");
     assert!(warnings[1].contains("2 notes were moved by octaves"), "{said}");
 
+    // Two octaves up on an open string, three times.
+    let bent: [(u8, &[u8]); 4] =
+        [(0, &[0x90, 64, 90]), (9, &[0xE0, 127, 127]), (9, &[0xE0, 0, 64]), (9, &[0xE0, 127, 127])];
+    fs::write(room.path("bent.mid"), midi(&bent)).unwrap();
+    let said = room.renders(&["bent.mid", "--bend-range", "24", "--tail", "0.1"]);
+    assert!(said.contains("warning: 1 note was bent less far than asked"), "{said}");
+
     fs::write(room.path("empty.mid"), midi(&[])).unwrap();
     let said = room.renders(&["empty.mid"]);
     assert!(said.contains("warning: no notes") && said.contains("silent"), "{said}");
@@ -360,6 +367,11 @@ fn wrong_usage_is_code_2() {
         (&["render", "song.mid", "--input", "guitar"], "auto, keyboard, strings, mpe"),
         (&["render", "song.mid", "--first-channel", "0"], "must be a whole number from 1 to 16"),
         (&["render", "song.mid", "--string-order", "up"], "first_first, last_first"),
+        (&["render", "song.mid", "--first-channel", "2"], "--first-channel is only for --input strings"),
+        (
+            &["render", "song.mid", "--input", "mpe", "--string-order", "last_first"],
+            "--string-order is only for --input strings",
+        ),
         (&["render", "song.mid", "--bend-range", "97"], "0 to 96 semitones"),
         (&["render", "song.mid", "more.mid"], "more.mid"),
         (

@@ -224,6 +224,37 @@ fn the_wheel_bends_by_tension_and_no_farther_than_the_string_allows() {
 }
 
 #[test]
+fn a_note_that_cannot_be_bent_as_far_as_asked_is_counted_once() {
+    let short = |key: u8, turns: &[f32], neck: &Neck| {
+        let mut performance = neck.player(Style { variation: 0.0, seed: 0, bend_range: 12.0 });
+        let wheel = |(n, &value): (usize, &f32)| {
+            ((2 + n as u64) * WHILE, PlayerEvent::PitchBend { channel: 0, value })
+        };
+        let events = std::iter::once((WHILE, on(key))).chain(turns.iter().enumerate().map(wheel));
+        play_by(&mut performance, &events.collect::<Vec<_>>());
+        performance.compromises().bent_short
+    };
+    let most = (GUITAR.setup.max_bend / 12.0) as f32;
+    // An open string is pulled as far as it goes; a finger slides as far as there are frets, and then pulls.
+    for (key, turns, expected) in [
+        (64, &[most, -most][..], 0),
+        (64, &[1.0, 0.0, -1.0, 1.0], 1),
+        (65, &[1.0], 0),
+        (76, &[0.999], 0),
+        (76, &[-0.999], 0),
+        (86, &[0.5], 1),
+        (65, &[-0.1, -1.0], 1),
+    ] {
+        assert_eq!(short(key, turns, &GUITAR), expected, "key {key}, wheel {turns:?}");
+    }
+    // On a bare board the finger glides.
+    let bass = Neck::of("fretless-bass");
+    for (key, turns, expected) in [(50, &[0.7_f32, 0.2][..], 0), (44, &[-1.0], 1)] {
+        assert_eq!(short(key, turns, &bass), expected, "key {key} of a bare board, wheel {turns:?}");
+    }
+}
+
+#[test]
 fn a_hundred_notes_at_once_are_all_heard_and_none_hangs() {
     let mut performance = player(EXACT);
     let mut events: Vec<(u64, PlayerEvent)> = (14..114).map(|key| (0, on(key))).collect();

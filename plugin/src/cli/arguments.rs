@@ -64,12 +64,13 @@ pub struct RenderArgs {
     /// channel, channel 1 acts on all).
     #[arg(long, value_name = "MODE", default_value = "auto", value_parser = render::parse_choice::<InputChoice>())]
     pub input: InputChoice,
-    /// The first channel that is a string, 1 to 16, with --input strings; the next string has the next channel.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u8>(1..=16))]
-    pub first_channel: u8,
-    /// Whether that is the set-up's first string, the highest on guitars, or its last.
-    #[arg(long, value_name = "ORDER", default_value = "first_first", value_parser = render::parse_choice::<StringOrder>())]
-    pub string_order: StringOrder,
+    /// The first channel that is a string, 1 to 16, with --input strings; the next string has the next channel
+    /// [default: 1].
+    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=16))]
+    pub first_channel: Option<u8>,
+    /// Whether that is the set-up's first string, the highest on guitars, or its last [default: first_first].
+    #[arg(long, value_name = "ORDER", value_parser = render::parse_choice::<StringOrder>())]
+    pub string_order: Option<StringOrder>,
     /// How far a full turn of the pitch wheel bends, 0 to 96 semitones, unless the song says so itself; in MPE it
     /// is 48.
     #[arg(long, value_name = "SEMITONES", default_value_t = EngineOptions::BEND_RANGE, value_parser = render::parse_bend)]

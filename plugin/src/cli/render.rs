@@ -18,8 +18,8 @@ use crate::controls::Touching;
 use crate::demo;
 use crate::engine::{Engine, EngineOptions};
 use crate::midi_file::{LARGEST_FILE, Selection, Song};
-use crate::params::InputChoice;
-use crate::performance::Compromises;
+use crate::params::{InputChoice, StringOrder};
+use crate::performance::{Compromises, InputMode};
 use files::{Files, stem_paths};
 pub use options::Tail;
 pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
@@ -27,6 +27,7 @@ use playing::{Playing, Rendered};
 
 /// Renders a song.
 pub(super) fn run(arguments: &RenderArgs) -> Outcome {
+    let input = input_mode(arguments)?;
     let setup = instrument::load(&arguments.instrument)?;
     let song = read_song(arguments)?;
     check_length(arguments, &song).with_context(|| song_name(arguments))?;
@@ -41,7 +42,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
     let mut engine = Engine::new(&options).with_context(|| arguments.instrument.clone())?;
-    engine.set_input(arguments.input.mode(arguments.first_channel, arguments.string_order));
+    engine.set_input(input);
     let touching = Touching::new(arguments.variation, arguments.bend_range);
     engine.touch(&Touching { ignore_rpn: arguments.ignore_rpn, ..touching });
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
@@ -52,6 +53,17 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let started = Instant::now();
     let rendered = Playing { engine, song: &song, arguments, files }.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
+}
+
+/// What channels mean; refuses what would say so in vain.
+fn input_mode(arguments: &RenderArgs) -> Result<InputMode, Failure> {
+    let RenderArgs { input, first_channel, string_order, .. } = arguments;
+    let of_strings =
+        [("--first-channel", first_channel.is_some()), ("--string-order", string_order.is_some())];
+    match of_strings.into_iter().find(|&(_, given)| given && *input != InputChoice::Strings) {
+        Some((option, _)) => Err(Failure::Usage(format!("{option} is only for --input strings"))),
+        None => Ok(input.mode(first_channel.unwrap_or(1), string_order.unwrap_or(StringOrder::FirstFirst))),
+    }
 }
 
 /// What the song is called in messages.
@@ -135,7 +147,7 @@ fn check_paths(arguments: &RenderArgs, output: &Path, strings: &[&str]) -> Outco
 /// Tells what came of it.
 fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f64) -> Outcome {
     let Rendered { mix, stems, compromises, lost_events, seconds } = rendered;
-    let Compromises { moved_by_octaves, arpeggiated, left_out, without_string } = compromises;
+    let Compromises { moved_by_octaves, arpeggiated, left_out, without_string, bent_short } = compromises;
     let warn_of = |count: u64, what: &str| {
         if count > 0 {
             say("warning", &format!("{count} {} {what}", if count == 1 { "note was" } else { "notes were" }));
@@ -145,6 +157,7 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     warn_of(*arpeggiated, "played a moment late: more began at once than there were strings for");
     warn_of(*left_out, "left out: more began at once than anybody could play");
     warn_of(*without_string, "left out: no string gives them in any octave, or their channel has none");
+    warn_of(*bent_short, "bent less far than asked: string or finger goes no farther (max_bend)");
     if *lost_events > 0 {
         say("warning", &format!("{lost_events} events were lost: too many at once"));
     }

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use low_action_dsp::Gesture;
 
 use super::fingers::Fingers;
-use super::technique::{BEND_INTERVAL, BEND_RAMP, BEND_SPEED, VIBRATO, VIBRATO_STEP};
+use super::technique::{BEND_INTERVAL, BEND_RAMP, BEND_SPEED, OUT_OF_TUNE, VIBRATO, VIBRATO_STEP};
 use super::{GestureSink, Moment};
 
 /// What is asked of a string and what has been done about it.
@@ -93,8 +93,8 @@ impl Bend {
         self.due
     }
 
-    /// Sends what is due.
-    pub(crate) fn send(&mut self, fingers: &mut Fingers, at: &mut Moment<impl GestureSink>) {
+    /// Sends what is due. Gives back whether wheel and tuning ask for more than string and finger can do.
+    pub(crate) fn send(&mut self, fingers: &mut Fingers, at: &mut Moment<impl GestureSink>) -> bool {
         self.due = None;
         self.ready = at.after(BEND_INTERVAL);
         let asked = self.wheel + self.tuning;
@@ -109,16 +109,19 @@ impl Bend {
         }
         self.followed = asked;
         let mut pulled = self.arm;
+        let reached;
         if fingers.glides() {
             let goal = asked + swing;
-            fingers.glide(goal, duration(goal - self.glided), at);
+            reached = fingers.glide(goal, duration(goal - self.glided), at) - swing;
             self.glided = goal;
         } else {
             let wanted = if asked.abs() > most { asked.round() as i32 } else { 0 };
             if wanted != self.slid {
                 self.slid = fingers.slide(wanted, duration(f64::from(wanted - self.slid)), at);
             }
-            pulled = (asked - f64::from(self.slid)).clamp(-most, most) + self.arm + swing;
+            let tension = (asked - f64::from(self.slid)).clamp(-most, most);
+            reached = f64::from(self.slid) + tension;
+            pulled = tension + self.arm + swing;
         }
         let change = pulled - self.sent;
         if change != 0.0 {
@@ -126,6 +129,7 @@ impl Bend {
             let tension_ratio = fingers.tension_ratio(pulled);
             at.does(Gesture::Bend { tension_ratio, duration: duration(change) });
         }
+        (asked - reached).abs() > OUT_OF_TUNE
     }
 
     /// Sees to it that a change is sent.

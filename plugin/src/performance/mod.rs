@@ -228,6 +228,7 @@ impl Performance {
     fn advance_strings(&mut self, until: u64, out: &mut impl GestureSink) {
         for string in &mut self.strings {
             string.advance(until, out);
+            self.compromises.bent_short += string.take_bent_short();
         }
         self.now = until;
     }

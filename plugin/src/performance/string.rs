@@ -45,6 +45,8 @@ pub(crate) struct StringPlayer {
     tremolo: f64,
     /// Whether it sounds without a note, by somebody who sees it.
     touched: bool,
+    /// Notes bent less far than asked, since that was last asked for.
+    bent_short: u64,
 }
 
 /// Most keys that are remembered under the one that sounds.
@@ -65,6 +67,7 @@ impl StringPlayer {
             deeds: Deeds::default(),
             tremolo: 0.0,
             touched: false,
+            bent_short: 0,
         }
     }
 
@@ -79,6 +82,7 @@ impl StringPlayer {
         self.deeds = Deeds::default();
         self.tremolo = 0.0;
         self.touched = false;
+        self.bent_short = 0;
     }
 
     /// What the string is doing, for the choice of strings.
@@ -149,6 +153,7 @@ impl StringPlayer {
             strength,
             bar: stop == Stop::Bar,
             slide: (slide || stop == Stop::Bar).then_some(slide_time),
+            bent_short: false,
         });
         self.tremolo = tremolo;
         self.bend.begin(start.channel);
@@ -244,6 +249,11 @@ impl StringPlayer {
         self.bend.ask(time, channel, semitones);
     }
 
+    /// Notes bent less far than asked, since this was last called.
+    pub(crate) fn take_bent_short(&mut self) -> u64 {
+        std::mem::take(&mut self.bent_short)
+    }
+
     /// Does what has fallen due before `until`, in order of time.
     pub(crate) fn advance(&mut self, until: u64, out: &mut impl GestureSink) {
         loop {
@@ -257,7 +267,11 @@ impl StringPlayer {
             if let Some((_, step)) = ending.filter(|&(time, _)| time == first) {
                 self.end_by(step, at);
             } else if bend == Some(first) {
-                self.bend.send(&mut self.fingers, &mut at);
+                let short = self.bend.send(&mut self.fingers, &mut at);
+                if let Some(note) = self.note.as_mut().filter(|note| short && !note.bent_short) {
+                    note.bent_short = true;
+                    self.bent_short += 1;
+                }
             } else {
                 self.do_next(&mut at);
             }

@@ -142,17 +142,23 @@ impl Fingers {
         self.slidable().is_some_and(|finger| finger.bar || self.fretless)
     }
 
-    /// Moves a finger that glides to so many semitones from its note.
-    pub(crate) fn glide(&mut self, semitones: f64, duration: f64, at: &mut Moment<impl GestureSink>) {
-        let Some(finger) = self.slidable().filter(|_| semitones != self.glided) else { return };
-        self.glided = semitones;
+    /// Moves a finger that glides to so many semitones from its note, as far as the neck goes. Gives back how many it is
+    /// away then.
+    pub(crate) fn glide(&mut self, semitones: f64, duration: f64, at: &mut Moment<impl GestureSink>) -> f64 {
+        let Some(finger) = self.slidable() else { return 0.0 };
         let last = self.geometry.frets.len() as f64;
         let fret = (finger.fret as f64 + semitones).clamp(0.3, last);
+        let reached = fret - finger.fret as f64;
+        if semitones == self.glided {
+            return reached;
+        }
+        self.glided = semitones;
         // Between two frets the sounding length goes by equal factors.
         let (below, part) = (fret.floor(), fret - fret.floor());
         let sounding = |fret: f64| self.geometry.length - self.place(fret as usize, finger.bar);
         let (long, short) = (sounding(below), sounding((below + 1.0).min(last)));
         let position = self.geometry.length - long * libm::pow(short / long, part);
         at.does(Gesture::Slide { finger: finger.slot, position, duration });
+        reached
     }
 }

@@ -75,4 +75,6 @@ pub(super) struct Note {
     pub bar: bool,
     /// How long a slide to the next note takes, s, if that is how they are connected.
     pub slide: Option<f64>,
+    /// Whether it was bent less far than asked.
+    pub bent_short: bool,
 }
