@@ -4,13 +4,18 @@
 //! touches what it measures. Stored energy lives half way between samples, at n + ½; power at n. The
 //! balance 𝔥ⁿ⁺½ − 𝔥ⁿ⁻½ + k(𝔮 − 𝔭) = 0 holds exactly in exact arithmetic, whatever the solver's cap.
 
+mod rounding;
+mod string;
+
 use crate::drive::Drive;
-use crate::entry::{Energies, Entry, Inputs, Losses};
-use crate::field::{Field, LANES};
+use crate::entry::{Energies, Entry, Inputs};
+use crate::field::Field;
 use crate::finger::Finger;
-use crate::model::{Model, Stiffness};
+use crate::model::Model;
 use crate::state::State;
 use crate::string::Scratch;
+use rounding::gross;
+use string::{Shapes, stiffness_change, string_energy, string_losses};
 
 /// The running ledger of one string.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,30 +40,6 @@ pub struct Ledger {
     /// it is worth, summed over all steps.
     pub rounding: f64,
     shapes: Shapes,
-}
-
-/// The string at the samples n and n + 1, at the nodes in order of place.
-#[derive(Debug, Clone, PartialEq, Default)]
-struct Shapes {
-    now: Vec<f64>,
-    motion_now: Vec<f64>,
-    next: Vec<f64>,
-    motion: Vec<f64>,
-}
-
-impl Shapes {
-    /// Takes uⁿ and dⁿ, and what the state holds at n + 1. Allocates the first time.
-    fn take(&mut self, model: &Model, now: &Field, motion_now: &Field, state: &State) {
-        let arrays = [
-            (&mut self.now, now),
-            (&mut self.motion_now, motion_now),
-            (&mut self.next, &state.displacement),
-            (&mut self.motion, &state.motion),
-        ];
-        for (array, field) in arrays {
-            field.unfold(model.grid.intervals, array);
-        }
-    }
 }
 
 impl Ledger {
@@ -201,171 +182,11 @@ fn book(power: f64, total: &mut f64, term: &mut f64) {
     *term += power;
 }
 
-/// What is added and taken off in a step's balance, J, each part as large as it is however much of it cancels:
-/// a unit in the last place of this is what rounding may do to the balance.
-fn gross(model: &Model, stiffness: &Stiffness, shapes: &Shapes, state: &State, scratch: &Scratch) -> f64 {
-    let (now, next) = (&shapes.now, &shapes.next);
-    let (k, h) = (model.grid.time_step, model.grid.spacing);
-    let string = &model.string;
-    let square = |array: &[f64]| -> f64 { array.iter().map(|d| d * d).sum() };
-    let kinetic =
-        0.5 * string.linear_density * h / (k * k) * (square(&shapes.motion_now) + square(&shapes.motion));
-    // A difference of neighbours is known no better than they are.
-    let size = |i: usize| now[i].abs() + next[i].abs();
-    let slope: f64 = (0..model.grid.intervals)
-        .map(|i| (size(i) + size(i + 1)) * ((now[i + 1] - now[i]).abs() + (next[i + 1] - next[i]).abs()))
-        .sum();
-    // Differences of higher order are at most four times as large each.
-    let h2 = h * h;
-    let per_slope = 0.5 / h
-        * (stiffness.tension
-            + 4.0 * string.linear_density * (stiffness.kappa_2 + 4.0 * stiffness.kappa_6 / h2) / h2);
-    let stretched = if string.tension_modulation {
-        let product = slopes(now, next);
-        // Where the product all but vanishes what is left of it is what the whole sum was rounded by, and its square
-        // never is negative.
-        let summed = slope * (1.0 + model.grid.intervals as f64 / (2 * LANES) as f64);
-        string.axial_stiffness() / (4.0 * string.length * h2)
-            * (product.abs() * slope + f64::EPSILON * summed * summed)
-    } else {
-        0.0
-    };
-    // Forces that were taken back in part were rounded as large as they were.
-    let forces = scratch.tried;
-    let (mut contacts, mut fingers) = (0.0, 0.0);
-    for active in scratch.active.iter() {
-        let (before, after) = (active.before.penetration, active.before.penetration + active.change);
-        let place = before.abs() + active.change.abs() + active.raised.abs();
-        let place = place
-            + active.reading.of(&state.displacement).abs()
-            + active.reading.of(&scratch.displacement).abs();
-        contacts += (active.law.force(before) + active.law.force(after) + active.force.abs()) * place;
-        // A finger's own motion without contact and its answer to the force may all but cancel.
-        let answer = active.own_mobility * active.force.abs();
-        fingers += answer * active.force.abs();
-    }
-    // Each change of penetration is a sum over all forces, and may be off by a last digit for each of them.
-    let sums = scratch.active.len() as f64 * model.mobility * forces * forces;
-    kinetic + per_slope * slope + stretched + contacts + sums + fingers
-}
-
-/// A sum in [`LANES`] parts: rounded a few times less than one after another, which the balance of a sample shows.
-#[derive(Default)]
-struct Sum([f64; LANES]);
-
-impl Sum {
-    #[inline(always)]
-    fn add(&mut self, index: usize, value: f64) {
-        self.0[index % LANES] += value;
-    }
-
-    fn total(&self) -> f64 {
-        let l = &self.0;
-        ((l[0] + l[4]) + (l[1] + l[5])) + ((l[2] + l[6]) + (l[3] + l[7]))
-    }
-}
-
-/// The sum of values, in parts.
-fn sum(values: impl Iterator<Item = f64>) -> f64 {
-    let mut sum = Sum::default();
-    values.enumerate().for_each(|(index, value)| sum.add(index, value));
-    sum.total()
-}
-
-/// Σ of products of neighbours' differences, (δa)ᵀδb over all intervals.
-fn slopes(a: &[f64], b: &[f64]) -> f64 {
-    sum((1..a.len()).map(|i| (a[i] - a[i - 1]) * (b[i] - b[i - 1])))
-}
-
-/// The undivided second difference at an interior node.
-#[inline(always)]
-fn second(u: &[f64], i: usize) -> f64 {
-    (u[i + 1] - u[i]) - (u[i] - u[i - 1])
-}
-
-/// Σ(δ²a)(δ²b) over the unknowns, and Σ(δ³a)(δ³b) over the intervals, δ²u vanishing at both ends.
-fn curvatures(a: &[f64], b: &[f64]) -> (f64, f64) {
-    let (mut second_sum, mut third_sum) = (Sum::default(), Sum::default());
-    let (mut a_before, mut b_before) = (0.0, 0.0);
-    for i in 1..a.len() - 1 {
-        let (va, vb) = (second(a, i), second(b, i));
-        second_sum.add(i, va * vb);
-        third_sum.add(i, (va - a_before) * (vb - b_before));
-        (a_before, b_before) = (va, vb);
-    }
-    (second_sum.total(), third_sum.total() + a_before * b_before)
-}
-
-/// Energy of tension, bending and the stencil's correction between two displacements, J.
-fn stiffness_energy(model: &Model, stiffness: &Stiffness, a: &[f64], b: &[f64], slope: f64) -> f64 {
-    let h = model.grid.spacing;
-    let rho = model.string.linear_density;
-    let (second, third) = curvatures(a, b);
-    let h3 = h * h * h;
-    0.5 * stiffness.tension / h * slope
-        + 0.5 * rho * stiffness.kappa_2 / h3 * second
-        + 0.5 * rho * stiffness.kappa_6 / (h3 * h * h) * third
-}
-
-/// Energies of the string and of tension modulation between uⁿ and uⁿ⁺¹, J.
-fn string_energy(model: &Model, stiffness: &Stiffness, shapes: &Shapes) -> (f64, f64) {
-    let (k, h) = (model.grid.time_step, model.grid.spacing);
-    let string = &model.string;
-    let Shapes { now, next, motion, .. } = shapes;
-    let slope = slopes(now, next);
-    let kinetic = sum(motion.iter().map(|d| d * d));
-    let mut energy = 0.5 * string.linear_density * h / (k * k) * kinetic
-        + stiffness_energy(model, stiffness, now, next, slope);
-    if string.loss_1 > 0.0 {
-        let shear = slopes(motion, motion);
-        energy -= 0.5 * string.linear_density * string.loss_1 / (h * k) * shear;
-    }
-    let stretched = if string.tension_modulation {
-        string.axial_stiffness() / (8.0 * string.length * h * h) * slope * slope
-    } else {
-        0.0
-    };
-    (energy, stretched)
-}
-
 /// A displacement u less its motion d: that of the sample before.
 fn before(displacement: &Field, motion: &Field) -> Field {
     let mut past = displacement.clone();
     past.iter_mut().zip(&**motion).for_each(|(u, d)| *u -= d);
     past
-}
-
-/// Energy that a change of stiffness puts into the string between uⁿ⁻¹ and uⁿ, J.
-fn stiffness_change(model: &Model, new: &Stiffness, old: &Stiffness, shapes: &Shapes) -> f64 {
-    let Shapes { now, motion_now, .. } = shapes;
-    let past: Vec<f64> = now.iter().zip(motion_now).map(|(u, d)| u - d).collect();
-    let slope = slopes(now, &past);
-    let change = Stiffness {
-        tension: new.tension - old.tension,
-        kappa_2: new.kappa_2 - old.kappa_2,
-        kappa_6: new.kappa_6 - old.kappa_6,
-    };
-    stiffness_energy(model, &change, now, &past, slope)
-}
-
-/// Powers lost in the string, W, from its motions dⁿ and dⁿ⁺¹; nothing elsewhere.
-fn string_losses(model: &Model, shapes: &Shapes) -> Losses {
-    let (now, next) = (&shapes.motion_now, &shapes.motion);
-    let (k, h) = (model.grid.time_step, model.grid.spacing);
-    let string = &model.string;
-    let mut losses = Losses::default();
-    if string.loss_0 > 0.0 {
-        let square = sum(now.iter().zip(next).map(|(a, b)| (a + b) * (a + b)));
-        losses.loss_0 = 2.0 * string.linear_density * string.loss_0 * h * square / (4.0 * k * k);
-    }
-    if string.loss_1 > 0.0 {
-        let square = sum((1..now.len()).map(|i| {
-            let shear = (now[i] - now[i - 1]) + (next[i] - next[i - 1]);
-            shear * shear
-        }));
-        losses.loss_1 = 2.0 * string.linear_density * string.loss_1 * square / (4.0 * k * k * h);
-    }
-    losses
 }
 
 /// Σ½(Φⁿ + Φⁿ⁺¹) over board and frets, J.

@@ -1,9 +1,12 @@
 //! A scene: everything there is to simulate, in SI units, as read from a TOML file.
 
+mod check;
+
 use serde::Deserialize;
 
 use crate::curve::{CountOrList, Curve, OneOrEach};
-use crate::error::{Error, plain, within};
+use crate::error::Error;
+use crate::gesture::Touch;
 
 /// A whole simulation: strings, what they may hit, what acts on them, what is listened to.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -29,6 +32,25 @@ pub struct Scene {
     /// What is listened to.
     #[serde(default)]
     pub output: OutputSpec,
+}
+
+impl Scene {
+    /// Reads and checks a scene.
+    ///
+    /// # Errors
+    /// When the text is not TOML, has an unknown key, or a value is outside its range. What depends on
+    /// the grid (a string too short for it, a stiffness too high for it) is refused when the scene is
+    /// built.
+    pub fn from_toml(text: &str) -> Result<Scene, Error> {
+        let scene: Scene = toml::from_str(text).map_err(|error| Error::syntax(&error, text))?;
+        scene.check()?;
+        Ok(scene)
+    }
+
+    /// Number of samples the scene lasts.
+    pub fn samples(&self) -> u64 {
+        (self.duration * self.sample_rate).round() as u64
+    }
 }
 
 /// Speed against accuracy.
@@ -189,6 +211,19 @@ pub struct FingerSpec {
     pub force: Curve,
 }
 
+impl FingerSpec {
+    /// The finger as a mass on a lossy spring.
+    pub fn touch(&self) -> Touch {
+        Touch {
+            mass: self.mass,
+            stiffness: self.stiffness,
+            exponent: self.exponent,
+            damping: self.damping,
+            hand_damping: self.hand_damping,
+        }
+    }
+}
+
 fn no_force() -> Curve {
     Curve::Constant(0.0)
 }
@@ -235,205 +270,4 @@ impl<'de> Deserialize<'de> for ListeningPoint {
         }
         deserializer.deserialize_any(PointVisitor)
     }
-}
-
-/// The most strings, plucks or fingers of a scene, a limit against descriptions that fill the memory.
-const MOST_THINGS: usize = 1000;
-
-/// The most fingers on one string: all that touch each other are solved together, in memory that grows
-/// with their square.
-const MOST_FINGERS: usize = 100;
-
-impl Scene {
-    /// Reads and checks a scene.
-    ///
-    /// # Errors
-    /// When the text is not TOML, has an unknown key, or a value is outside its range. What depends on
-    /// the grid (a string too short for it, a stiffness too high for it) is refused when the scene is
-    /// built.
-    pub fn from_toml(text: &str) -> Result<Scene, Error> {
-        let scene: Scene = toml::from_str(text).map_err(|error| Error::syntax(&error, text))?;
-        scene.check()?;
-        Ok(scene)
-    }
-
-    /// Number of samples the scene lasts.
-    pub fn samples(&self) -> u64 {
-        (self.duration * self.sample_rate).round() as u64
-    }
-
-    /// Refuses every value outside its range, naming it as in the file.
-    pub fn check(&self) -> Result<(), Error> {
-        within("sample_rate", self.sample_rate, 1e3, 1e7, "Hz")?;
-        within("duration", self.duration, 0.0, 1e5, "s")?;
-        self.solver.check()?;
-        if self.string.is_empty() || self.string.len() > MOST_THINGS {
-            let accepted = format!("there must be 1 to {MOST_THINGS} strings");
-            return Err(Error::range("[[string]]", self.string.len(), accepted));
-        }
-        for (name, count) in [("[[pluck]]", self.pluck.len()), ("[[finger]]", self.finger.len())] {
-            if count > MOST_THINGS {
-                return Err(Error::range(name, count, format!("there must be at most {MOST_THINGS}")));
-            }
-        }
-        for (i, string) in self.string.iter().enumerate() {
-            string.check(&format!("string[{}]", i + 1))?;
-        }
-        if let Some(fretboard) = &self.fretboard {
-            fretboard.check()?;
-        }
-        for (i, pluck) in self.pluck.iter().enumerate() {
-            let name = format!("pluck[{}]", i + 1);
-            let length = self.length_of(&name, pluck.string)?;
-            within(&format!("{name}.start"), pluck.start, 0.0, 1e9, "s")?;
-            within(&format!("{name}.duration"), pluck.duration, 0.0, 1e9, "s")?;
-            within(&format!("{name}.force"), pluck.force, -1e6, 1e6, "N")?;
-            on_string(&format!("{name}.position"), pluck.position, length)?;
-        }
-        for (i, finger) in self.finger.iter().enumerate() {
-            let name = format!("finger[{}]", i + 1);
-            let length = self.length_of(&name, finger.string)?;
-            finger.check(&name, length)?;
-        }
-        for number in 1..=self.string.len() {
-            let count = self.finger.iter().filter(|finger| finger.string == number).count();
-            if count > MOST_FINGERS {
-                let accepted = format!("there must be at most {MOST_FINGERS}");
-                return Err(Error::range(format!("number of fingers on string[{number}]"), count, accepted));
-            }
-        }
-        if let ListeningPoint::At(place) = self.output.position {
-            for string in &self.string {
-                on_string("output.position", place, string.length)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn length_of(&self, name: &str, string: usize) -> Result<f64, Error> {
-        let spec = string.checked_sub(1).and_then(|i| self.string.get(i));
-        spec.map(|s| s.length).ok_or_else(|| {
-            Error::range(format!("{name}.string"), string, format!("it must be 1 to {}", self.string.len()))
-        })
-    }
-}
-
-impl SolverSettings {
-    /// Refuses values outside their range.
-    pub fn check(&self) -> Result<(), Error> {
-        within("solver.max_iterations", self.max_iterations as f64, 0.0, 1000.0, "")?;
-        within("solver.tolerance", self.tolerance, 0.0, 1e-3, "m").map(drop)
-    }
-}
-
-impl StringSpec {
-    /// Refuses values outside their range; `name` says which string this is.
-    pub fn check(&self, name: &str) -> Result<(), Error> {
-        within(&format!("{name}.length"), self.length, 1e-3, 1e3, "m")?;
-        within(&format!("{name}.linear_density"), self.linear_density, 1e-7, 1e2, "kg/m")?;
-        self.tension.check(&format!("{name}.tension"), "time", 1e-3, 1e6, "N")?;
-        within(&format!("{name}.youngs_modulus"), self.youngs_modulus, 0.0, 1e13, "Pa")?;
-        within(&format!("{name}.core_radius"), self.core_radius, 0.0, 0.1, "m")?;
-        within(&format!("{name}.loss_0"), self.loss_0, 0.0, 1e4, "1/s")?;
-        within(&format!("{name}.loss_1"), self.loss_1, 0.0, 1e2, "m²/s")?;
-        if let Some(shape) = &self.shape {
-            let name = format!("{name}.shape");
-            Curve::Points(shape.clone()).check(&name, "place", -1.0, 1.0, "m")?;
-            for (i, &[place, _]) in shape.iter().enumerate() {
-                within(&format!("place of point {} of {name}", i + 1), place, 0.0, self.length, "m")?;
-            }
-        }
-        Ok(())
-    }
-}
-
-impl FretboardSpec {
-    fn check(&self) -> Result<(), Error> {
-        crate::contact::ContactLaw::new("fretboard", self.stiffness, self.exponent)?;
-        within("fretboard.damping", self.damping, 0.0, 1e5, "s/m")?;
-        if let Some(board) = &self.board {
-            board.check("fretboard.board", "place", -10.0, 0.0, "m")?;
-        }
-        if let Some(spacing) = self.board_reference_spacing {
-            within("fretboard.board_reference_spacing", spacing, 1e-6, 1e3, "m")?;
-        }
-        let count = match &self.frets {
-            CountOrList::Count(count) => *count,
-            CountOrList::List(places) => {
-                for (i, &place) in places.iter().enumerate() {
-                    within(&format!("fretboard.frets[{}]", i + 1), place, 0.0, 1e3, "m")?;
-                }
-                places.len()
-            }
-        };
-        match &self.fret_top {
-            None if count > 0 => Err(Error::range(
-                "fretboard.fret_top",
-                "nothing",
-                "frets need the height of their crowns, -10 to 0 m",
-            )),
-            None => Ok(()),
-            Some(OneOrEach::One(height)) => within("fretboard.fret_top", *height, -10.0, 0.0, "m").map(drop),
-            Some(OneOrEach::Each(heights)) if heights.len() != count => Err(Error::range(
-                "fretboard.fret_top",
-                format!("{} heights", heights.len()),
-                format!("it must be one height, or one for each of the {count} frets"),
-            )),
-            Some(OneOrEach::Each(heights)) => {
-                for (i, &height) in heights.iter().enumerate() {
-                    within(&format!("fretboard.fret_top[{}]", i + 1), height, -10.0, 0.0, "m")?;
-                }
-                Ok(())
-            }
-        }
-    }
-}
-
-impl FingerSpec {
-    fn check(&self, name: &str, length: f64) -> Result<(), Error> {
-        self.touch().check(name)?;
-        within(&format!("{name}.height"), self.height, -10.0, 10.0, "m")?;
-        within(&format!("{name}.velocity"), self.velocity, -1e3, 1e3, "m/s")?;
-        self.force.check(&format!("{name}.force"), "time", -1e6, 1e6, "N")?;
-        match &self.position {
-            Curve::Constant(place) => on_string(&format!("{name}.position"), *place, length)?,
-            Curve::Points(points) => {
-                self.position.check(&format!("{name}.position"), "time", f64::MIN, f64::MAX, "m")?;
-                for (i, point) in points.iter().enumerate() {
-                    on_string(&format!("value of point {} of {name}.position", i + 1), point[1], length)?;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// The finger as a mass on a lossy spring.
-    pub fn touch(&self) -> crate::gesture::Touch {
-        crate::gesture::Touch {
-            mass: self.mass,
-            stiffness: self.stiffness,
-            exponent: self.exponent,
-            damping: self.damping,
-            hand_damping: self.hand_damping,
-        }
-    }
-}
-
-impl crate::gesture::Touch {
-    /// Refuses values outside their range; `name` says whose they are.
-    pub fn check(&self, name: &str) -> Result<(), Error> {
-        within(&format!("{name}.mass"), self.mass, 1e-7, 1e3, "kg")?;
-        crate::contact::ContactLaw::new(name, self.stiffness, self.exponent)?;
-        within(&format!("{name}.damping"), self.damping, 0.0, 1e5, "s/m")?;
-        within(&format!("{name}.hand_damping"), self.hand_damping, 0.0, 1e5, "N s/m").map(drop)
-    }
-}
-
-/// Refuses a place that is not strictly between the ends of a string.
-fn on_string(name: &str, place: f64, length: f64) -> Result<(), Error> {
-    if place.is_finite() && place > 0.0 && place < length {
-        return Ok(());
-    }
-    let accepted = format!("it must lie on the string, above 0 and below {} m", plain(length));
-    Err(Error::range(name, plain(place), accepted))
 }

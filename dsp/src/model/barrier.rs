@@ -1,0 +1,103 @@
+//! Board and frets under one string, and the contacts that they are over a grid.
+
+use super::{Contact, ContactKind};
+use crate::contact::ContactLaw;
+use crate::curve::{CountOrList, Curve, OneOrEach};
+use crate::error::Error;
+use crate::grid::{Grid, Reading};
+use crate::scene::{FretPlacement, FretboardSpec};
+
+/// Board and frets under one string.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Barrier {
+    /// Contact law of a fret, and of a board point unless `board_reference_spacing` is given.
+    pub law: ContactLaw,
+    /// Hunt–Crossley damping of board and frets, s/m.
+    pub damping: f64,
+    /// Height of the board, m, over places, m; none beyond the ends of its points.
+    pub board: Option<Curve>,
+    /// Places, m from the nut, and heights, m, of the crowns.
+    pub frets: Vec<[f64; 2]>,
+    /// Where frets act on the grid.
+    pub placement: FretPlacement,
+    /// Spacing for which the law's stiffness holds at board points, m.
+    pub board_reference_spacing: Option<f64>,
+}
+
+impl Barrier {
+    /// The barrier of a scene under a string of the given length.
+    pub fn from_spec(spec: &FretboardSpec, length: f64) -> Result<Self, Error> {
+        let places: Vec<f64> = match &spec.frets {
+            // Equal temperament: fret m leaves 2^(−m/12) of the string.
+            CountOrList::Count(count) => {
+                (1..=*count).map(|m| length * (1.0 - libm::exp2(-(m as f64) / 12.0))).collect()
+            }
+            CountOrList::List(places) => places.clone(),
+        };
+        let height = |i: usize| match &spec.fret_top {
+            None => 0.0,
+            Some(OneOrEach::One(height)) => *height,
+            Some(OneOrEach::Each(heights)) => heights[i],
+        };
+        Ok(Barrier {
+            law: ContactLaw::new("fretboard", spec.stiffness, spec.exponent)?,
+            damping: spec.damping,
+            board: spec.board.clone(),
+            frets: places.iter().enumerate().map(|(i, &x)| [x, height(i)]).collect(),
+            placement: spec.fret_placement,
+            board_reference_spacing: spec.board_reference_spacing,
+        })
+    }
+
+    /// The contacts over a grid, in order of place. Where several share a point, the highest stands
+    /// for all: the barrier is one height at each point, and a fret at a grid point replaces the board.
+    pub(super) fn contacts(&self, grid: &Grid) -> Result<Vec<Contact>, Error> {
+        let mut contacts = Vec::new();
+        let damping = self.damping;
+        if let Some(board) = &self.board {
+            let scale = self.board_reference_spacing.map_or(1.0, |spacing| grid.spacing / spacing);
+            let law = self.law.with_stiffness(self.law.stiffness() * scale);
+            for node in 1..grid.intervals {
+                let place = grid.place(node);
+                let beyond = match board {
+                    Curve::Constant(_) => false,
+                    Curve::Points(p) => place < p[0][0] || place > p[p.len() - 1][0],
+                };
+                if !beyond {
+                    let reading = Reading::at_node(grid, node);
+                    let kind = ContactKind::Board { node };
+                    contacts.push(Contact {
+                        place,
+                        reading,
+                        law,
+                        damping,
+                        height: board.at(place),
+                        radiation: 0.0,
+                        kind,
+                    });
+                }
+            }
+        }
+        for (index, &[place, height]) in self.frets.iter().enumerate() {
+            grid.check_place(&format!("fretboard.frets[{}]", index + 1), place)?;
+            let (place, reading) = match self.placement {
+                FretPlacement::Exact | FretPlacement::Kinked => (place, grid.reading(place)),
+                FretPlacement::Nearest => {
+                    let node = ((place / grid.spacing).round() as usize).clamp(1, grid.intervals - 1);
+                    (grid.place(node), Reading::at_node(grid, node))
+                }
+            };
+            let kind = ContactKind::Fret { index };
+            let fret = Contact { place, reading, law: self.law, damping, height, radiation: 0.0, kind };
+            let same = contacts.iter().position(|other| other.reading == reading);
+            match same {
+                Some(i) if matches!(contacts[i].kind, ContactKind::Board { .. }) => contacts[i] = fret,
+                Some(i) if contacts[i].height >= height => {}
+                Some(i) => contacts[i] = fret,
+                None => contacts.push(fret),
+            }
+        }
+        contacts.sort_by(|a, b| a.place.total_cmp(&b.place));
+        Ok(contacts)
+    }
+}

@@ -1,0 +1,54 @@
+//! The physical numbers of one string.
+
+use crate::scene::StringSpec;
+
+/// The physical numbers of one string.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StringParameters {
+    /// Length, m.
+    pub length: f64,
+    /// Mass per length, kg/m.
+    pub linear_density: f64,
+    /// Tension at rest, N.
+    pub tension: f64,
+    /// The largest tension that bends will reach, N; the grid is made for it.
+    pub tension_limit: f64,
+    /// Young's modulus of the core, Pa.
+    pub youngs_modulus: f64,
+    /// Radius of the core, m.
+    pub core_radius: f64,
+    /// Loss of all frequencies alike, 1/s.
+    pub loss_0: f64,
+    /// Loss that grows with frequency, m²/s.
+    pub loss_1: f64,
+    /// Whether stretching raises the tension.
+    pub tension_modulation: bool,
+}
+
+impl StringParameters {
+    /// The string of a scene at its first moment.
+    pub fn from_spec(spec: &StringSpec) -> Self {
+        StringParameters {
+            length: spec.length,
+            linear_density: spec.linear_density,
+            tension: spec.tension.at(0.0),
+            tension_limit: spec.tension.largest(),
+            youngs_modulus: spec.youngs_modulus,
+            core_radius: spec.core_radius,
+            loss_0: spec.loss_0,
+            loss_1: spec.loss_1,
+            tension_modulation: spec.tension_modulation,
+        }
+    }
+
+    /// Axial stiffness EA, N, of the core.
+    pub fn axial_stiffness(&self) -> f64 {
+        self.youngs_modulus * std::f64::consts::PI * self.core_radius * self.core_radius
+    }
+
+    /// κ² = EI/ρ, m⁴/s².
+    pub fn kappa_squared(&self) -> f64 {
+        let r = self.core_radius;
+        self.youngs_modulus * std::f64::consts::PI * r * r * r * r / 4.0 / self.linear_density
+    }
+}

@@ -1,0 +1,92 @@
+//! Springs against what answers them: (1 + D M) x = D g solved for a few unknowns, and for any number.
+
+use nalgebra::linalg::Cholesky;
+use nalgebra::{DVectorViewMut, Dyn, OMatrix, VecStorage};
+
+/// Up to so many unknowns rows are multiplied by the pivots.
+const MULTIPLIED: usize = 4;
+
+/// Solves (1 + D M) x = D g by elimination without pivots. None are needed: where a slope is 0 its row is done, and
+/// the others are those of the positive D⁻¹ + M, scaled, so that every pivot is at least 1. The last two unknowns are found
+/// together, and up to four rows are multiplied by the pivot and not divided by it, so that only one division is waited
+/// for. (For so few unknowns what counts is how long each operation waits for the one before. With more of them the
+/// products of steep slopes could pass the largest number.)
+#[inline(always)]
+#[expect(clippy::needless_range_loop, reason = "indices are how the formulas are written")]
+pub(super) fn springs_of_few<const N: usize>(
+    entry: impl Fn(usize, usize) -> f64,
+    slopes: &[f64],
+    x: &mut [f64],
+) {
+    let mut a = [[0.0; N]; N];
+    for i in 0..N {
+        for j in 0..N {
+            a[i][j] = slopes[i] * entry(i, j);
+        }
+        a[i][i] += 1.0;
+        x[i] *= slopes[i];
+    }
+    let Some(pair) = N.checked_sub(2) else {
+        x[0] /= a[0][0];
+        return;
+    };
+    let mut inverses = [0.0; N];
+    for j in 0..pair {
+        inverses[j] = 1.0 / a[j][j];
+        for i in j + 1..N {
+            let (pivot, share) =
+                if N > MULTIPLIED { (1.0, a[i][j] * inverses[j]) } else { (a[j][j], a[i][j]) };
+            for k in j + 1..N {
+                a[i][k] = pivot * a[i][k] - share * a[j][k];
+            }
+            x[i] = pivot * x[i] - share * x[j];
+        }
+    }
+    let last = pair + 1;
+    let inverse = 1.0 / (a[pair][pair] * a[last][last] - a[pair][last] * a[last][pair]);
+    let found = [
+        inverse * (a[last][last] * x[pair] - a[pair][last] * x[last]),
+        inverse * (a[pair][pair] * x[last] - a[last][pair] * x[pair]),
+    ];
+    x[pair..N].copy_from_slice(&found);
+    for j in (0..pair).rev() {
+        for k in j + 1..N {
+            x[j] -= a[j][k] * x[k];
+        }
+        x[j] *= inverses[j];
+    }
+}
+
+/// The same for any size: x = √D y with (1 + √D M √D) y = √D g, which is symmetric. Memory is lent to nalgebra and
+/// taken back, so nothing is allocated.
+pub(super) fn springs_of_any(
+    room: &mut Vec<f64>,
+    roots: &mut Vec<f64>,
+    entries: &[f64],
+    slopes: &[f64],
+    x: &mut [f64],
+) {
+    let n = slopes.len();
+    roots.clear();
+    roots.extend(slopes.iter().map(|slope| slope.sqrt()));
+    let mut data = std::mem::take(room);
+    data.clear();
+    for j in 0..n {
+        data.extend((0..n).map(|i| {
+            let entry = roots[i] * entries[i * n + j] * roots[j];
+            if i == j { 1.0 + entry } else { entry }
+        }));
+    }
+    x.iter_mut().zip(&*roots).for_each(|(x, root)| *x *= root);
+    let storage = VecStorage::new(Dyn(n), Dyn(n), data);
+    let matrix = OMatrix::<f64, Dyn, Dyn>::from_data(storage);
+    match Cholesky::new(matrix) {
+        Some(factor) => {
+            factor.solve_mut(&mut DVectorViewMut::from_slice(x, n));
+            *room = factor.unpack_dirty().data.into();
+        }
+        // Overflow only; the caller's energy test then falls back on a stiffer secant.
+        None => *room = Vec::new(),
+    }
+    x.iter_mut().zip(&*roots).for_each(|(x, root)| *x *= root);
+}

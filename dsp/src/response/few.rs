@@ -1,0 +1,41 @@
+//! The answer of a few contacts, whole.
+
+use super::Row;
+use super::elimination::springs_of_few;
+use crate::solver::Answer;
+
+/// The answer matrix of a few contacts, whole, in any order.
+pub(crate) struct Few<const N: usize> {
+    entries: [[f64; N]; N],
+}
+
+impl<const N: usize> Few<N> {
+    /// Gathers M.
+    #[inline(always)]
+    pub fn gather<R: Row>(rows: &[R; N], pull_factor: f64) -> Self {
+        let mut entries = [[0.0; N]; N];
+        for i in 0..N {
+            for j in 0..=i {
+                let string = rows[i].coupling(&rows[j]);
+                entries[i][j] = string - pull_factor * (rows[i].pull() * rows[j].pull());
+                entries[j][i] = entries[i][j];
+            }
+            entries[i][i] += rows[i].own_mobility();
+        }
+        Few { entries }
+    }
+}
+
+impl<const N: usize> Answer for Few<N> {
+    #[inline(always)]
+    fn product(&self, x: &[f64], out: &mut [f64]) {
+        for (out, row) in out.iter_mut().zip(&self.entries) {
+            *out = row.iter().zip(x).map(|(m, x)| m * x).sum();
+        }
+    }
+
+    #[inline(always)]
+    fn springs(&mut self, slopes: &[f64], x: &mut [f64]) {
+        springs_of_few::<N>(|i, j| self.entries[i][j], slopes, x);
+    }
+}

@@ -1,0 +1,220 @@
+//! One string of a running scene: the forces and positions that the scene has act on it.
+
+use crate::curve::Curve;
+use crate::drive::{Drive, Push};
+use crate::error::Error;
+use crate::gesture::raised_cosine;
+use crate::grid::Reading;
+use crate::model::{Barrier, ContactKind, Model, StringParameters};
+use crate::pickup::bridge_force;
+use crate::scene::{ListeningPoint, PluckSpec, Scene};
+use crate::solver::Convergence;
+use crate::state::State;
+use crate::string::Scratch;
+
+/// One string of a running scene.
+#[derive(Debug, Clone)]
+pub struct SceneString {
+    /// Coefficients.
+    pub model: Model,
+    /// State at the present sample.
+    pub state: State,
+    /// What the last step did.
+    pub scratch: Scratch,
+    /// What acted in the last step.
+    pub drive: Drive,
+    /// How the last step's contacts were solved.
+    pub convergence: Convergence,
+    plucks: Vec<(PluckSpec, Reading)>,
+    fingers: Vec<SceneFinger>,
+    pub(super) tension: Curve,
+    /// The tension, N, if it stays as it is and nothing of the scene acts on the string: what most steps need not ask for.
+    steady: Option<f64>,
+    listening: Option<Reading>,
+    fret_count: usize,
+}
+
+/// How a finger of a running scene is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FingerReport {
+    /// Index in the scene's list, 0 for the first.
+    pub number: usize,
+    /// Height of its pad, m.
+    pub height: f64,
+    /// Its force on the string in the last step, N, downward.
+    pub force: f64,
+}
+
+#[derive(Debug, Clone)]
+struct SceneFinger {
+    /// Index in the scene's list.
+    number: usize,
+    position: Curve,
+    force: Curve,
+}
+
+/// When a step is taken.
+#[derive(Clone, Copy)]
+pub(super) struct Clock {
+    pub step: u64,
+    pub sample_rate: f64,
+}
+
+impl Clock {
+    /// Time so many samples after the one that the step leads from, s.
+    fn at(self, later: u64) -> f64 {
+        // (A signed number of steps turns into a float in one instruction.)
+        (self.step + later).cast_signed() as f64 / self.sample_rate
+    }
+}
+
+impl SceneString {
+    pub(super) fn new(scene: &Scene, index: usize) -> Result<SceneString, Error> {
+        let spec = &scene.string[index];
+        let number = index + 1;
+        let fingers: Vec<_> =
+            scene.finger.iter().enumerate().filter(|(_, finger)| finger.string == number).collect();
+        let barrier = scene.fretboard.as_ref().map(|b| Barrier::from_spec(b, spec.length)).transpose()?;
+        let parameters = StringParameters::from_spec(spec);
+        let model = Model::new(parameters, barrier.as_ref(), fingers.len(), scene.solver, scene.sample_rate)
+            .map_err(|error| error.under(&format!("string[{number}]")))?;
+        let mut state = State::new(&model);
+        if let Some(shape) = &spec.shape {
+            state.set_shape(&model, &Curve::Points(shape.clone()));
+        }
+        for (slot, (finger_index, finger)) in fingers.iter().enumerate() {
+            let place = finger.position.at(0.0);
+            state
+                .place_finger(&model, slot, finger.touch(), place, finger.height, finger.velocity)
+                .map_err(|error| error.under(&format!("finger[{}]", finger_index + 1)))?;
+        }
+        let plucks = scene.pluck.iter().filter(|pluck| pluck.string == number);
+        let steady = match spec.tension {
+            Curve::Constant(tension) if fingers.is_empty() && plucks.clone().next().is_none() => {
+                Some(tension)
+            }
+            _ => None,
+        };
+        let mut drive = Drive::new(&model);
+        drive.pushes.reserve(scene.pluck.len());
+        Ok(SceneString {
+            plucks: plucks.map(|p| (p.clone(), model.grid.reading(p.position))).collect(),
+            fingers: fingers
+                .iter()
+                .map(|(finger_index, finger)| SceneFinger {
+                    number: *finger_index,
+                    position: finger.position.clone(),
+                    force: finger.force.clone(),
+                })
+                .collect(),
+            tension: spec.tension.clone(),
+            steady,
+            fret_count: barrier.as_ref().map_or(0, |barrier| barrier.frets.len()),
+            listening: match scene.output.position {
+                ListeningPoint::Bridge => None,
+                ListeningPoint::At(place) => Some(model.grid.reading(place)),
+            },
+            scratch: Scratch::new(&model),
+            drive,
+            convergence: Convergence::default(),
+            state,
+            model,
+        })
+    }
+
+    /// Fills the drive of the next step.
+    #[inline(always)]
+    pub(super) fn prepare(&mut self, clock: Clock) {
+        self.drive.pushes.clear();
+        self.drive.heights.clear();
+        match self.steady {
+            Some(tension) => self.drive.tension = tension,
+            None => self.follow(clock),
+        }
+    }
+
+    /// Fills the drive by what the scene has happen.
+    #[inline(never)]
+    fn follow(&mut self, clock: Clock) {
+        let (now, next) = (clock.at(0), clock.at(1));
+        self.drive.tension = self.tension.at(now);
+        for (pluck, reading) in &self.plucks {
+            let since = now - pluck.start;
+            if since >= 0.0 && since <= pluck.duration && pluck.force != 0.0 {
+                let force = pluck.force * raised_cosine(since, pluck.duration);
+                self.drive.pushes.push(Push { reading: *reading, force });
+            }
+        }
+        for (hand, finger) in self.drive.hands.iter_mut().zip(&self.fingers) {
+            hand.position = finger.position.at(next);
+            hand.force = finger.force.at(now);
+        }
+    }
+
+    /// Takes the step.
+    pub(super) fn advance(&mut self) {
+        self.convergence = self.state.step(&self.model, &self.drive, &mut self.scratch);
+    }
+
+    pub(super) fn output(&self) -> f64 {
+        match &self.listening {
+            Some(reading) => self.state.velocity_at(&self.model, reading),
+            None => bridge_force(&self.model, &self.scratch),
+        }
+    }
+
+    /// Place of each interior point, m from the nut.
+    pub fn places(&self) -> impl Iterator<Item = f64> + '_ {
+        (1..self.model.grid.intervals).map(|node| self.model.grid.place(node))
+    }
+
+    /// The fingers over this string.
+    pub fn fingers(&self) -> impl Iterator<Item = FingerReport> + '_ {
+        let contacts = self.model.contacts.len();
+        self.fingers.iter().enumerate().map(move |(slot, finger)| {
+            let height = self.state.fingers()[slot].map_or(f64::NAN, |finger| finger.height);
+            let force = self.scratch.forces().find(|(index, _)| *index == contacts + slot);
+            FingerReport { number: finger.number, height, force: force.map_or(0.0, |(_, force)| force) }
+        })
+    }
+
+    /// Sum of the board's forces on the string in the last step, N.
+    pub fn board_force(&self) -> f64 {
+        let contact = |index: usize| self.model.contacts.get(index).map(|contact| contact.kind);
+        let board = |index| matches!(contact(index), Some(ContactKind::Board { .. }));
+        // Not `sum`, which makes nothing a negative zero.
+        self.scratch.forces().filter(|(index, _)| board(*index)).fold(0.0, |sum, (_, force)| sum + force)
+    }
+
+    /// Force of each fret on the string in the last step, N: (fret of the barrier's list, force), for
+    /// those in contact.
+    pub fn fret_forces(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.scratch.forces().filter_map(|(index, force)| {
+            match self.model.contacts.get(index).map(|contact| contact.kind) {
+                Some(ContactKind::Fret { index: fret }) => Some((fret, force)),
+                _ => None,
+            }
+        })
+    }
+
+    /// Number of frets under the string, those that share a point with a higher one included.
+    pub fn fret_count(&self) -> usize {
+        self.fret_count
+    }
+
+    /// Whether there is a back board under the string.
+    pub fn has_board(&self) -> bool {
+        self.model.contacts.iter().any(|contact| matches!(contact.kind, ContactKind::Board { .. }))
+    }
+
+    /// How far board and frets are pressed in where they are most after the last step, m; 0 where the string
+    /// touches nothing.
+    pub fn penetration(&self) -> f64 {
+        let fixed = self.scratch.forces().filter_map(|(index, _)| {
+            let contact = self.model.contacts.get(index)?;
+            let penetration = self.state.heights()[index] - self.state.displacement_at(&contact.reading);
+            Some(contact.pressed_in(penetration))
+        });
+        fixed.fold(0.0, f64::max)
+    }
+}
