@@ -1,0 +1,9 @@
+//! The promise of `low-action render`: it plays what can be played, refuses the rest in one clear line
+//! with the right exit code, and never leaves half a file. Run on the program itself.
+
+// A panic is a test's report.
+#![allow(clippy::unwrap_used)]
+
+mod refusals;
+mod room;
+mod sounds;

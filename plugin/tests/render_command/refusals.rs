@@ -1,0 +1,204 @@
+//! The rest is refused in one line, and nothing is left or lost.
+
+use std::fs;
+
+use crate::room::{Room, midi, peak, song};
+
+#[test]
+fn wrong_usage_is_code_2() {
+    let room = Room::new();
+    for (arguments, expected) in [
+        (&["render", "song.mid", "--sample-rate", "0"][..], "8000 to 384000"),
+        (&["render", "song.mid", "--sample-rate", "-48000"], "8000 to 384000"),
+        (&["render", "song.mid", "--sample-rate", "1e12"], "'1e12' for '--sample-rate <HZ>': must be"),
+        (&["render", "song.mid", "--bit-depth", "20"], "16, 24 or 32f"),
+        (&["render", "song.mid", "--tail", "-1"], "auto, none or 0 to 3600"),
+        (&["render", "song.mid", "--tail", "nan"], "auto, none or 0 to 3600"),
+        (&["render", "song.mid", "--tail", "1e18"], "auto, none or 0 to 3600"),
+        (&["render", "song.mid", "--quality", "best"], "draft, live, studio or reference"),
+        (
+            &["render", "song.mid", "--channel", "17"],
+            "'17' for '--channel <N>': must be a whole number from 1 to 16",
+        ),
+        (&["render", "song.mid", "--channel", "1.5"], "must be a whole number from 1 to 16"),
+        (
+            &["render", "song.mid", "--track", "0"],
+            "'0' for '--track <N>': must be a whole number from 1 to 65535",
+        ),
+        (&["render", "song.mid", "--max-length", "0"], "above 0"),
+        (&["render", "song.mid", "--variation", "2"], "0 to 1"),
+        (&["render", "song.mid", "--instrument", "banjo"], "electric, classical, steel, bass"),
+        (&["render", "song.mid", "--input", "guitar"], "auto, keyboard, strings, mpe"),
+        (&["render", "song.mid", "--first-channel", "0"], "must be a whole number from 1 to 16"),
+        (&["render", "song.mid", "--string-order", "up"], "first_first, last_first"),
+        (&["render", "song.mid", "--first-channel", "2"], "--first-channel is only for --input strings"),
+        (
+            &["render", "song.mid", "--input", "mpe", "--string-order", "last_first"],
+            "--string-order is only for --input strings",
+        ),
+        (&["render", "song.mid", "--bend-range", "97"], "0 to 96 semitones"),
+        (&["render", "song.mid", "more.mid"], "more.mid"),
+        (
+            &["render", "song.mid", "--seed", "-1"],
+            "'-1' for '--seed <N>': must be a whole number from 0 to 184467",
+        ),
+        (
+            &["render", "song.mid", "--seed", "1.5"],
+            "must be a whole number from 0 to 18446744073709551615 (see",
+        ),
+        (&["render", "--bogus"], "'--bogus' found (see low-action render --help)"),
+        (
+            &["render", "--qualty", "studio"],
+            "found; tip: a similar argument exists: '--quality' (see low-action render --help)",
+        ),
+        (&["instruments", "--bogus"], "(see low-action instruments --help)"),
+        (&["--bogus"], "(see low-action --help)"),
+        (&["sing"], "sing"),
+    ] {
+        let said = room.refuses(2, arguments);
+        assert!(said.contains(expected), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
+    let room = Room::new();
+    let whole = song();
+    fs::write(room.path("cut.mid"), &whole[..whole.len() - 9]).unwrap();
+    fs::write(room.path("text.mid"), "not music").unwrap();
+    fs::write(room.path("empty"), "").unwrap();
+    fs::create_dir(room.path("folder")).unwrap();
+    fs::write(room.path("bad.toml"), "name = \"x\"\nbogus = 1\n").unwrap();
+    let electric = include_str!("../../../dsp/instruments/electric.toml");
+    fs::write(room.path("heavy.toml"), electric.replace("mass = ", "mass = -")).unwrap();
+    for (arguments, expected) in [
+        (&["render", "missing.mid"][..], "cannot read missing.mid"),
+        (&["render", "folder"], "folder"),
+        (&["render", "text.mid"], "not a MIDI file"),
+        (&["render", "empty"], "not a MIDI file"),
+        (&["render", "cut.mid"], "truncated MIDI file"),
+        (&["render", "song.mid", "--track", "2"], "--track takes 1 to 1"),
+        (&["render", "song.mid", "-o", "no/such/folder/x.wav"], "cannot write no/such/folder/x.wav"),
+        (&["render", "song.mid", "-o", "text.mid/x.wav"], "cannot write text.mid/x.wav"),
+        (&["render", "song.mid", "-o", "folder"], "it is a folder"),
+        (&["render", "song.mid", "--stems", "text.mid"], "cannot make the folder text.mid"),
+        (&["render", "song.mid", "--instrument", "missing.toml"], "missing.toml"),
+        (&["render", "song.mid", "--instrument", "bad.toml"], "bogus"),
+        (&["render", "song.mid", "--instrument", "heavy.toml"], "mass"),
+        (&["render", "song.mid", "--instrument", "song.mid"], "song.mid"),
+    ] {
+        let said = room.refuses(1, arguments);
+        assert!(said.contains(expected), "{arguments:?}: {said}");
+    }
+    assert_eq!(fs::read(room.path("song.mid")).unwrap(), whole);
+}
+
+#[test]
+fn no_sound_takes_the_place_of_another_or_of_what_it_is_made_from() {
+    let room = Room::new();
+    let own = "name = \"own\"\ndescription = \"mine\"\nbased_on = \"electric\"\n";
+    fs::write(room.path("own.toml"), own).unwrap();
+    fs::create_dir(room.path("same")).unwrap();
+    fs::write(room.path("same/1-E4.wav"), song()).unwrap();
+    for (arguments, expected) in [
+        (&["render", "song.mid", "-o", "song.mid"][..], ["the song", "song.mid"]),
+        (&["render", "song.mid", "-o", "./same/../song.mid"], ["the song", "song.mid"]),
+        (&["render", "song.mid", "-i", "own.toml", "-o", "./own.toml"], ["the instrument", "own.toml"]),
+        (&["render", "same/1-E4.wav", "-o", "x.wav", "--stems", "same"], ["the song", "string E4"]),
+        (&["render", "song.mid", "-o", "new/1-E4.wav", "--stems", "./new"], ["the sound", "string E4"]),
+    ] {
+        let said = room.refuses(2, arguments);
+        let all = expected.iter().chain(&["name the same file"]).all(|word| said.contains(word));
+        assert!(all, "{arguments:?}: {said}");
+    }
+    assert_eq!(fs::read(room.path("song.mid")).unwrap(), song());
+    assert_eq!(fs::read(room.path("same/1-E4.wav")).unwrap(), song());
+    assert_eq!(fs::read_to_string(room.path("own.toml")).unwrap(), own);
+    assert!(!room.path("new").exists() && !room.path("x.wav").exists());
+}
+
+#[test]
+fn names_of_any_length_become_names_of_files() {
+    let room = Room::new();
+    let own = "name = \"own\"\ndescription = \"mine\"\nbased_on = \"electric\"\n[[string]]\nname = \"";
+    fs::write(room.path("own.toml"), format!("{own}{}\"\n", "E/é".repeat(200))).unwrap();
+    room.renders(&["song.mid", "-i", "own.toml", "--stems", "stems", "--tail", "none"]);
+    assert_eq!(fs::read_dir(room.path("stems")).unwrap().count(), 6);
+}
+
+#[test]
+fn an_hour_is_the_limit_unless_another_is_named() {
+    let room = Room::new();
+    // 17 seconds a beat, and two notes 240 beats apart: 68 minutes.
+    let slow: [u8; 6] = [0xFF, 0x51, 3, 0xFF, 0xFF, 0xFF];
+    let mut events: Vec<(u8, &[u8])> = vec![(0, &slow), (0, &[0x90, 60, 90])];
+    events.extend(std::iter::repeat_n((96, &[0xB0, 7, 100][..]), 242));
+    events.push((96, &[0x80, 60, 0]));
+    fs::write(room.path("long.mid"), midi(&events)).unwrap();
+    let said = room.refuses(1, &["render", "long.mid"]);
+    assert!(
+        said.contains("long.mid")
+            && said.contains("minutes")
+            && said.contains("limit of 60")
+            && said.contains("--max-length"),
+        "{said}"
+    );
+    // More than a WAV file holds, whatever is allowed.
+    let most =
+        ["render", "long.mid", "--max-length", "1000", "--sample-rate", "384000", "--bit-depth", "32f"];
+    assert!(room.refuses(1, &most).contains("do not fit in a WAV file"));
+    // The limit can be lowered, too.
+    let said = room.refuses(1, &["render", "song.mid", "--max-length", "0.001"]);
+    assert!(said.contains("limit of 0.001"), "{said}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn devices_are_written_directly() {
+    let room = Room::new();
+    room.renders(&["song.mid", "-o", "/dev/null"]);
+    let said = room.refuses(1, &["render", "song.mid", "-o", "/dev/full"]);
+    assert!(said.contains("cannot write /dev/full") && said.contains("space"), "{said}");
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let output = room.command(&["render", "song.mid", "-o", "-"]).stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    // An endless source ends and is refused.
+    assert!(room.refuses(1, &["render", "/dev/zero"]).contains("at most"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link() {
+    let room = Room::new();
+    fs::write(room.path("real.wav"), "old").unwrap();
+    std::os::unix::fs::symlink("real.wav", room.path("link.wav")).unwrap();
+    room.renders(&["song.mid", "-o", "link.wav"]);
+    assert!(fs::symlink_metadata(room.path("link.wav")).unwrap().is_symlink());
+    assert!(peak(&room.path("real.wav")) > 0.01);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_who_has_seen_enough_of_the_help_is_no_failure() {
+    let room = Room::new();
+    for arguments in [&["--help"][..], &["render", "--help"], &["--version"]] {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = room.command(arguments).stdout(writer).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), said.as_str()), (Some(0), ""), "{arguments:?}");
+    }
+}
+
+#[test]
+fn without_a_command_it_says_how_to_get_the_instrument() {
+    let room = Room::new();
+    if !cfg!(feature = "standalone") {
+        assert!(room.refuses(2, &[]).contains("--features standalone"));
+    }
+    for arguments in [&["--help"][..], &["render", "--help"], &["scene", "--help"], &["--version"]] {
+        let output = room.run(arguments);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(output.stderr.is_empty() && !output.stdout.is_empty());
+    }
+}

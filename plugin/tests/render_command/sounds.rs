@@ -1,0 +1,251 @@
+//! What can be played is, as asked.
+
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::Stdio;
+
+use hound::{SampleFormat, WavReader};
+
+use crate::room::{Room, midi, peak, song};
+
+#[test]
+fn a_song_becomes_a_24_bit_stereo_file_named_after_it() {
+    let room = Room::new();
+    fs::create_dir(room.path("songs")).unwrap();
+    fs::rename(room.path("song.mid"), room.path("songs/two.notes.mid")).unwrap();
+    let said = room.renders(&["songs/two.notes.mid"]);
+    assert!(said.starts_with("two.notes.wav: ") && said.lines().count() == 1, "{said}");
+    let reader = WavReader::open(room.path("two.notes.wav")).unwrap();
+    let spec = reader.spec();
+    assert_eq!((spec.channels, spec.sample_rate, spec.bits_per_sample), (2, 48_000, 24));
+    assert_eq!(spec.sample_format, SampleFormat::Int);
+    // A quarter of a second and the tail of damped strings.
+    let seconds = f64::from(reader.duration()) / 48_000.0;
+    assert!((0.35..1.5).contains(&seconds), "{seconds} s");
+    assert!(peak(&room.path("two.notes.wav")) > 0.01);
+    // Nothing else is left in the folder, and the file has ordinary permissions.
+    assert_eq!(room.files(), [room.path("songs"), room.path("two.notes.wav")]);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        fs::write(room.path("ordinary"), "").unwrap();
+        let mode = |name| fs::metadata(room.path(name)).unwrap().permissions().mode();
+        assert_eq!(mode("two.notes.wav"), mode("ordinary"));
+    }
+}
+
+#[test]
+fn formats_rates_and_tails_are_as_asked() {
+    let room = Room::new();
+    room.renders(&[
+        "song.mid",
+        "-o",
+        "a.wav",
+        "--bit-depth",
+        "16",
+        "--sample-rate",
+        "44100",
+        "--tail",
+        "none",
+    ]);
+    let reader = WavReader::open(room.path("a.wav")).unwrap();
+    assert_eq!((reader.spec().bits_per_sample, reader.spec().sample_rate), (16, 44_100));
+    assert_eq!(reader.duration(), 11_025, "a quarter of a second and not a sample more");
+
+    room.renders(&["song.mid", "-o", "b.wav", "--bit-depth", "32f", "--tail", "0.5"]);
+    let reader = WavReader::open(room.path("b.wav")).unwrap();
+    assert_eq!(reader.spec().sample_format, SampleFormat::Float);
+    assert_eq!(reader.duration(), 36_000);
+
+    for (quality, rate) in [("draft", "8000"), ("studio", "22050"), ("reference", "22050")] {
+        room.renders(&["song.mid", "-o", "c.wav", "--quality", quality, "--sample-rate", rate]);
+        assert!(peak(&room.path("c.wav")) > 0.01, "{quality}");
+    }
+}
+
+#[test]
+fn the_same_bits_on_every_run_and_others_with_another_seed() {
+    let room = Room::new();
+    let render = |options: &[&str]| {
+        room.renders(&[&["song.mid", "-o", "out.wav"], options].concat());
+        fs::read(room.path("out.wav")).unwrap()
+    };
+    let usual = render(&[]);
+    assert!(render(&[]) == usual);
+    assert!(render(&["--seed", "1"]) != usual);
+    assert!(render(&["--variation", "0"]) == render(&["--variation", "0", "--seed", "1"]));
+}
+
+#[test]
+fn stems_are_each_strings_own_sound() {
+    let room = Room::new();
+    room.renders(&["song.mid", "-o", "mix.wav", "--stems", "deep/stems"]);
+    let mut names: Vec<String> = fs::read_dir(room.path("deep/stems"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["1-E4.wav", "2-B3.wav", "3-G3.wav", "4-D3.wav", "5-A2.wav", "6-E2.wav"]);
+    let length = |path: PathBuf| WavReader::open(path).unwrap().duration();
+    for name in &names {
+        assert_eq!(length(room.path("deep/stems").join(name)), length(room.path("mix.wav")));
+    }
+    // B3 is the open second string, and only the two strings that were plucked sound.
+    assert!(peak(&room.path("deep/stems/2-B3.wav")) > 0.01);
+    let sounding = names.iter().filter(|name| peak(&room.path("deep/stems").join(name)) > 0.0).count();
+    assert_eq!(sounding, 2);
+    // With stems or without, the mix is the same.
+    room.renders(&["song.mid", "-o", "alone.wav"]);
+    assert!(fs::read(room.path("mix.wav")).unwrap() == fs::read(room.path("alone.wav")).unwrap());
+}
+
+#[test]
+fn standard_input_and_output_work() {
+    let room = Room::new();
+    room.renders(&["song.mid", "-o", "file.wav"]);
+    let mut child = room
+        .command(&["render", "-", "-o", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(&song()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stdout == fs::read(room.path("file.wav")).unwrap());
+    assert!(String::from_utf8(output.stderr).unwrap().starts_with("standard output: "));
+}
+
+#[test]
+fn the_demo_plays_without_a_song() {
+    let room = Room::new();
+    let said = room.renders(&["--quality", "draft", "--sample-rate", "8000"]);
+    assert!(said.contains("demo.wav"), "{said}");
+    assert!(!said.contains("moved") && !said.contains("left out"), "{said}");
+    let reader = WavReader::open(room.path("demo.wav")).unwrap();
+    assert!((20 * 8_000..40 * 8_000).contains(&reader.duration()));
+}
+
+#[test]
+fn what_plays_differently_from_the_page_is_said_once() {
+    let room = Room::new();
+    let events: [(u8, &[u8]); 7] = [
+        (0, &[0x90, 20, 90]),
+        (0, &[0x90, 120, 90]),
+        (0, &[0x99, 36, 90]),
+        (0, &[0x99, 38, 90]),
+        (24, &[0x80, 20, 0]),
+        (0, &[0x80, 120, 0]),
+        (0, &[0x99, 38, 0]),
+    ];
+    fs::write(room.path("odd.mid"), midi(&events)).unwrap();
+    let said = room.renders(&["odd.mid"]);
+    let warnings: Vec<&str> = said.lines().filter(|line| line.starts_with("warning: ")).collect();
+    assert_eq!(warnings.len(), 2, "{said}");
+    assert!(warnings[0].contains("channel 10") && warnings[0].contains("2 of its notes"), "{said}");
+    assert!(warnings[1].contains("2 notes were moved by octaves"), "{said}");
+
+    // Two octaves up on an open string, three times.
+    let bent: [(u8, &[u8]); 4] =
+        [(0, &[0x90, 64, 90]), (9, &[0xE0, 127, 127]), (9, &[0xE0, 0, 64]), (9, &[0xE0, 127, 127])];
+    fs::write(room.path("bent.mid"), midi(&bent)).unwrap();
+    let said = room.renders(&["bent.mid", "--bend-range", "24", "--tail", "0.1"]);
+    assert!(said.contains("warning: 1 note was bent less far than asked"), "{said}");
+
+    fs::write(room.path("empty.mid"), midi(&[])).unwrap();
+    let said = room.renders(&["empty.mid"]);
+    assert!(said.contains("warning: no notes") && said.contains("silent"), "{said}");
+    assert_eq!(peak(&room.path("empty.wav")), 0.0);
+
+    let chord: Vec<[u8; 3]> = (14..114).map(|key| [0x90, key, 60]).collect();
+    let chord: Vec<(u8, &[u8])> = chord.iter().map(|event| (0, &event[..])).collect();
+    fs::write(room.path("hundred.mid"), midi(&chord)).unwrap();
+    let said = room.renders(&["hundred.mid", "--quality", "draft", "--tail", "0.2"]);
+    assert!(said.contains("94 notes were played a moment late") && !said.contains("left out"), "{said}");
+    // The last of them are heard, too.
+    let seconds = f64::from(WavReader::open(room.path("hundred.wav")).unwrap().duration()) / 48_000.0;
+    assert!((94.0 * 0.07 + 0.2..7.0).contains(&seconds), "{seconds} s");
+}
+
+/// The samples of a string's own sound, the first string first.
+fn stem(room: &Room, number: usize) -> Vec<i32> {
+    let name = ["1-E4", "2-B3", "3-G3", "4-D3", "5-A2", "6-E2"][number - 1];
+    let mut reader = WavReader::open(room.path(&format!("stems/{name}.wav"))).unwrap();
+    reader.samples().map(Result::unwrap).collect()
+}
+
+#[test]
+fn each_channel_of_a_guitar_is_a_string_and_cuts_no_other() {
+    let room = Room::new();
+    fs::write(room.path("canon.mid"), include_bytes!("../../../docs/pieces/midi_guitar.mid")).unwrap();
+    let fast = ["--quality", "draft", "--sample-rate", "8000", "--variation", "0", "--tail", "none"];
+    let render = |options: &[&str]| {
+        let arguments = ["canon.mid", "-o", "out.wav", "--stems", "stems", "--input", "strings"];
+        room.renders(&[&arguments[..], &fast, options].concat())
+    };
+    let said = render(&[]);
+    assert!(!said.contains("warning"), "{said}");
+    let together: Vec<Vec<i32>> = (1..=6).map(|number| stem(&room, number)).collect();
+    assert!(together.iter().all(|sound| sound.iter().any(|&sample| sample != 0)));
+    for (channel, number) in [("1", 1), ("4", 4)] {
+        render(&["--channel", channel]);
+        let alone = stem(&room, number);
+        assert!(alone.len() > 100_000 && together[number - 1][..alone.len()] == alone, "string {number}");
+        let others = (1..=6).filter(|&other| other != number);
+        assert!(others.into_iter().all(|other| stem(&room, other).iter().all(|&sample| sample == 0)));
+    }
+}
+
+#[test]
+fn channels_and_wheels_mean_what_is_said() {
+    let room = Room::new();
+    let write = |name: &str, events: &[(u8, &[u8])]| fs::write(room.path(name), midi(events)).unwrap();
+    let render = |song: &str, options: &[&str]| {
+        let said = room.renders(
+            &[&[song, "-o", "out.wav", "--stems", "stems", "--variation", "0", "--tail", "0.2"], options]
+                .concat(),
+        );
+        (said, (1..=6).map(|number| stem(&room, number)).collect::<Vec<_>>())
+    };
+    let heard = |stems: &[Vec<i32>]| -> Vec<usize> {
+        (1..=6).filter(|&number| stems[number - 1].iter().any(|&sample| sample != 0)).collect()
+    };
+    // E4 on channel 10, which is the second of strings from 9 on; and one that has none.
+    write("e4.mid", &[(0, &[0x99, 64, 90]), (0, &[0x90, 64, 90]), (48, &[0x89, 64, 0])]);
+    assert_eq!(heard(&render("e4.mid", &[]).1), [1], "percussion");
+    let guitar = ["--input", "strings", "--first-channel", "9"];
+    let (said, stems) = render("e4.mid", &guitar);
+    assert_eq!(heard(&stems), [2]);
+    assert!(said.contains("1 note was left out") && said.contains("their channel has none"), "{said}");
+    assert_eq!(heard(&render("e4.mid", &[&guitar[..], &["--string-order", "last_first"]].concat()).1), [5]);
+    // Half a turn of two semitones is a whole turn of one; what the song says counts, or is passed over.
+    let bent: [(u8, &[u8]); 3] = [(0, &[0x90, 64, 90]), (0, &[0xE0, 0, 0]), (48, &[0x80, 64, 0])];
+    let half: [(u8, &[u8]); 3] = [(0, &[0x90, 64, 90]), (0, &[0xE0, 0, 32]), (48, &[0x80, 64, 0])];
+    let announced: [(u8, &[u8]); 3] = [(0, &[0xB0, 101, 0]), (0, &[0xB0, 100, 0]), (0, &[0xB0, 6, 3])];
+    write("bent.mid", &bent);
+    write("half.mid", &half);
+    write("announced.mid", &[&announced[..], &bent].concat());
+    let semitone = render("half.mid", &[]).1;
+    assert!(semitone == render("bent.mid", &["--bend-range", "1"]).1);
+    assert!(semitone != render("bent.mid", &[]).1);
+    let range = ["--bend-range", "1"];
+    assert!(semitone != render("announced.mid", &range).1);
+    assert!(semitone == render("announced.mid", &[&range[..], &["--ignore-rpn"]].concat()).1);
+}
+
+#[test]
+fn clipping_is_said_and_saturates() {
+    let room = Room::new();
+    let setup = include_str!("../../../dsp/instruments/electric.toml");
+    let gain = setup.lines().find(|line| line.starts_with("gain")).unwrap();
+    fs::write(room.path("loud.toml"), setup.replace(gain, "gain = 1000.0")).unwrap();
+    let arguments = ["song.mid", "-o", "loud.wav", "--instrument", "loud.toml"];
+    let said = room.renders(&arguments);
+    assert!(said.contains("warning: the sound peaks at +") && said.contains("clipped"), "{said}");
+    assert_eq!(peak(&room.path("loud.wav")), 1.0);
+    let said = room.renders(&[&arguments[..], &["--bit-depth", "32f"]].concat());
+    assert!(!said.contains("warning"), "{said}");
+    assert!(peak(&room.path("loud.wav")) > 1.0);
+}
