@@ -6,12 +6,13 @@
 mod leaving;
 mod legato;
 mod sighted;
+mod stopping;
 mod touches;
 
-use low_action_dsp::setup::{Fretting, Player};
+use low_action_dsp::setup::Player;
 use low_action_dsp::{FINGERS_PER_STRING, FingerSlot, Gesture, StringGeometry, Touch};
 
-use super::articulation::{Stop, Stroke};
+use super::articulation::Stroke;
 use super::right_hand::{Field, RightHand};
 use super::technique::*;
 use super::{GestureSink, Moment, PlayedString};
@@ -196,61 +197,6 @@ impl Fingers {
         self.fretting.is_some()
     }
 
-    /// Makes way for a note of some strength (0 to 1): dampers off, a finger behind the fret (0: none).
-    /// One that is there already stays; any other leaves for a new one, at once because the pluck covers
-    /// its sound.
-    pub(crate) fn stop(&mut self, fret: usize, stop: Stop, strength: f64, at: &mut Moment<impl GestureSink>) {
-        self.make_way(at);
-        if let Some(anchor) = self.anchor.take() {
-            at.does(anchor.gives_way());
-        }
-        self.lay_capo(at);
-        self.home = fret;
-        let bar = stop == Stop::Bar;
-        let stays = |finger: &Finger| {
-            finger.fret == fret && finger.bar == bar && finger.free.is_none() && stop != Stop::Mute
-        };
-        if self.fretting.is_some_and(|finger| stays(&finger)) {
-            return self.press_again(at);
-        }
-        if let Some(old) = self.fretting.take() {
-            at.does(old.gives_way());
-        }
-        self.glided = 0.0;
-        match stop {
-            Stop::Mute => self.mute(fret, at),
-            _ if fret <= self.capo[1] => {}
-            Stop::Bar => self.lay_bar(fret, at),
-            Stop::Press | Stop::Harmonic => {
-                let Fretting { mut touch, hover, landing, .. } = self.hands.fretting;
-                touch.hand_damping /= (1.0 + HASTE * strength) / softness(strength);
-                let slot = self.take_slot(fret, touch, false);
-                let position = self.geometry.finger_position(fret);
-                at.does(Gesture::Place { finger: slot, touch, position, clearance: hover });
-                at.does(Gesture::Press { finger: slot, force: self.force(), duration: landing });
-            }
-        }
-    }
-
-    /// A finger that has eased off presses again.
-    fn press_again(&mut self, at: &mut Moment<impl GestureSink>) {
-        let (usual, landing) = (self.force(), self.hands.fretting.landing);
-        let bar = self.fretting.map_or(0.0, |finger| self.bar_force(finger.fret));
-        let Some(finger) = &mut self.fretting else { return };
-        if std::mem::take(&mut finger.eased) {
-            let force = if finger.bar { bar } else { usual };
-            at.does(Gesture::Press { finger: finger.slot, force, duration: landing });
-        }
-    }
-
-    /// Gives the next slot to a finger that stops the string from now on.
-    fn take_slot(&mut self, fret: usize, touch: Touch, bar: bool) -> FingerSlot {
-        let slot = self.next_slot;
-        self.next_slot = (slot + 1) % FRETTING_SLOTS;
-        self.fretting = Some(Finger { slot, fret, touch, eased: false, bar, free: None });
-        slot
-    }
-
     /// Whatever keeps the string from sounding leaves at once; the palm stays as it is told.
     fn make_way(&mut self, at: &mut Moment<impl GestureSink>) {
         for slot in self.resting_slots() {
@@ -291,10 +237,4 @@ impl Fingers {
             false => self.geometry.finger_position(fret),
         }
     }
-}
-
-/// How much more the hand holds the finger of a very soft note back (strength 0 to 1), so that its landing is
-/// not louder than the pluck.
-fn softness(strength: f64) -> f64 {
-    1.0 + SOFTEST_LANDING * ((SOFT.1 - strength) / (SOFT.1 - SOFT.0)).clamp(0.0, 1.0)
 }

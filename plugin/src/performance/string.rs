@@ -34,6 +34,8 @@ pub(crate) struct StringPlayer {
     fingers: Fingers,
     bend: Bend,
     note: Option<Note>,
+    /// How the finger of the last note goes when that is over.
+    parting: Parting,
     /// The next step of the last note's ending, and when.
     ending: Option<(u64, Ending)>,
     plucked_at: Option<u64>,
@@ -61,6 +63,7 @@ impl StringPlayer {
             fingers: Fingers::new(string, hands),
             bend: Bend::new(),
             note: None,
+            parting: RESTING,
             ending: None,
             plucked_at: None,
             under: [None; UNDER],
@@ -76,6 +79,7 @@ impl StringPlayer {
         self.fingers.reset();
         self.bend = Bend::new();
         self.note = None;
+        self.parting = RESTING;
         self.ending = None;
         self.plucked_at = None;
         self.under = [None; UNDER];
@@ -103,7 +107,9 @@ impl StringPlayer {
         let mut at = self.moment(time, out);
         let Articulation { mut stroke, stop, .. } = start.articulation;
         self.fingers.press(start.manner.pressure, &mut at);
-        if stroke == Stroke::Tap && start.fret > self.fingers.capo() {
+        let taps = stroke == Stroke::Tap && start.fret > self.fingers.capo();
+        self.parting = if taps { TAPPING } else { RESTING };
+        if taps {
             if self.fingers.let_up(&mut at) {
                 self.deeds.plan(at.after(RISING), Deed::Tap { fret: start.fret, strength });
             } else {
@@ -215,7 +221,7 @@ impl StringPlayer {
     /// Takes over what the player was doing with this string, when it has been given another model.
     pub(crate) fn take_over(&mut self, old: &Self) {
         self.fingers.take_over(&old.fingers);
-        (self.bend, self.note, self.ending) = (old.bend, old.note, old.ending);
+        (self.bend, self.note, self.parting, self.ending) = (old.bend, old.note, old.parting, old.ending);
         self.plucked_at = old.plucked_at;
         (self.under, self.deeds, self.tremolo) = (old.under, old.deeds, old.tremolo);
         self.touched = old.touched;

@@ -45,8 +45,11 @@ pub(crate) struct Leaving {
     pub turning: f64,
 }
 
-/// How it leaves when the next note is about to sound: 1 mm away after 3 ms.
+/// How it leaves when the next note is about to sound, at the hardest: 1 mm away after 3 ms.
 pub(crate) const QUICK_LIFT: Leaving = Leaving { speed: 0.5, turning: 0.001 };
+/// How far the finger of the softest note lets the string rise in one of its periods, in which its force turns, m: what takes
+/// a period the string hardly answers. The harder a note, the quicker the finger before it goes.
+pub(crate) const RISE: f64 = 0.001;
 /// How fast fingers are when they play loud: the hand damps the finger that stops the hardest note
 /// this many times less, and one, than the softest. Setting a string down within 10 ms is a hammer-on,
 /// which a loud pluck covers and a soft one does not; setting it down slowly lets the open string be
@@ -57,13 +60,25 @@ pub(crate) const HASTE: f64 = 5.0;
 /// the pluck, and held back more it would come after it.
 pub(crate) const SOFTEST_LANDING: f64 = 0.7;
 pub(crate) const SOFT: (f64, f64) = (0.0625, 0.11);
-/// How long the dampers rest before the fretting finger begins to leave, s, while it relaxes: 40 dB
-/// take 0.15 s, and a hand that relaxes as fast as that is itself heard through a bridge.
-pub(crate) const RELAXING: f64 = 0.4;
+/// How the finger of a note that is over goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Parting {
+    /// How long the dampers rest before it begins to leave, s, while it relaxes.
+    pub relaxing: f64,
+    /// How it leaves then.
+    pub easing: Leaving,
+}
+
+/// The usual: 40 dB take 0.15 s, and a hand that relaxes as fast as that is itself heard through a bridge; and so slowly that
+/// the string rises from the fret without a sound.
+pub(crate) const RESTING: Parting = Parting { relaxing: 0.4, easing: FINGER_EASING };
+/// Of a finger that has tapped, and is to be off the string before it taps again.
+pub(crate) const TAPPING: Parting =
+    Parting { relaxing: 0.004, easing: Leaving { speed: 0.2, turning: 0.012 } };
 /// What a fretting finger goes on pressing with when a note has ended, as a multiple of the force at
 /// which the string would leave the fret.
 pub(crate) const HOLDING: f64 = 1.25;
-/// How it leaves then: so slowly that the string rises from the fret without a sound.
+/// How a finger leaves a quiet string.
 pub(crate) const FINGER_EASING: Leaving = Leaving { speed: 0.005, turning: 0.5 };
 /// How the dampers leave after it; they bend the string much less.
 pub(crate) const DAMPER_EASING: Leaving = Leaving { speed: 0.01, turning: 0.2 };
@@ -121,6 +136,8 @@ pub(crate) const HARDEST_POINTED: f64 = 50.0;
 pub(crate) const AT_NODE: f64 = 0.12;
 /// How light: the damping of its pad as a multiple of a match with the string.
 pub(crate) const NODE_TOUCH: f64 = 1.0;
+/// How a finger leaves that another one has just landed before: when that stops the string, and no sooner.
+pub(crate) const BEHIND_LIFT: Leaving = Leaving { speed: 0.01, turning: 0.15 };
 /// How a finger leaves that hardly bends the string.
 pub(crate) const NODE_LIFT: Leaving = Leaving { speed: 0.02, turning: 0.05 };
 /// How long a finger that leaves may still touch the string, as a multiple of the time in which its force turns.

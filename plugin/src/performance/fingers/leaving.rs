@@ -11,14 +11,15 @@ use crate::performance::{GestureSink, Moment};
 impl Fingers {
     /// Lays the edge of the hand near the saddle, and a finger of the other hand behind a fretting one,
     /// which goes on pressing just hard enough.
-    pub(crate) fn damp(&mut self, at: &mut Moment<impl GestureSink>) {
+    pub(crate) fn damp(&mut self, parting: Parting, at: &mut Moment<impl GestureSink>) {
         let near_saddle = self.hands.damper.position.min(FARTHEST_DAMPER * self.sounding_length());
         for (slot, part) in DAMPERS {
             self.rest(slot, self.geometry.length - part * near_saddle, at);
         }
         if let Some(anchor) = self.anchor.take() {
             // It keeps quiet what is behind; it leaves as softly as the other.
-            at.does(lifting(anchor.slot, anchor.touch, FINGER_EASING));
+            at.does(lifting(anchor.slot, anchor.touch, parting.easing));
+            self.departing = Some((anchor.slot, at.after(LINGERING * parting.easing.turning)));
         } else if self.light.is_none() {
             let behind = BEHIND_FINGER * (self.geometry.length - self.sounding_length());
             if behind >= NEAREST_NUT {
@@ -27,22 +28,22 @@ impl Fingers {
         }
         let holding = HOLDING * self.fretting.map_or(0.0, |finger| self.leaving_force(finger.fret));
         if holding < self.hands.fretting.force && self.fretting.is_some_and(|finger| !finger.bar) {
-            self.ease(holding, RELAXING, at);
+            self.ease(holding, parting.relaxing, at);
         }
     }
 
     /// The fretting finger eases off until the string is free of it.
-    pub(crate) fn ease_off(&mut self, at: &mut Moment<impl GestureSink>) {
+    pub(crate) fn ease_off(&mut self, Parting { easing, .. }: Parting, at: &mut Moment<impl GestureSink>) {
         // It is not lifted yet: the next note may want it back.
         if let Some(finger) = self.fretting {
-            self.ease(-lift_force(finger.touch, FINGER_EASING), FINGER_EASING.turning, at);
+            self.ease(-lift_force(finger.touch, easing), easing.turning, at);
         }
     }
 
     /// The fretting finger goes, and the dampers ease off and go.
-    pub(crate) fn leave(&mut self, at: &mut Moment<impl GestureSink>) {
+    pub(crate) fn leave(&mut self, parting: Parting, at: &mut Moment<impl GestureSink>) {
         if let Some(finger) = self.fretting.take() {
-            at.does(lifting(finger.slot, finger.touch, FINGER_EASING));
+            at.does(lifting(finger.slot, finger.touch, parting.easing));
         }
         for slot in self.resting_slots() {
             at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));

@@ -1,6 +1,6 @@
 //! From one note to the next without the right hand: hammers, pulls, slides and glides.
 
-use low_action_dsp::Gesture;
+use low_action_dsp::{FingerSlot, Gesture};
 
 use super::{Finger, Fingers, lifting};
 use crate::performance::articulation::Stop;
@@ -35,15 +35,11 @@ impl Fingers {
         self.lay_capo(at);
         let before = self.fretting.take();
         // An anchor there was has the slot that the new finger takes.
-        self.anchor = before.filter(|old| old.fret < fret && !old.bar && !old.eased);
-        match (self.anchor, before) {
-            (Some(anchor), _) => {
-                let holding = HOLDING * self.leaving_force(anchor.fret);
-                let force = holding.min(self.force());
-                at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.0 });
-            }
-            (None, Some(old)) => at.does(old.gives_way()),
-            (None, None) => {}
+        self.anchor = None;
+        match before {
+            Some(old) if old.fret < fret && !old.bar && !old.eased => self.hold_behind(old, at),
+            Some(old) => at.does(old.gives_way()),
+            None => {}
         }
         self.come_down(fret, HAMMER_SPEED.0 + HAMMER_SPEED.1 * strength, at);
     }
@@ -67,14 +63,7 @@ impl Fingers {
         self.glided = 0.0;
         self.next_slot = (old.slot + 1) % FRETTING_SLOTS;
         match self.anchor.take() {
-            Some(anchor) if anchor.fret == fret => {
-                self.fretting = Some(anchor);
-                self.next_slot = old.slot;
-                let force = self.force();
-                at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.1 });
-            }
-            // The slot of an anchor elsewhere is the one that the new finger takes.
-            _ if fret > self.capo[1] => self.come_down(fret, BEHIND_SPEED, at),
+            anchor if fret > self.capo[1] => self.stop_behind(fret, old.slot, anchor, at),
             Some(anchor) => at.does(anchor.gives_way()),
             None => {}
         }
@@ -82,6 +71,31 @@ impl Fingers {
         let force = part * strength * self.hands.pluck_force;
         at.does(Gesture::Pluck { position: self.pressed(&old), force, duration });
         at.does(old.gives_way());
+    }
+
+    /// A finger stops the string behind the one of a slot before that one leaves: an anchor that is there already, or a
+    /// new one, in the slot of an anchor elsewhere.
+    pub(super) fn stop_behind(
+        &mut self,
+        fret: usize,
+        leaving: FingerSlot,
+        anchor: Option<Finger>,
+        at: &mut Moment<impl GestureSink>,
+    ) {
+        let Some(anchor) = anchor.filter(|anchor| anchor.fret == fret) else {
+            return self.come_down(fret, BEHIND_SPEED, at);
+        };
+        self.fretting = Some(anchor);
+        self.next_slot = leaving;
+        let force = self.force();
+        at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.1 });
+    }
+
+    /// A finger that stopped the string stays down behind the one that does, just hard enough.
+    pub(super) fn hold_behind(&mut self, anchor: Finger, at: &mut Moment<impl GestureSink>) {
+        self.anchor = Some(Finger { eased: false, ..anchor });
+        let force = (HOLDING * self.leaving_force(anchor.fret)).min(self.force());
+        at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.0 });
     }
 
     /// Throws a finger at the string behind a fret.
@@ -109,11 +123,17 @@ impl Fingers {
 
     /// The finger that sounds slides to another fret, which is the note's own from then on.
     pub(crate) fn slide_to(&mut self, fret: usize, duration: f64, at: &mut Moment<impl GestureSink>) {
-        if let Some(anchor) = self.anchor.take() {
-            at.does(lifting(anchor.slot, anchor.touch, NODE_LIFT));
-        }
         (self.home, self.glided) = (fret, 0.0);
         self.slide(0, duration, at);
+    }
+
+    /// A finger behind the one that moves to a fret leaves, fast if it is in the way.
+    fn lift_anchor(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
+        if let Some(anchor) = self.anchor.take() {
+            let manner = if fret > anchor.fret { NODE_LIFT } else { QUICK_LIFT };
+            at.does(lifting(anchor.slot, anchor.touch, manner));
+            self.departing = Some((anchor.slot, at.after(LINGERING * manner.turning)));
+        }
     }
 
     /// Slides the fretting finger so many frets away from where the note began, as far as there are frets.
@@ -124,6 +144,7 @@ impl Fingers {
         let Some(Finger { slot, fret: at_fret, bar, .. }) = self.slidable() else { return 0 };
         let fret = (self.home as i32 + frets).clamp(first.min(last), last);
         if fret as usize != at_fret {
+            self.lift_anchor(fret as usize, at);
             if let Some(finger) = &mut self.fretting {
                 (finger.fret, finger.free) = (fret as usize, None);
             }
@@ -153,6 +174,7 @@ impl Fingers {
             return reached;
         }
         self.glided = semitones;
+        self.lift_anchor(fret as usize, at);
         // Between two frets the sounding length goes by equal factors.
         let (below, part) = (fret.floor(), fret - fret.floor());
         let sounding = |fret: f64| self.geometry.length - self.place(fret as usize, finger.bar);

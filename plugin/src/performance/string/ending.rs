@@ -32,16 +32,16 @@ impl StringPlayer {
         let next = match step {
             Ending::Damp => {
                 self.deeds = Deeds::default();
-                self.fingers.damp(&mut at);
+                self.fingers.damp(self.parting, &mut at);
                 let next = if self.fingers.frets() { Ending::EaseOff } else { Ending::Leave };
-                Some((RELAXING, next))
+                Some((self.parting.relaxing, next))
             }
             Ending::EaseOff => {
-                self.fingers.ease_off(&mut at);
-                Some((FINGER_EASING.turning, Ending::Leave))
+                self.fingers.ease_off(self.parting, &mut at);
+                Some((self.parting.easing.turning, Ending::Leave))
             }
             Ending::Leave => {
-                self.fingers.leave(&mut at);
+                self.fingers.leave(self.parting, &mut at);
                 Some((DAMPER_EASING.turning, Ending::Gone))
             }
             Ending::Gone => {

@@ -1,0 +1,106 @@
+//! How a string comes to be stopped for a note that is plucked, and what stopped it before lets go.
+
+use low_action_dsp::setup::Fretting;
+use low_action_dsp::{FingerSlot, Gesture, Touch};
+
+use super::{Finger, Fingers, lifting};
+use crate::performance::articulation::Stop;
+use crate::performance::technique::*;
+use crate::performance::{GestureSink, Moment};
+
+impl Fingers {
+    /// Makes way for a note of some strength (0 to 1): dampers off, a finger behind the fret (0: none). One that is there
+    /// already stays. One at a lower fret leaves when the new one has landed, one at a higher fret when the new one stops the
+    /// string behind it, so that the string does not come up in between.
+    pub(crate) fn stop(&mut self, fret: usize, stop: Stop, strength: f64, at: &mut Moment<impl GestureSink>) {
+        self.make_way(at);
+        self.lay_capo(at);
+        self.home = fret;
+        let bar = stop == Stop::Bar;
+        let stays = |finger: &Finger| {
+            finger.fret == fret && finger.bar == bar && finger.free.is_none() && stop != Stop::Mute
+        };
+        if self.fretting.is_some_and(|finger| stays(&finger)) {
+            return self.press_again(at);
+        }
+        self.glided = 0.0;
+        let (old, anchor) = (self.fretting.take(), self.anchor.take());
+        let presses = matches!(stop, Stop::Press | Stop::Harmonic) && fret > self.capo[1];
+        match old.filter(|old| presses && !old.bar && old.free.is_none()) {
+            Some(old) if old.fret < fret => {
+                self.land(fret, strength, at);
+                return self.leave_behind(old, at);
+            }
+            Some(old) => {
+                self.stop_behind(fret, old.slot, anchor, at);
+                return at.does(lifting(old.slot, old.touch, self.letting_go(strength)));
+            }
+            None => {}
+        }
+        for finger in [old, anchor].into_iter().flatten() {
+            at.does(match finger.bar {
+                true => finger.gives_way(),
+                false => lifting(finger.slot, finger.touch, self.letting_go(strength)),
+            });
+        }
+        match stop {
+            Stop::Mute => self.mute(fret, at),
+            _ if fret <= self.capo[1] => {}
+            Stop::Bar => self.lay_bar(fret, at),
+            Stop::Press | Stop::Harmonic => self.land(fret, strength, at),
+        }
+    }
+
+    /// How a finger leaves a string that a note of some strength is about to sound on: a string let go of suddenly sounds as
+    /// if plucked, by as much as it was pressed down.
+    fn letting_go(&self, strength: f64) -> Leaving {
+        let softness = (1.0 - strength).clamp(0.0, 1.0);
+        let pitch = 440.0 * libm::exp2((self.geometry.open_pitch - 69.0) / 12.0);
+        let Leaving { speed, turning } = QUICK_LIFT;
+        Leaving {
+            speed: (1.0 - softness) * speed + softness * RISE * pitch,
+            turning: turning + softness / pitch,
+        }
+    }
+
+    /// A finger that stopped the string leaves behind the one that does now, when that has landed.
+    fn leave_behind(&mut self, old: Finger, at: &mut Moment<impl GestureSink>) {
+        at.does(lifting(old.slot, old.touch, BEHIND_LIFT));
+        self.departing = Some((old.slot, at.after(LINGERING * BEHIND_LIFT.turning)));
+    }
+
+    /// A finger lands behind a fret, for a note of some strength (0 to 1).
+    fn land(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
+        let Fretting { mut touch, hover, landing, .. } = self.hands.fretting;
+        touch.hand_damping /= (1.0 + HASTE * strength) / softness(strength);
+        let slot = self.take_slot(fret, touch, false);
+        let position = self.geometry.finger_position(fret);
+        at.does(Gesture::Place { finger: slot, touch, position, clearance: hover });
+        at.does(Gesture::Press { finger: slot, force: self.force(), duration: landing });
+    }
+
+    /// A finger that has eased off presses again.
+    fn press_again(&mut self, at: &mut Moment<impl GestureSink>) {
+        let (usual, landing) = (self.force(), self.hands.fretting.landing);
+        let bar = self.fretting.map_or(0.0, |finger| self.bar_force(finger.fret));
+        let Some(finger) = &mut self.fretting else { return };
+        if std::mem::take(&mut finger.eased) {
+            let force = if finger.bar { bar } else { usual };
+            at.does(Gesture::Press { finger: finger.slot, force, duration: landing });
+        }
+    }
+
+    /// Gives the next slot to a finger that stops the string from now on.
+    pub(super) fn take_slot(&mut self, fret: usize, touch: Touch, bar: bool) -> FingerSlot {
+        let slot = self.next_slot;
+        self.next_slot = (slot + 1) % FRETTING_SLOTS;
+        self.fretting = Some(Finger { slot, fret, touch, eased: false, bar, free: None });
+        slot
+    }
+}
+
+/// How much more the hand holds the finger of a very soft note back (strength 0 to 1), so that its landing is
+/// not louder than the pluck.
+fn softness(strength: f64) -> f64 {
+    1.0 + SOFTEST_LANDING * ((SOFT.1 - strength) / (SOFT.1 - SOFT.0)).clamp(0.0, 1.0)
+}

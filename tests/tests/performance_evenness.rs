@@ -1,0 +1,87 @@
+//! The promise: a note sounds as its own velocity has it, whatever was on its string before. What stopped the string lets go
+//! of it so that no string that comes up is heard in a soft note's place; a finger that stays down behind leaves the pitch alone.
+
+use low_action::performance::PlayerEvent;
+use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{Stage, decibels, hertz, off, on};
+
+const RATE: f64 = 48_000.0;
+/// When the second note begins, s.
+const NEXT: f64 = 0.5;
+
+/// Set-up, string, its open key.
+const STRINGS: [(&str, usize, u8); 5] =
+    [("electric", 2, 55), ("electric", 5, 40), ("classical", 4, 45), ("steel", 5, 40), ("bass", 3, 28)];
+
+fn part(sound: &[f32], from: f64, to: f64) -> &[f32] {
+    &sound[(from * RATE) as usize..(to * RATE) as usize]
+}
+
+/// Root mean square, dB.
+fn level(sound: &[f32]) -> f64 {
+    decibels((sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / sound.len() as f64).sqrt())
+}
+
+/// Frets played one after another, so loud, with a rest between them, and when the last of them begins, s.
+fn notes(open: u8, frets: &[u8], velocity: u8, rest: f64) -> (Vec<(f64, PlayerEvent)>, f64) {
+    let mut events = Vec::new();
+    for (n, fret) in frets.iter().enumerate() {
+        let start = NEXT * n as f64;
+        events.push((start, on(open + fret, velocity)));
+        events.push((start + NEXT - rest, off(open + fret)));
+    }
+    (events, NEXT * (frets.len() - 1) as f64)
+}
+
+/// (How pluck, landing finger and what still moves fall together differs from one note to the next, and is some decibels of
+/// soft notes. A string that comes up at once is 10 to 18 of them.)
+#[test]
+fn a_note_is_as_loud_after_another_on_its_string_as_alone() {
+    let velocities = [(30, 4.5, 11.0), (50, 3.5, 8.0), (80, 3.0, 8.0), (110, 2.5, 8.0)];
+    let mut found = velocities.map(|_| Vec::new());
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        for ((velocity, _, most), found) in velocities.into_iter().zip(&mut found) {
+            let mut heard = |frets: &[u8], rest| {
+                let (events, last) = notes(open, frets, velocity, rest);
+                let sound = &stage.play(&events, last + 0.2).strings[0];
+                level(part(sound, last + 0.02, last + 0.2))
+            };
+            for [before, fret] in [[5, 8], [8, 5], [12, 3], [5, 0], [12, 0], [5, 5], [0, 5]] {
+                let alone = heard(&[fret], 0.3);
+                for rest in [0.001, 0.1, 0.3] {
+                    let off = heard(&[before, fret], rest) - alone;
+                    assert!(
+                        off.abs() < most,
+                        "{setup} {string}, fret {fret} after {before} and {rest} s, velocity {velocity}: {off} dB"
+                    );
+                    found.push(off);
+                }
+            }
+        }
+    }
+    for ((velocity, usual, _), found) in velocities.into_iter().zip(found) {
+        let spread = (found.iter().map(|off| off * off).sum::<f64>() / found.len() as f64).sqrt();
+        assert!(spread < usual, "velocity {velocity}: {spread} dB");
+    }
+}
+
+#[test]
+fn a_finger_behind_leaves_the_pitch_alone() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        let mut heard = |frets: &[u8]| {
+            let (events, last) = notes(open, frets, 80, 0.001);
+            let sound = &stage.play(&events[..events.len() - 1], last + 1.5).strings[0];
+            let pitch = hertz(f64::from(open + frets[frets.len() - 1]));
+            cents(frequency_near(part(sound, last + 0.3, last + 1.5), RATE, pitch), pitch)
+        };
+        for [before, fret] in [[5, 8], [2, 3], [8, 5], [3, 2], [1, 12], [12, 1]] {
+            let [alone, after] = [heard(&[fret]), heard(&[before, fret])];
+            assert!(
+                (after - alone).abs() < 1.5,
+                "{setup} {string}, {fret} after {before}: {alone}, {after} cents"
+            );
+        }
+    }
+}
