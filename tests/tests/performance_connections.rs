@@ -239,3 +239,22 @@ fn a_note_struck_again_while_its_finger_leaves_is_stopped() {
         assert!(off_pitch(sound, 60).abs() < 3.0 && stopped > 10.0 * open, "struck again after {again} s");
     }
 }
+
+/// A finger that is held down behind the one that sounds is out of the way of what comes next: a slide past it, or the open
+/// string.
+#[test]
+fn a_finger_held_behind_is_in_nobodys_way() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        let octave = [(0.0, cc(101, 0)), (0.0, cc(100, 0)), (0.0, cc(6, 12))];
+        let hammered = [(0.0, cc(68, 127)), (0.0, on(open + 5, 90)), (0.3, on(open + 8, 90))];
+        let down = PlayerEvent::PitchBend { channel: 0, value: -5.0 / 12.0 };
+        let sound = &stage.play(&[&octave[..], &hammered, &[(0.6, down)]].concat(), 1.4).strings[0];
+        let cents = off_pitch(&sound[at(0.8)..], open + 3);
+        assert!(cents.abs() < 8.0, "{setup} {string}, down to fret 3: {cents} cents");
+        let ended = [(0.6, off(open + 5)), (0.6, off(open + 8)), (0.7, on(open, 90))];
+        let sound = &stage.play(&[&hammered[..], &ended].concat(), 1.4).strings[0];
+        let cents = off_pitch(&sound[at(0.75)..at(0.95)], open);
+        assert!(cents.abs() < 6.0, "{setup} {string}, open: {cents} cents");
+    }
+}

@@ -85,3 +85,31 @@ fn a_finger_behind_leaves_the_pitch_alone() {
         }
     }
 }
+
+/// Fingers that have yet to leave are not in the way of the next.
+#[test]
+fn quick_notes_end_on_the_pitch_of_the_last() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        for frets in
+            [&[5, 8, 0][..], &[8, 5, 0], &[3, 5, 7, 0], &[5, 8, 3], &[12, 5, 7, 1], &[1, 3, 5, 7, 8, 2]]
+        {
+            for apart in [0.02, 0.06, 0.15] {
+                let mut events = Vec::new();
+                for (n, fret) in frets.iter().enumerate() {
+                    events.push((apart * n as f64, on(open + fret, 60)));
+                    if n + 1 < frets.len() {
+                        events.push((apart * (n as f64 + 1.0) - 0.001, off(open + fret)));
+                    }
+                }
+                let last = apart * (frets.len() - 1) as f64;
+                let sound = &stage.play(&events, last + 0.2).strings[0];
+                let pitch = hertz(f64::from(open + frets[frets.len() - 1]));
+                let heard = part(sound, last + 0.06, last + 0.2);
+                let off = cents(frequency_near(heard, RATE, pitch), pitch);
+                // (Strings that still swing from the notes before are up to four cents sharp.)
+                assert!(off.abs() < 6.0, "{setup} {string}, {frets:?} {apart} s apart: {off} cents");
+            }
+        }
+    }
+}

@@ -53,8 +53,8 @@ pub(crate) struct Fingers {
     next_slot: FingerSlot,
     /// Slot of a finger that touches the string lightly.
     light: Option<FingerSlot>,
-    /// Slot of one that has left, and the sample by which it is off the string.
-    departing: Option<(FingerSlot, u64)>,
+    /// What lifts at once a finger that is leaving, and the sample by which it is off the string.
+    departing: Option<(Gesture, u64)>,
     /// Which slots hold a damper that rests on the string.
     resting: [bool; FINGERS_PER_STRING],
     right: RightHand,
@@ -197,14 +197,22 @@ impl Fingers {
         self.fretting.is_some()
     }
 
+    /// A finger leaves in a manner of leaving, and at once if the next note comes first.
+    fn depart(&mut self, slot: FingerSlot, touch: Touch, manner: Leaving, at: &mut Moment<impl GestureSink>) {
+        at.does(lifting(slot, touch, manner));
+        self.departing = Some((lifting(slot, touch, QUICK_LIFT), at.after(LINGERING * manner.turning)));
+    }
+
     /// Whatever keeps the string from sounding leaves at once; the palm stays as it is told.
     fn make_way(&mut self, at: &mut Moment<impl GestureSink>) {
         for slot in self.resting_slots() {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
         self.resting = [false; FINGERS_PER_STRING];
-        let departing = self.departing.take().filter(|&(_, clear)| at.time < clear).map(|(slot, _)| slot);
-        for slot in [self.light.take(), departing].into_iter().flatten() {
+        if let Some((lift, _)) = self.departing.take().filter(|&(_, clear)| at.time < clear) {
+            at.does(lift);
+        }
+        if let Some(slot) = self.light.take() {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
         let sounding = self.sounding_length();

@@ -18,8 +18,7 @@ impl Fingers {
         }
         if let Some(anchor) = self.anchor.take() {
             // It keeps quiet what is behind; it leaves as softly as the other.
-            at.does(lifting(anchor.slot, anchor.touch, parting.easing));
-            self.departing = Some((anchor.slot, at.after(LINGERING * parting.easing.turning)));
+            self.depart(anchor.slot, anchor.touch, parting.easing, at);
         } else if self.light.is_none() {
             let behind = BEHIND_FINGER * (self.geometry.length - self.sounding_length());
             if behind >= NEAREST_NUT {

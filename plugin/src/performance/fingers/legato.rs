@@ -2,7 +2,7 @@
 
 use low_action_dsp::{FingerSlot, Gesture};
 
-use super::{Finger, Fingers, lifting};
+use super::{Finger, Fingers};
 use crate::performance::articulation::Stop;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
@@ -131,8 +131,7 @@ impl Fingers {
     fn lift_anchor(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
         if let Some(anchor) = self.anchor.take() {
             let manner = if fret > anchor.fret { NODE_LIFT } else { QUICK_LIFT };
-            at.does(lifting(anchor.slot, anchor.touch, manner));
-            self.departing = Some((anchor.slot, at.after(LINGERING * manner.turning)));
+            self.depart(anchor.slot, anchor.touch, manner, at);
         }
     }
 

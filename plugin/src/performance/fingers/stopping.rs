@@ -29,7 +29,7 @@ impl Fingers {
         match old.filter(|old| presses && !old.bar && old.free.is_none()) {
             Some(old) if old.fret < fret => {
                 self.land(fret, strength, at);
-                return self.leave_behind(old, at);
+                return self.depart(old.slot, old.touch, BEHIND_LIFT, at);
             }
             Some(old) => {
                 self.stop_behind(fret, old.slot, anchor, at);
@@ -61,12 +61,6 @@ impl Fingers {
             speed: (1.0 - softness) * speed + softness * RISE * pitch,
             turning: turning + softness / pitch,
         }
-    }
-
-    /// A finger that stopped the string leaves behind the one that does now, when that has landed.
-    fn leave_behind(&mut self, old: Finger, at: &mut Moment<impl GestureSink>) {
-        at.does(lifting(old.slot, old.touch, BEHIND_LIFT));
-        self.departing = Some((old.slot, at.after(LINGERING * BEHIND_LIFT.turning)));
     }
 
     /// A finger lands behind a fret, for a note of some strength (0 to 1).

@@ -52,8 +52,7 @@ impl Fingers {
     /// Lifts a light finger, if there is one.
     pub(super) fn lift_light(&mut self, manner: Leaving, at: &mut Moment<impl GestureSink>) {
         if let Some(slot) = self.light.take() {
-            at.does(lifting(slot, self.hands.damper.touch, manner));
-            self.departing = Some((slot, at.after(LINGERING * manner.turning)));
+            self.depart(slot, self.hands.damper.touch, manner, at);
         }
     }
 
