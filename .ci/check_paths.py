@@ -8,7 +8,14 @@ import sys
 # quantified groups keep these patterns from matching their own text.
 PLACES = re.compile(rb"(?<![\w.~-])/(?:root|home|work|Users|mnt|builds?)/[\w.]|[A-Za-z]:\\+Users\\")
 
-files = subprocess.run(["git", "ls-files", "-z"], check=True, capture_output=True).stdout
+try:
+    files = subprocess.run(["git", "ls-files", "-z"], check=True, capture_output=True).stdout
+except FileNotFoundError:
+    sys.exit("check_paths: git is missing")
+except subprocess.CalledProcessError as error:
+    # Outside a repository, or in one that is somebody else's. What can be done about it are further lines.
+    said = error.stderr.decode(errors="replace").strip().splitlines()
+    sys.exit(f"check_paths: git cannot list the files: {said[0] if said else error}")
 bad = 0
 for name in filter(None, files.split(b"\0")):
     try:

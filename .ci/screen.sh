@@ -12,7 +12,12 @@ trap 'kill $started 2>/dev/null || true; rm -rf "$scratch"' EXIT
 
 Xvfb -displayfd 3 -screen 0 "${1}x24" -nolisten tcp 3>"$scratch/display" 2>"$folder/xvfb.log" &
 started=$!
-for _ in $(seq 100); do [ -s "$scratch/display" ] && break; sleep 0.1; done
+for _ in $(seq 100); do
+    [ -s "$scratch/display" ] && break
+    kill -0 "$started" 2>/dev/null || break
+    sleep 0.1
+done
+[ -s "$scratch/display" ] || { cat "$folder/xvfb.log" >&2; echo "$0: Xvfb does not start" >&2; exit 1; }
 DISPLAY=":$(cat "$scratch/display")"
 # What programs keep of their windows is not to go among the user's own data.
 XDG_DATA_HOME="$scratch"
@@ -32,6 +37,21 @@ find_window() {
     true
 }
 capture() { import -window "$window" "$folder/$1.png"; }
+# A number as ImageMagick writes it, which may be 1.2e+06, as a whole one; -1 for what is none.
+whole() { awk 'NR == 1 { number = $1 } END { printf "%.0f\n", number ~ /^[0-9.]+(e[+-]?[0-9]+)?$/ ? number : -1 }'; }
 # How many pixels of a picture have a colour.
-count() { convert "$folder/$1.png" -fuzz 4% -fill black +opaque "$2" -fill white -opaque "$2" -format '%[fx:int(mean*w*h)]' info:; }
+count() { convert "$folder/$1.png" -fuzz 4% -fill black +opaque "$2" -fill white -opaque "$2" -format '%[fx:int(mean*w*h)]' info: | whole; }
+# How many pixels of two pictures differ; -1 if their sizes do.
+differing() { compare -metric AE -fuzz 4% "$folder/$1.png" "$folder/$2.png" null: 2>&1 | whole || true; }
+# Whether fewer pixels differ than so many.
+below() { [ "$1" -ge 0 ] && [ "$1" -lt "$2" ]; }
+# Waits half a minute for a condition. It need not come: what was seen last is looked at afterwards.
+wait_for() {
+    for _ in $(seq 150); do "$@" && return; sleep 0.2; done
+    true
+}
+# Whether the strings are drawn in a picture that is taken now.
+draws() { capture "$1" && [ "$(count "$1" "$strings")" -gt 500 ]; }
+# Whether the window has a size.
+has_size() { [ "$(size)" = "WIDTH=$1 HEIGHT=$2 " ]; }
 size() { xdotool getwindowgeometry --shell "$window" | grep -E 'WIDTH|HEIGHT' | tr '\n' ' '; }
