@@ -18,7 +18,7 @@ pub(crate) struct Active {
     pub sign: f64,
     /// Contact law.
     pub law: ContactLaw,
-    /// P = βK[ηⁿ]^α/(2k), N/m.
+    /// P = βφ(ηⁿ)/(2k), N/m, no more than the law is steep at most; and what a kinked contact radiates.
     pub lossy: f64,
     /// Penetration and energy at n − 1.
     pub before: Before,

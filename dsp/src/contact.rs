@@ -8,6 +8,8 @@
 
 mod gradient;
 
+use std::ops::RangeInclusive;
+
 use crate::error::Error;
 pub use gradient::Before;
 
@@ -44,6 +46,11 @@ struct Knee {
 }
 
 impl ContactLaw {
+    /// What a stiffness K may be, N/m^α.
+    pub(crate) const STIFFNESS: RangeInclusive<f64> = 1e-3..=1e30;
+    /// What an exponent α may be.
+    pub(crate) const EXPONENT: RangeInclusive<f64> = 1.0..=5.0;
+
     /// A law of stiffness K > 0 (N/m^α) and exponent 1 ≤ α ≤ 5.
     ///
     /// # Errors
@@ -51,8 +58,11 @@ impl ContactLaw {
     pub fn new(name: &str, stiffness: f64, exponent: f64) -> Result<Self, Error> {
         // The full name is put together only for a refusal: fingers are placed while processing, where
         // nothing may be allocated.
-        crate::error::within("stiffness", stiffness, 1e-3, 1e30, "N/m^exponent")
-            .and_then(|_| crate::error::within("exponent", exponent, 1.0, 5.0, ""))
+        let within = |of, value, range: RangeInclusive<f64>, unit| {
+            crate::error::within(of, value, *range.start(), *range.end(), unit)
+        };
+        within("stiffness", stiffness, Self::STIFFNESS, "N/m^exponent")
+            .and_then(|_| within("exponent", exponent, Self::EXPONENT, ""))
             .map_err(|error| error.under(name))?;
         Ok(Self::known(stiffness, exponent))
     }
@@ -79,7 +89,16 @@ impl ContactLaw {
             return self.with_stiffness(self.stiffness.min(slope));
         }
         let knee = libm::pow(slope / (self.exponent * self.stiffness), 1.0 / (self.exponent - 1.0));
-        if knee < self.knee { self.straight_beyond(knee.max(LEAST_KNEE)) } else { *self }
+        if knee < LEAST_KNEE {
+            return self.straight_at_once(slope);
+        }
+        if knee < self.knee { self.straight_beyond(knee) } else { *self }
+    }
+
+    /// The same law as a straight line from the start.
+    fn straight_at_once(&self, slope: f64) -> Self {
+        let (force, energy) = (slope * LEAST_KNEE, 0.0);
+        ContactLaw { knee: LEAST_KNEE, at_knee: Knee { force, energy, slope }, ..*self }
     }
 
     /// The same law with something in between that gives way by `flexibility`, m/N: beyond the penetration where it gives way
@@ -89,8 +108,7 @@ impl ContactLaw {
         if self.exponent > 1.0 || slope >= self.stiffness {
             return self.no_steeper_than(slope);
         }
-        let (force, energy) = (slope * LEAST_KNEE, 0.0);
-        ContactLaw { knee: LEAST_KNEE, at_knee: Knee { force, energy, slope }, ..*self }
+        self.straight_at_once(slope)
     }
 
     fn straight_beyond(&self, knee: f64) -> Self {
@@ -206,3 +224,27 @@ impl ContactLaw {
 
 /// The smallest knee, m: far below anything there is, and no power of it is 0.
 const LEAST_KNEE: f64 = 1e-50;
+
+#[cfg(test)]
+mod tests {
+    use super::ContactLaw;
+
+    /// Also where the exponent is so near to 1 that the law is too steep from the first touch on.
+    #[test]
+    fn no_law_is_steeper_than_it_may_be() {
+        for exponent in [1.0, 1.0001, 1.01, 1.05, 1.5, 5.0] {
+            for stiffness in [1e3, 1e9, 1e15] {
+                let law = ContactLaw::new("test", stiffness, exponent)
+                    .expect("it is in range")
+                    .no_steeper_than(1e8);
+                for penetration in [1e-45, 1e-30, 1e-12, 1e-6, 1e-3] {
+                    let slope = law.slope(penetration);
+                    assert!(
+                        slope <= 1e8 * (1.0 + 1e-12),
+                        "{stiffness}, {exponent}: {slope} at {penetration}"
+                    );
+                }
+            }
+        }
+    }
+}

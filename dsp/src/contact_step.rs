@@ -51,6 +51,7 @@ impl State {
                 let mut stretching = 0.0;
                 for round in 0.. {
                     created = scratch.solver.solve(
+                        scratch.instructions,
                         &mut scratch.active,
                         factor,
                         &model.settings,

@@ -218,9 +218,9 @@ fn fingers_energy(fingers: &[Option<Finger>], next: &Field, now: &Field) -> f64 
         .sum()
 }
 
-/// ΣM/2(δu_f)², J.
+/// ΣM̃/2(δu_f)², J.
 fn fingers_motion(model: &Model, fingers: &[Option<Finger>]) -> f64 {
     let k = model.grid.time_step;
-    let square = |finger: &Finger| finger.touch.mass * (finger.motion / k) * (finger.motion / k);
+    let square = |finger: &Finger| finger.inertia.mass * (finger.motion / k) * (finger.motion / k);
     fingers.iter().flatten().map(|finger| 0.5 * square(finger)).sum()
 }

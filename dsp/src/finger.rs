@@ -56,7 +56,7 @@ impl Finger {
         active: &mut Active,
     ) -> bool {
         let (height, motion_before, reading_before) = (self.height, self.motion, self.reading_before);
-        let Inertia { mobility: own_mobility, persistence } = self.inertia;
+        let Inertia { mobility: own_mobility, persistence, .. } = self.inertia;
         let free = persistence * motion_before - own_mobility * hand.force;
         let under = |reading: &Reading| {
             let [place, motion] = reading.of_each([displacement, motion]);
@@ -122,18 +122,26 @@ impl Finger {
 /// How a finger moves between hand and string, at one time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Inertia {
-    /// k²/(M + Rk/2), what one newton moves it in a step, m/N.
+    /// M̃ = Rk/2 / tanh(Rk/(2M)), the mass that it moves with in steps of this length, kg: M(1 + (Rk/M)²/12 − …).
+    pub mass: f64,
+    /// k²/(M̃ + Rk/2), what one newton moves it in a step, m/N.
     pub mobility: f64,
-    /// (M − Rk/2)/(M + Rk/2), how much of its motion is left after a step.
+    /// (M̃ − Rk/2)/(M̃ + Rk/2), how much of its motion is left after a step: exp(−Rk/M).
     pub persistence: f64,
 }
 
 impl Inertia {
     /// Of a finger with its hand.
+    ///
+    /// With M itself a finger that a hand brakes hard, R > 2M/k, would turn round in each step. With M̃ it comes to rest as
+    /// fast as the continuous one, and a steady force moves it at F/R, whatever the step.
     pub fn new(touch: &Touch, time_step: f64) -> Self {
         let half_loss = 0.5 * touch.hand_damping * time_step;
-        let mass = touch.mass + half_loss;
-        Inertia { mobility: time_step * time_step / mass, persistence: (touch.mass - half_loss) / mass }
+        let braked = half_loss / libm::tanh(half_loss / touch.mass);
+        // Without loss that is 0/0.
+        let mass = if braked > touch.mass { braked } else { touch.mass };
+        let heft = mass + half_loss;
+        Inertia { mass, mobility: time_step * time_step / heft, persistence: (mass - half_loss) / heft }
     }
 }
 

@@ -4,6 +4,8 @@
 //! sample. The instrument turns gestures into the slowly varying forces and positions of a
 //! [`Drive`](crate::Drive); nothing here knows about MIDI.
 
+use crate::contact::ContactLaw;
+
 /// The parameters of one finger (or palm, or thumb): a mass on a lossy, nonlinear spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
@@ -17,6 +19,19 @@ pub struct Touch {
     pub damping: f64,
     /// The hand's own damping, N s/m, 0 or more.
     pub hand_damping: f64,
+}
+
+impl Touch {
+    /// Whether there can be such a finger: its mass is above 0, no loss below, and its pad has a law.
+    pub(crate) fn is_possible(&self) -> bool {
+        let loss = |loss: f64| loss >= 0.0 && loss.is_finite();
+        self.mass > 0.0
+            && self.mass.is_finite()
+            && loss(self.damping)
+            && loss(self.hand_damping)
+            && ContactLaw::STIFFNESS.contains(&self.stiffness)
+            && ContactLaw::EXPONENT.contains(&self.exponent)
+    }
 }
 
 /// One of the places for fingers on a string, from 0 to [`FINGERS_PER_STRING`] − 1.
@@ -72,7 +87,7 @@ pub enum Gesture {
         /// Length of the ramp, s; 0 is at once.
         duration: f64,
     },
-    /// Moves a finger along the string at constant speed.
+    /// Moves a finger along the string at constant speed, 10 m/s at most.
     Slide {
         /// Which finger.
         finger: FingerSlot,
@@ -111,11 +126,20 @@ pub struct TimedGesture {
     pub gesture: Gesture,
 }
 
-/// (1 − cos(πt/t_p))/2 for 0 ≤ t ≤ t_p: the push of a pluck, equation \[4\], which grows to 1 and ends
-/// there at once.
-pub fn raised_cosine(since: f64, duration: f64) -> f64 {
-    if duration <= 0.0 {
-        return 1.0;
+/// The push of a pluck in one step, as a part of its force: the mean of (1 − cos(πt/t_p))/2 for 0 ≤ t ≤ t_p, equation
+/// \[4\], and 0 before and after, from half a step before to half a step after `since`.
+///
+/// All in s: `since` the pluck began, `step` from one sample to the next, the `duration` t_p. The push ends at once where it
+/// is strongest. Taken at the samples alone it would be too long or too short by up to half a step, and one that ends
+/// between two samples might not push at all; by means the string gets what the push gives, t_p/2 in all, wherever samples fall.
+pub fn pluck_push(since: f64, step: f64, duration: f64) -> f64 {
+    let (from, to) = ((since - 0.5 * step).max(0.0), (since + 0.5 * step).min(duration));
+    if from >= to {
+        return 0.0;
     }
-    0.5 * (1.0 - libm::cos(std::f64::consts::PI * (since / duration)))
+    // ∫cos over an interval is its length times cos(middle)·sin(x)/x, x half its length: no small difference of large numbers.
+    let scale = std::f64::consts::PI / duration;
+    let half = 0.5 * scale * (to - from);
+    let mean = libm::cos(scale * (0.5 * (from + to))) * (libm::sin(half) / half);
+    0.5 * (1.0 - mean) * ((to - from) / step)
 }

@@ -188,9 +188,9 @@ impl State {
     /// Puts every contact that was in touch where it is pressed just as hard, and every other one under
     /// the string.
     fn take_over_heights(&mut self, model: &Model, old: &State, old_model: &Model, same_grid: bool) {
-        let same = |a: &Contact, b: &Contact| match a.kind {
-            ContactKind::Fret { .. } => a.kind == b.kind,
-            ContactKind::Board { .. } => same_grid && a.kind == b.kind,
+        let has_partners = |contact: &Contact| match contact.kind {
+            ContactKind::Fret { .. } => true,
+            ContactKind::Board { .. } => same_grid,
         };
         // Where steps grow longer the depth before is not guessed at: it might be far deeper than anything was.
         let share = (model.grid.time_step / old_model.grid.time_step).min(1.0);
@@ -200,9 +200,11 @@ impl State {
         for (index, contact) in model.contacts.iter().enumerate() {
             let now = contact.reading.of(&self.displacement);
             let before = now - contact.reading.of(&self.motion);
-            let partner = (0..count)
+            // (No point of a board has a partner on another grid. To look for one takes time that an audio thread has not.)
+            let looked_at = if has_partners(contact) { count } else { 0 };
+            let partner = (0..looked_at)
                 .map(|step| (next + step) % count)
-                .find(|&candidate| same(contact, &old_model.contacts[candidate]));
+                .find(|&candidate| contact.kind == old_model.contacts[candidate].kind);
             let (mut depth, mut depth_before) = (0.0, 0.0);
             if let Some(partner) = partner {
                 next = partner + 1;

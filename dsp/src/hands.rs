@@ -1,7 +1,7 @@
 //! The hands on one string: gestures become the forces, places and tension of a [`Drive`].
 
 use crate::drive::{Drive, PUSHES, Push};
-use crate::gesture::{FINGERS_PER_STRING, Gesture, Touch, raised_cosine};
+use crate::gesture::{FINGERS_PER_STRING, Gesture, Touch, pluck_push};
 use crate::grid::Reading;
 use crate::model::Model;
 use crate::ramp::Ramp;
@@ -136,6 +136,8 @@ impl Hands {
                 let speed = if speed > 0.0 { speed.min(FASTEST_THROW) } else { 0.0 };
                 self.put(finger, touch, inside(position), [clearance, speed], model, state);
             }
+            // A force that is no number would stay in the string for ever.
+            Gesture::Press { force, .. } | Gesture::Lift { force, .. } if !force.is_finite() => {}
             Gesture::Press { finger, force, duration } => {
                 let samples = self.samples(duration);
                 if let Some(held) = self.finger(finger) {
@@ -179,7 +181,7 @@ impl Hands {
         model: &Model,
         state: &mut State,
     ) {
-        if slot >= FINGERS_PER_STRING {
+        if slot >= FINGERS_PER_STRING || !touch.is_possible() {
             return;
         }
         let reading = model.grid.reading(place);
@@ -187,7 +189,7 @@ impl Hands {
         // Touching nothing a step ago either: a string that comes from above would be inside it.
         let before = now - state.velocity_at(model, &reading) * model.grid.time_step;
         let height = (now + clearance.max(0.0)).max(before - speed * model.grid.time_step).max(now);
-        self.take_away(slot, state);
+        // A finger that cannot be leaves the one that is there.
         if state.place_finger(model, slot, touch, place, height, 0.0 - speed).is_ok() {
             let held = Held { force: Ramp::at(0.0), position: Ramp::at(place), leaving: false };
             self.fingers[slot] = Some(held);
@@ -210,14 +212,11 @@ impl Hands {
         drive.pushes.clear();
         let rate = self.sample_rate;
         self.plucks.retain_mut(|pluck| {
-            let since = pluck.done as f64 / rate;
+            let force = pluck.force * pluck_push(pluck.done as f64 / rate, 1.0 / rate, pluck.duration);
+            drive.pushes.push(Push { reading: pluck.reading, force });
             pluck.done += 1;
-            let pushes = since <= pluck.duration;
-            if pushes {
-                let force = pluck.force * raised_cosine(since, pluck.duration);
-                drive.pushes.push(Push { reading: pluck.reading, force });
-            }
-            pushes
+            // Half a step of the next sample's push may still be its.
+            (pluck.done as f64 - 0.5) / rate < pluck.duration
         });
         for slot in 0..FINGERS_PER_STRING {
             let Some(held) = &mut self.fingers[slot] else { continue };

@@ -14,7 +14,7 @@ mod equilibrium;
 mod mode;
 
 use crate::curve::Curve;
-use crate::error::Error;
+use crate::error::{Error, plain, within};
 use crate::grid::Reading;
 use crate::model::{Model, StringParameters};
 use crate::neck::Neck;
@@ -44,7 +44,7 @@ struct Bench<'a> {
 /// Steps of a search for one number; each gains several digits.
 const MOST_STEPS: usize = 30;
 
-/// Pitch is met to this fraction, 2e-6 cents, below what tension modulation does to any audible note.
+/// Pitch is met to this fraction, 0.002 cents, below what tension modulation does to any audible note.
 const PITCH_TOLERANCE: f64 = 1e-6;
 
 /// Tunes one string of a set-up on its grid and, if the set-up asks for it, places its frets.
@@ -113,10 +113,17 @@ impl Bench<'_> {
             tension /= off * off;
             tuned = StringParameters { tension, tension_limit: tension * ratio, ..tuned };
             if (off - 1.0).abs() < PITCH_TOLERANCE {
-                break;
+                within("tension", tension, 1e-3, 1e6, "N")?;
+                return Ok(tuned);
             }
         }
-        Ok(tuned)
+        // However slack it is, it is too stiff to sound as low as that.
+        let pitch = string.pitch + self.setup.tuning;
+        Err(Error::range(
+            "pitch",
+            plain(pitch),
+            "with its core_radius and youngs_modulus the string cannot sound so low",
+        ))
     }
 
     /// Moves the frets, lowest first, until each stops the string at its pitch.

@@ -62,6 +62,7 @@
 //! | M | `Response` | m/N | answer of the penetrations to the forces: r = −c − M f |
 //! | u_f, d_f | `height`, `motion` of [`finger::Finger`] | m | height of a finger's pad, and its last change |
 //! | M_f, R_f | `mass`, `hand_damping` | kg, N s/m | a finger, and the hand behind it |
+//! | M̃_f | `Inertia::mass` | kg | what a finger moves with in steps of this length |
 //! | f₀ | `force` of [`drive::Hand`] | N | push of the hand, towards the board |
 //! | f_e | `force` of [`drive::Push`] | N | a pluck |
 //! | 𝔥, 𝔮, 𝔭 | [`Energies`], `power_loss` (its terms are [`Losses`]) and `power_solver`, `power_in` ([`Inputs`]) | J, W, W | stored, lost, put in |
@@ -97,6 +98,7 @@ pub mod quality;
 mod queue;
 mod ramp;
 pub mod ratio;
+mod release;
 mod response;
 pub mod scene;
 pub mod settings;

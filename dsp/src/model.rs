@@ -133,7 +133,7 @@ impl Model {
         if low < LEAST_INTERVALS {
             // The spacing that just fits in so few intervals, from below and above.
             let (mut short, mut long) = (string.length, string.length);
-            while !fits(long, LEAST_INTERVALS) {
+            while !fits(long, LEAST_INTERVALS) && long < LONGEST {
                 (short, long) = (long, 2.0 * long);
             }
             while long - short > 1e-4 * long {
@@ -155,6 +155,20 @@ impl Model {
     pub fn stiffness(&self, tension: f64) -> Stiffness {
         let kappa = self.string.kappa_squared();
         Stiffness::new(self.settings.stencil, self.string.linear_density, tension, kappa, &self.grid)
+    }
+
+    /// The grid points that each fixed contact touches, from the first to the one after the last.
+    pub(crate) fn spans(&self) -> Vec<(usize, usize)> {
+        self.contacts.iter().map(|contact| contact.reading.span()).collect()
+    }
+
+    /// The tension, N, beyond which the shortest wave of the grid ripples, what stretching adds included, while the string's
+    /// own is `tension`.
+    pub fn tension_borne(&self, tension: f64) -> f64 {
+        let Model { grid, string, .. } = self;
+        let square = grid.spacing / grid.time_step * (grid.spacing / grid.time_step);
+        let taken = self.stiffness(tension).stability(string.linear_density, string.loss_1, grid);
+        tension + (1.0 - taken) * string.linear_density * square
     }
 
     /// P = βφ(ηⁿ)/(2k), N/m, of a contact of damping β at a penetration: what its force gains for each metre by which it
@@ -183,6 +197,9 @@ impl Model {
 
 /// The fewest intervals of a grid: room for one cubic interpolation.
 const LEAST_INTERVALS: usize = 4;
+
+/// Nobody is told that a string must be longer than this, m, whatever numbers there are to begin with.
+const LONGEST: f64 = 1e9;
 
 /// The most intervals of a grid, a limit against descriptions that would fill the memory.
 const MOST_INTERVALS: usize = 1_000_000;

@@ -111,12 +111,13 @@ impl Neck {
     /// Height of a crown at `place` (m from the nut) over the string at rest, m: negative.
     ///
     /// The crowns lie on a straight line less a parabola that vanishes at fret 1 and the last fret; the
-    /// line is set so that fret 1 has the nut clearance and fret 12 the action.
+    /// line is set so that fret 1 has the nut clearance and fret 12 the action. Where it would come nearer to the string than
+    /// 1e-5 m, beside the nut or where compensation moved the last fret to, it is cut off there.
     pub fn crown_height(&self, place: f64) -> f64 {
-        self.bowed_height(place, self.relief)
+        self.bowed_height(place, self.relief).min(-LEAST_CLEARANCE)
     }
 
-    /// The same with another relief, m.
+    /// The same with another relief, m, and however high.
     fn bowed_height(&self, place: f64, relief: f64) -> f64 {
         let (first, twelfth) = (self.equal_place(1.0), self.equal_place(12.0));
         let last = self.equal_place(self.frets as f64);

@@ -10,7 +10,7 @@ use crate::string::Scratch;
 /// A pluck that was begun.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plucked {
-    /// Where, m from the nut.
+    /// Where it was asked for, m from the nut.
     pub position: f64,
     /// Its largest force, N, up is positive.
     pub force: f64,

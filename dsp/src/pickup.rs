@@ -8,20 +8,26 @@ use crate::state::State;
 use crate::string::Scratch;
 
 /// Transverse force of the string on the bridge at the sample n from which the last step led, N, up is
-/// positive: −T ∂ₓu + EI ∂ₓₓₓu at x = L, with the stencil's own bending term and the tension raised by
-/// stretching.
+/// positive: −T ∂ₓu + EI ∂ₓₓₓu at x = L, with the tension raised by stretching.
+///
+/// The string goes on oddly beyond the bridge, so that its four last points give ∂ₓu up to an error of h⁸ and ∂ₓₓₓu to one of
+/// h⁶. (One point would give ∂ₓu up to an error of h², which is 2 dB of treble at a third of the grid's own bandwidth.)
 pub fn bridge_force(model: &Model, scratch: &Scratch) -> f64 {
     let h = model.grid.spacing;
-    // After a step the scratch holds uⁿ.
-    let [end, last, before] =
-        [0, 1, 2].map(|away| scratch.displacement[model.grid.cell(model.grid.intervals - away)]);
-    let slope = (end - last) / h;
-    let last_curvature = ((end - last) - (last - before)) / (h * h);
-    let stiffness = scratch.stiffness();
-    // ∂ₓₓu vanishes at the bridge, so ∂ₓₓₓu there is minus the last curvature over h.
-    -(stiffness.tension + stretch_tension(model, scratch)) * slope
-        - model.string.linear_density * stiffness.kappa_2 * last_curvature / h
+    // After a step the scratch holds uⁿ. The shortest string has its nut for the fourth point.
+    let point = |away: usize| scratch.displacement[model.grid.cell(model.grid.intervals - away)];
+    let near = [point(1), point(2), point(3), point(4)];
+    let of = |[a, b, c, d]: [f64; 4]| (a * near[0] + b * near[1]) + (c * near[2] + d * near[3]);
+    let tension = scratch.stiffness().tension + stretch_tension(model, scratch);
+    let bending = model.string.linear_density * model.string.kappa_squared();
+    tension * of(SLOPE) / h + bending * of(BEND) / (h * h * h)
 }
+
+/// h ∂ₓu of an odd function at 0 by its values at h, 2h, 3h and 4h.
+const SLOPE: [f64; 4] = [1.6, -0.4, 8.0 / 105.0, -1.0 / 140.0];
+
+/// −h³ ∂ₓₓₓu likewise.
+const BEND: [f64; 4] = [61.0 / 15.0, -169.0 / 60.0, 0.6, -7.0 / 120.0];
 
 /// Tension added by stretching at n, EA/(2L)·∫(∂ₓu)² dx, N, as the step had it; 0 where the string has no tension modulation.
 pub fn stretch_tension(model: &Model, scratch: &Scratch) -> f64 {

@@ -47,7 +47,7 @@ impl Quality {
             Self::Draft => "least work, buzz within 50 %",
             Self::Live => "within 1 cent, buzz within 25 %",
             Self::Studio => "4 × the work, buzz within 15 %",
-            Self::Reference => "12 × the work, buzz within 10 %",
+            Self::Reference => "12 × the work, buzz within 12 %",
         }
     }
 

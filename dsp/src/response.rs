@@ -78,10 +78,17 @@ pub(crate) trait Row {
     fn pull(&self) -> f64;
 }
 
-impl Response {
-    /// Room for fixed contacts, whose spans are given in order of place, and so many fingers anywhere: for
-    /// all that can be active at once, but for no square of a long board.
-    pub fn with_capacity(spans: &[(usize, usize)], fingers: usize) -> Self {
+/// What the answer of many contacts needs room for.
+pub(crate) struct Needs {
+    /// Entries of all blocks.
+    entries: usize,
+    /// Contacts in the largest block.
+    largest: usize,
+}
+
+impl Needs {
+    /// Of fixed contacts, whose spans are given in order of place, and so many fingers anywhere.
+    fn of(spans: &[(usize, usize)], fingers: usize) -> Self {
         let mut blocks = Vec::new();
         let mut starts = Vec::new();
         split(
@@ -101,11 +108,27 @@ impl Response {
             blocks[i..].iter().take_while(|block| block.1 < reach).map(|block| block.0).sum::<usize>()
         });
         // Fingers join what they touch; at worst all of it becomes one block.
-        let joined = fingers * (touched.max().unwrap_or(0) + 1);
         let all = spans.len() + fingers;
-        let largest = blocks.iter().map(|block| block.0).max().unwrap_or(0).max(joined).min(all);
-        let fixed: usize = blocks.iter().map(|block| block.0 * block.0).sum();
-        let entries = (fixed + joined * joined).min(all * all);
+        let joined = fingers.saturating_mul(touched.max().unwrap_or(0) + 1).min(all);
+        let largest = blocks.iter().map(|block| block.0).max().unwrap_or(0).max(joined);
+        let square = |contacts: usize| contacts.saturating_mul(contacts);
+        let fixed = blocks.iter().fold(0usize, |sum, block| sum.saturating_add(square(block.0)));
+        Needs { entries: fixed.saturating_add(square(joined)).min(square(all)), largest }
+    }
+
+    /// How many numbers a [`Response`] to fixed contacts with these spans and so many fingers keeps.
+    pub fn numbers(spans: &[(usize, usize)], fingers: usize) -> usize {
+        let Needs { entries, largest } = Needs::of(spans, fingers);
+        entries.saturating_add(largest.saturating_mul(largest))
+    }
+}
+
+impl Response {
+    /// Room for fixed contacts, whose spans are given in order of place, and so many fingers anywhere: for
+    /// all that can be active at once, but for no square of a long board.
+    pub fn with_capacity(spans: &[(usize, usize)], fingers: usize) -> Self {
+        let all = spans.len() + fingers;
+        let Needs { entries, largest } = Needs::of(spans, fingers);
         Response {
             blocks: Vec::with_capacity(all),
             starts: Vec::with_capacity(all),
@@ -250,7 +273,7 @@ mod tests {
             let grid = Grid::new(1.0, 40, 1e-5);
             let mut points = [0.0; N];
             for (i, point) in points.iter_mut().enumerate() {
-                *point = 0.1 + if apart { 0.1 * i as f64 } else { 0.1 * random(state) };
+                *point = 0.1 + if apart { 0.08 * i as f64 } else { 0.1 * random(state) };
             }
             if !apart {
                 points[N - 1] = points[0];
@@ -278,6 +301,10 @@ mod tests {
                 check::<4>(slope, apart, &mut state);
                 check::<5>(slope, apart, &mut state);
                 check::<6>(slope, apart, &mut state);
+                check::<7>(slope, apart, &mut state);
+                check::<8>(slope, apart, &mut state);
+                check::<9>(slope, apart, &mut state);
+                check::<10>(slope, apart, &mut state);
             }
         }
     }

@@ -6,6 +6,8 @@
 //! computed at the smallest multiple of the host's rate, in steps of a half, at which its grid is fine enough; a light
 //! one needs more of them, and each costs it less.
 
+use std::ops::RangeInclusive;
+
 use crate::error::{Error, within};
 use crate::intonation::flexible;
 use crate::model::Model;
@@ -18,16 +20,20 @@ use crate::setup::{Setup, SetupString};
 pub struct EngineSettings {
     /// Sample rate at which it is heard, Hz, 8e3 to 1e6.
     pub sample_rate: f64,
-    /// The widest grid a string may have, m, or two thirds of it over a wide bridge or under a bar: one whose grid is wider at
-    /// `sample_rate` is computed at a multiple of it. Infinite: every string is computed at `sample_rate` itself.
+    /// The widest grid a string may have, m, 1e-4 or more, or two thirds of it over a wide bridge or under a bar: one whose grid
+    /// is wider at `sample_rate` is computed at a multiple of it. Infinite: every string is computed at `sample_rate` itself that
+    /// is not too short for its grid there.
     pub widest_spacing: f64,
     /// Difference operator of the strings.
     pub stencil: Stencil,
-    /// Newton iterations at most in a sample.
+    /// Newton iterations at most in a solution, 0 to 1000.
     pub max_iterations: usize,
-    /// Largest change of penetration at which the iteration may stop, m.
+    /// Largest error of a penetration at which the iteration may stop, m, 0 to 1e-3.
     pub tolerance: f64,
 }
+
+/// What the host's rate may be, Hz.
+const RATES: RangeInclusive<f64> = 8e3..=1e6;
 
 /// No string is computed at more than this rate, Hz, unless the host's is higher: the price of strings that
 /// nobody would string up stays within bounds.
@@ -50,7 +56,7 @@ impl EngineSettings {
     /// How many steps a string of a set-up takes in a sample: as few as its grid's spacing allows.
     pub fn ratio(&self, setup: &Setup, string: &SetupString) -> Ratio {
         let parameters = flexible(setup, string);
-        let most = Ratio::of_halves((2.0 * HIGHEST_RATE / self.sample_rate) as usize);
+        let most = Ratio::of_halves((2.0 * HIGHEST_RATE / self.sample_rate.max(*RATES.start())) as usize);
         let widest = self.widest_spacing * if setup.is_touched_between_frets() { BETWEEN_FRETS } else { 1.0 };
         let fine = |ratio: &Ratio| {
             let time_step = 1.0 / (ratio.value() * self.sample_rate);
@@ -62,7 +68,7 @@ impl EngineSettings {
 
     /// Refuses values outside their range.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        within("sample_rate", self.sample_rate, 8e3, 1e6, "Hz")?;
+        within("sample_rate", self.sample_rate, *RATES.start(), *RATES.end(), "Hz")?;
         if self.widest_spacing.is_nan() || self.widest_spacing < 1e-4 {
             return Err(Error::range("widest_spacing", self.widest_spacing, "it must be 1e-4 m or more"));
         }

@@ -25,12 +25,14 @@ impl Simulation {
     ///
     /// # Errors
     /// When a value is out of range, a string too short for its grid, a contact too stiff for the rate,
-    /// or the whole more than [`MOST_POINTS`] and [`MOST_WORK`] allow.
+    /// or the whole more than [`MOST_POINTS`], [`MOST_NUMBERS`] and [`MOST_WORK`] allow.
     pub fn new(scene: &Scene) -> Result<Simulation, Error> {
         scene.check()?;
         check_size(scene)?;
+        // Made one after another, and none that there is no room for.
+        let mut left = MOST_NUMBERS;
         let strings = (0..scene.string.len())
-            .map(|index| SceneString::new(scene, index))
+            .map(|index| SceneString::new(scene, index, &mut left))
             .collect::<Result<_, Error>>()?;
         Ok(Simulation {
             strings,
@@ -44,7 +46,7 @@ impl Simulation {
     /// Opens the energy ledger; from now on [`Simulation::step`] returns its entries. The strings move
     /// exactly as they would without.
     pub fn open_ledger(&mut self) {
-        let open = |string: &SceneString| Ledger::new(&string.model, &string.state, string.tension.at(0.0));
+        let open = |string: &SceneString| Ledger::new(&string.model, &string.state, string.last_tension());
         self.ledgers = Some(self.strings.iter().map(open).collect());
     }
 
@@ -132,6 +134,10 @@ impl Simulation {
 
 /// The most grid points of all strings of a scene: with contacts at each, some hundred megabytes.
 pub const MOST_POINTS: usize = 1_000_000;
+
+/// The most numbers that say how contacts answer one another, in all strings: as many for a crowd of contacts that share grid
+/// points as its square.
+pub const MOST_NUMBERS: usize = 100_000_000;
 
 /// The most steps of grid points, plucks and fingers that a scene may take: hours of computing.
 pub const MOST_WORK: f64 = 1e13;

@@ -9,7 +9,10 @@
 
 mod early_stop;
 
+use pulp::{Simd, WithSimd};
+
 use crate::active::Active;
+use crate::instructions::Instructions;
 use crate::response::{Few, Response};
 use crate::scene::SolverSettings;
 use early_stop::{bounded, stop_early};
@@ -116,6 +119,7 @@ impl Solver {
     #[inline(always)]
     pub fn solve(
         &mut self,
+        instructions: Instructions,
         rows: &mut [Active],
         pull_factor: f64,
         settings: &SolverSettings,
@@ -131,13 +135,46 @@ impl Solver {
             4 => solve_few::<4>(rows, pull_factor, demands, convergence),
             5 => solve_few::<5>(rows, pull_factor, demands, convergence),
             6 => solve_few::<6>(rows, pull_factor, demands, convergence),
+            _ => Many { solver: self, rows, pull_factor, demands, convergence }.solve(instructions),
+        }
+    }
+}
+
+/// More contacts than the step itself has code for: rare, and apart from it, as the code of all sizes in one place slows
+/// down the few. Compiled for each instruction set, as a step is.
+struct Many<'a> {
+    solver: &'a mut Solver,
+    rows: &'a mut [Active],
+    pull_factor: f64,
+    demands: Demands<'a>,
+    convergence: &'a mut Convergence,
+}
+
+impl Many<'_> {
+    #[inline(never)]
+    fn solve(self, instructions: Instructions) -> f64 {
+        instructions.run(self)
+    }
+}
+
+impl WithSimd for Many<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        let Many { solver, rows, pull_factor, demands, convergence } = self;
+        match rows.len() {
+            7 => solve_few::<7>(rows, pull_factor, demands, convergence),
+            8 => solve_few::<8>(rows, pull_factor, demands, convergence),
+            9 => solve_few::<9>(rows, pull_factor, demands, convergence),
+            10 => solve_few::<10>(rows, pull_factor, demands, convergence),
             count => {
                 in_order(rows);
-                self.response.gather(rows, pull_factor);
-                self.room.clear();
-                self.room.resize(ARRAYS * count, 0.0);
-                let room = Room::new(&mut self.room, count);
-                solve(rows, &mut self.response, room, demands, convergence)
+                solver.response.gather(rows, pull_factor);
+                solver.room.clear();
+                solver.room.resize(ARRAYS * count, 0.0);
+                let room = Room::new(&mut solver.room, count);
+                solve(rows, &mut solver.response, room, demands, convergence)
             }
         }
     }

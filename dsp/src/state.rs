@@ -57,7 +57,7 @@ pub struct State {
     pub(crate) steps: u64,
     /// Energy that inexact solutions have put in and not yet taken out again, J; kept tiny.
     pub(crate) solver_balance: f64,
-    /// The largest energy (string at rest tension, and contacts) seen at a contact so far, J.
+    /// The largest energy (of string, contacts and fingers) seen at a contact so far, J.
     pub(crate) energy_scale: f64,
     interior: usize,
 }

@@ -16,7 +16,7 @@ use crate::state::State;
 /// Room to step one string, and what the last step did, for whoever measures it.
 #[derive(Debug, Clone)]
 pub struct Scratch {
-    instructions: Instructions,
+    pub(crate) instructions: Instructions,
     pub(crate) kernel: Kernel,
     stiffness: Stiffness,
     weights: Weights,
@@ -54,7 +54,6 @@ impl Scratch {
         let contacts = model.contacts.len() + model.finger_slots;
         let grid = || Field::new(&model.grid);
         let stiffness = model.stiffness(model.string.tension);
-        let spans: Vec<_> = model.contacts.iter().map(|contact| contact.reading.span()).collect();
         Scratch {
             instructions: Instructions::best(),
             kernel: Kernel::new(model),
@@ -67,7 +66,7 @@ impl Scratch {
             prediction: grid(),
             motion: grid(),
             displacement: grid(),
-            solver: Solver::with_capacity(&spans, model.finger_slots),
+            solver: Solver::with_capacity(&model.spans(), model.finger_slots),
             active: Rows::with_capacity(contacts),
             near: Vec::with_capacity(model.contacts.len()),
             held: vec![0; model.contacts.len()],

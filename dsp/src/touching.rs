@@ -91,7 +91,7 @@ impl State {
             };
             last = slot + 1;
             finger.remember(before);
-            squares += finger.touch.mass * finger.motion * finger.motion;
+            squares += finger.inertia.mass * finger.motion * finger.motion;
             let mut hand = *hand;
             if resting {
                 hand.position = finger.position;

@@ -240,6 +240,8 @@ impl Voice {
         self.settling.part = Ramp::at(1.0);
         self.drive.heights.clear();
         self.asleep = true;
+        self.run = [0.0; RUN];
+        self.silent = true;
         self.rebook();
     }
 }

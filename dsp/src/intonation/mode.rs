@@ -98,12 +98,17 @@ pub(super) fn stopped_oscillation(
     for _ in 0..ITERATIONS {
         let next = system.solve(&shape);
         offset = dot(&shape, &shape) / dot(&shape, &next);
-        let scale = Complex::from(dot(&next, &next).norm().sqrt().recip());
+        let scale = Complex::from(modulus(dot(&next, &next)).sqrt().recip());
         shape = next.into_iter().map(|x| x * scale).collect();
     }
     let stiffness = (offset + shift) / node_mass;
     let frequency = realised(stiffness.re, k);
     Oscillation { frequency, decay: stiffness.im / (2.0 * frequency) }
+}
+
+/// |x|. (That of `Complex` asks the machine's own mathematics, whose last digits differ.)
+fn modulus(x: Complex<f64>) -> f64 {
+    libm::hypot(x.re, x.im)
 }
 
 /// The shift is within a few per cent of the mode sought and its neighbours a factor of two away, so

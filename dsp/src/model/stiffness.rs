@@ -15,7 +15,7 @@ pub struct Stiffness {
 }
 
 impl Stiffness {
-    /// The stiffness that a stencil gives a string of squared wave speed `c2` and bending `kappa2`.
+    /// The stiffness that a stencil gives a string of a tension, N, and a bending κ² `kappa`, m⁴/s².
     pub(super) fn new(stencil: Stencil, linear_density: f64, tension: f64, kappa: f64, grid: &Grid) -> Self {
         let (k, h) = (grid.time_step, grid.spacing);
         let c2 = tension / linear_density;

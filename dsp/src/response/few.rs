@@ -29,9 +29,14 @@ impl<const N: usize> Few<N> {
 impl<const N: usize> Answer for Few<N> {
     #[inline(always)]
     fn product(&self, x: &[f64], out: &mut [f64]) {
-        for (out, row) in out.iter_mut().zip(&self.entries) {
-            *out = row.iter().zip(x).map(|(m, x)| m * x).sum();
+        // By columns, which are the rows: the sums are those of the rows in order, side by side.
+        let mut sums = [0.0; N];
+        for (column, x) in self.entries.iter().zip(x) {
+            for (sum, m) in sums.iter_mut().zip(column) {
+                *sum += m * x;
+            }
         }
+        out[..N].copy_from_slice(&sums);
     }
 
     #[inline(always)]

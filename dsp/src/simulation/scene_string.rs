@@ -1,12 +1,14 @@
 //! One string of a running scene: the forces and positions that the scene has act on it.
 
+use super::MOST_NUMBERS;
 use crate::curve::Curve;
-use crate::drive::{Drive, Push};
-use crate::error::Error;
-use crate::gesture::raised_cosine;
+use crate::drive::{Drive, Hand, Push};
+use crate::error::{Error, plain};
+use crate::gesture::pluck_push;
 use crate::grid::Reading;
 use crate::model::{Barrier, ContactKind, Model, StringParameters};
 use crate::pickup::bridge_force;
+use crate::response::Needs;
 use crate::scene::{ListeningPoint, PluckSpec, Scene};
 use crate::solver::Convergence;
 use crate::state::State;
@@ -69,7 +71,8 @@ impl Clock {
 }
 
 impl SceneString {
-    pub(super) fn new(scene: &Scene, index: usize) -> Result<SceneString, Error> {
+    /// Compiles a string of a scene, where there are so many numbers left for its contacts' answers.
+    pub(super) fn new(scene: &Scene, index: usize, left: &mut usize) -> Result<SceneString, Error> {
         let spec = &scene.string[index];
         let number = index + 1;
         let fingers: Vec<_> =
@@ -78,6 +81,9 @@ impl SceneString {
         let parameters = StringParameters::from_spec(spec);
         let model = Model::new(parameters, barrier.as_ref(), fingers.len(), scene.solver, scene.sample_rate)
             .map_err(|error| error.under(&format!("string[{number}]")))?;
+        *left = left
+            .checked_sub(Needs::numbers(&model.spans(), fingers.len()))
+            .ok_or_else(|| too_crowded(number))?;
         let mut state = State::new(&model);
         if let Some(shape) = &spec.shape {
             state.set_shape(&model, &Curve::Points(shape.clone()));
@@ -97,6 +103,12 @@ impl SceneString {
         };
         let mut drive = Drive::new(&model);
         drive.pushes.reserve(scene.pluck.len());
+        if spec.shape.is_some() || !fingers.is_empty() {
+            for (hand, (_, finger)) in drive.hands.iter_mut().zip(&fingers) {
+                *hand = Hand { position: finger.position.at(0.0), force: finger.force.at(0.0) };
+            }
+            state.let_go(&model, &drive);
+        }
         Ok(SceneString {
             plucks: plucks.map(|p| (p.clone(), model.grid.reading(p.position))).collect(),
             fingers: fingers
@@ -139,9 +151,9 @@ impl SceneString {
         let (now, next) = (clock.at(0), clock.at(1));
         self.drive.tension = self.tension.at(now);
         for (pluck, reading) in &self.plucks {
-            let since = now - pluck.start;
-            if since >= 0.0 && since <= pluck.duration && pluck.force != 0.0 {
-                let force = pluck.force * raised_cosine(since, pluck.duration);
+            let step = self.model.grid.time_step;
+            let force = pluck.force * pluck_push(now - pluck.start, step, pluck.duration);
+            if force != 0.0 {
                 self.drive.pushes.push(Push { reading: *reading, force });
             }
         }
@@ -154,6 +166,11 @@ impl SceneString {
     /// Takes the step.
     pub(super) fn advance(&mut self) {
         self.convergence = self.state.step(&self.model, &self.drive, &mut self.scratch);
+    }
+
+    /// Tension in the last step, N; before the first that at rest.
+    pub(super) fn last_tension(&self) -> f64 {
+        self.scratch.stiffness().tension
     }
 
     pub(super) fn output(&self) -> f64 {
@@ -217,4 +234,14 @@ impl SceneString {
         });
         fixed.fold(0.0, f64::max)
     }
+}
+
+/// Refuses contacts that share so many grid points that what they are to each other fills the memory.
+fn too_crowded(number: usize) -> Error {
+    let accepted = format!(
+        "contacts that share grid points are too many, in this string and those before: how each answers each may take {} \
+         numbers in all",
+        plain(MOST_NUMBERS as f64)
+    );
+    Error::range("string", plain(number as f64), accepted)
 }
