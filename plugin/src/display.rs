@@ -46,6 +46,11 @@ pub struct Health {
     pub relaxed: bool,
 }
 
+impl Health {
+    /// Above this part of the available time contacts are solved less exactly.
+    pub const LATE: f64 = 0.85;
+}
+
 /// The side of the audio thread.
 #[derive(Debug)]
 pub struct Writer {

@@ -41,7 +41,7 @@ pub struct EngineOptions {
     pub sample_rate: f64,
     /// How much computing.
     pub quality: Quality,
-    /// Newton iterations at most in a sample, if not as many as the quality has.
+    /// Newton iterations at most in a solution, if not as many as the quality has.
     pub iterations: Option<usize>,
     /// Size of the small differences between one pluck and the next, 0 (none) to 1.
     pub variation: f64,
@@ -198,9 +198,9 @@ impl Engine {
         }
     }
 
-    /// Whether a string sounds a key of a channel that has not been let go of.
+    /// Whether a string sounds a key of a channel that has not been let go of, or will as soon as one is free.
     pub fn sounds(&self, channel: u8, key: u8) -> bool {
-        self.performance.sounds(channel, key)
+        self.performance.sounds(channel, key) || self.performance.awaits(channel, key)
     }
 
     /// Number of strings, and so of stems.

@@ -7,18 +7,22 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use tempfile::NamedTempFile;
 
-/// Writes a text in place of what is there, in a folder that is made if need be.
+/// Writes a text in place of what is there, in a folder that is made if need be. Where a link is, what it points to is
+/// replaced.
 ///
 /// # Errors
 /// When the folder cannot be made or the file not be written; what was there is left.
 pub(crate) fn put(target: &Path, text: &str) -> Result<()> {
-    let folder = target.parent().unwrap_or(Path::new("."));
+    let place = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
+    let folder = place.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     // Beside it and then renamed, so that nobody ever reads half of it.
     let write = || -> io::Result<()> {
-        let mut draft = beside(target)?;
+        let mut draft = beside(&place)?;
         draft.write_all(text.as_bytes())?;
-        draft.persist(target)?;
+        // On the disk first: after a power failure there must not be an empty file under the name.
+        draft.as_file().sync_all()?;
+        draft.persist(&place)?;
         Ok(())
     };
     write().with_context(|| format!("cannot write {}", target.display()))
@@ -56,4 +60,20 @@ fn usual_permissions() -> Option<Permissions> {
 #[cfg(not(unix))]
 fn usual_permissions() -> Option<Permissions> {
     None
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_link_points_to_is_replaced() {
+        let folder = tempfile::tempdir().expect("there is room");
+        let [far, link] = ["far.toml", "link.toml"].map(|name| folder.path().join(name));
+        fs::write(&far, "old").expect("it can be written");
+        std::os::unix::fs::symlink(&far, &link).expect("links can be made");
+        put(&link, "new").expect("it can be written");
+        assert!(link.is_symlink());
+        assert_eq!(fs::read_to_string(&far).expect("it is there"), "new");
+    }
 }

@@ -67,6 +67,10 @@ impl Song {
             return Err(MidiFileError::NoSuchTrack { asked, count: chunks.tracks.len() });
         }
         let mut reader = Reader { selection, division: chunks.division, no_tempos: 0, song: Song::empty() };
+        if chunks.left_out > 0 {
+            let (announced, left_out) = (chunks.tracks.len(), chunks.left_out);
+            reader.song.warnings.push(SongWarning::TracksLeftOut { announced, left_out });
+        }
         let mut start = SongTime::zero(chunks.division);
         if chunks.sequential {
             for (index, data) in chunks.tracks.iter().enumerate() {

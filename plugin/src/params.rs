@@ -71,7 +71,7 @@ pub struct InstrumentParams {
     /// How much computing when the host renders offline.
     #[id = "render_quality"]
     pub render_quality: EnumParam<RenderChoice>,
-    /// Newton iterations at most in a sample; 0 is as many as the quality has.
+    /// Newton iterations at most in a solution; 0 is as many as the quality has.
     #[id = "iterations"]
     pub iterations: IntParam,
     /// Whether contacts may be solved less exactly, in real time only, when there is not time enough.

@@ -16,6 +16,7 @@ pub(crate) mod order;
 mod playing;
 pub mod shelf;
 pub mod state;
+mod voices;
 mod workshop;
 
 use std::sync::Arc;
@@ -195,6 +196,7 @@ impl Plugin for LowAction {
     }
 
     fn reset(&mut self) {
+        self.played.clear();
         if let Some(playing) = &mut self.playing {
             playing.reset_sound();
         }
@@ -237,12 +239,14 @@ impl Plugin for LowAction {
             }
         }
         playing.play(&self.params, left, right, &mut stems[..count]);
+        // Another instrument may have come in; the host hears of it if it has other strings.
+        context.set_current_voice_capacity(playing.string_count());
         self.output.shape(&self.params.output, left, right, &mut stems[..count]);
         self.meters.see_output(left, right);
         playing.end_voices(|event| context.try_send_event(event).is_ok());
         playing.stop_clock(started, left.len(), self.params.instrument.relax.value());
         let health = Health { load: self.meters.load(), relaxed: self.meters.relaxed() };
-        let status = playing.status();
+        let status = playing.status(looked_at);
         if self.display.write(playing.engine(), left.len(), health) {
             self.show();
         }
@@ -277,3 +281,18 @@ impl Vst3Plugin for LowAction {
 }
 
 nice_export_vst3!(LowAction);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::performance::PlayerEvent;
+
+    #[test]
+    fn what_was_played_before_a_reset_is_forgotten() {
+        let (pointer, played) = pointer();
+        let mut plugin = LowAction { played, ..LowAction::default() };
+        assert!(pointer.play(PlayerEvent::AllNotesOff));
+        plugin.reset();
+        assert!(plugin.played.next().is_none());
+    }
+}

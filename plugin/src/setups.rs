@@ -76,6 +76,11 @@ pub fn installed() -> Vec<SetupFile> {
     folder().map(|folder| files_in(&folder)).unwrap_or_default()
 }
 
+/// Where the set-up of a name is in a folder, or would be.
+pub(crate) fn place(name: &str, folder: &Path) -> PathBuf {
+    folder.join(format!("{name}.{EXTENSION}"))
+}
+
 /// The text of a set-up file.
 ///
 /// # Errors
@@ -89,24 +94,32 @@ pub fn read(path: &Path) -> Result<String> {
     Ok(text)
 }
 
-/// Checks set-up files and, if all are good, copies them into a folder, which is made if need be, in place of those of the
-/// same name.
-///
-/// # Errors
-/// When one is no set-up, has the name of one that comes with the program, or cannot be copied.
-pub fn install(paths: &[PathBuf], folder: &Path) -> Result<Vec<SetupFile>> {
-    let checked = paths.iter().map(|path| check(path)).collect::<Result<Vec<_>>>()?;
-    checked.iter().map(|(name, text)| put(name, text, folder)).collect()
+/// The name and the text of a set-up file that can be installed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Checked {
+    name: String,
+    text: String,
 }
 
-/// The name and the text of a set-up file that can be installed.
-fn check(path: &Path) -> Result<(String, String)> {
+/// Writes set-up files into a folder, which is made if need be, in place of those of the same name.
+///
+/// # Errors
+/// When one cannot be written.
+pub fn install(files: &[Checked], folder: &Path) -> Result<Vec<SetupFile>> {
+    files.iter().map(|file| put(&file.name, &file.text, folder)).collect()
+}
+
+/// Reads a set-up file that is to be installed.
+///
+/// # Errors
+/// When it is no set-up or has the name of one that comes with the program.
+pub fn check(path: &Path) -> Result<Checked> {
     let text = read(path)?;
     Setup::from_toml(&text).with_context(|| path.display().to_string())?;
     let name = path.file_stem().and_then(|name| name.to_str());
     let name = name.with_context(|| format!("{} has no name that could be shown", path.display()))?;
     ensure!(!SHIPPED.contains(&name), "{name} comes with the program: give {} another name", path.display());
-    Ok((name.to_owned(), text))
+    Ok(Checked { name: name.to_owned(), text })
 }
 
 /// Saves a set-up under its own name in a folder, which is made if need be, in place of one of the same name.
@@ -128,7 +141,7 @@ pub fn save(setup: &Setup, folder: &Path) -> Result<SetupFile> {
 
 /// Writes a set-up file.
 fn put(name: &str, text: &str, folder: &Path) -> Result<SetupFile> {
-    let path = folder.join(name).with_extension(EXTENSION);
+    let path = place(name, folder);
     files::put(&path, text)?;
     Ok(SetupFile { name: name.to_owned(), path })
 }

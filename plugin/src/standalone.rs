@@ -65,6 +65,9 @@ pub fn open(mut start: Start, devices: &Devices) -> Result<()> {
         NONE => NOTHING,
         named => named,
     };
+    if let Some(warning) = given_in_vain(way, devices) {
+        say("warning", &warning);
+    }
     let mut arguments = vec!["low-action --".to_owned(), format!("--backend={way}")];
     if way != JACK {
         arguments.push(format!("--sample-rate={}", devices.sample_rate));
@@ -93,6 +96,22 @@ pub fn open(mut start: Start, devices: &Devices) -> Result<()> {
         return Ok(());
     }
     bail!("no sound can be played by {way}: `low-action --list-devices` shows what there is")
+}
+
+/// That devices were named where the way to them takes no names, if so.
+fn given_in_vain(way: &str, devices: &Devices) -> Option<String> {
+    let backend = match way {
+        JACK => JACK,
+        NOTHING => NONE,
+        _ => return None,
+    };
+    let options = [("--output-device", &devices.output), ("--midi-input", &devices.keyboard)];
+    let given =
+        options.into_iter().filter_map(|(option, name)| Some(format!("{option} {:?}", name.as_ref()?)));
+    let given: Vec<String> = given.collect();
+    (!given.is_empty()).then(|| {
+        format!("--backend {backend} does not take {}: only --backend {NATIVE} does", given.join(" or "))
+    })
 }
 
 /// Whether a JACK server runs; none is started.
@@ -150,4 +169,26 @@ pub fn list() -> String {
     keyboards.iter().for_each(|name| text += &format!("  {name}\n"));
     text += "With a JACK server running, outputs and inputs are its own: --backend jack.\n";
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn devices_named_in_vain_are_told() {
+        let named =
+            Devices { output: Some("USB".into()), keyboard: Some("Keys".into()), ..Devices::default() };
+        let told = given_in_vain(JACK, &named);
+        let both = format!(
+            "--backend jack does not take --output-device \"USB\" or --midi-input \"Keys\": only --backend {NATIVE} does"
+        );
+        assert_eq!(told, Some(both));
+        let told = given_in_vain(NOTHING, &Devices { output: None, ..named.clone() });
+        assert!(
+            told.is_some_and(|told| told.starts_with("--backend none does not take --midi-input \"Keys\":"))
+        );
+        assert_eq!(given_in_vain(NATIVE, &named), None);
+        assert_eq!(given_in_vain(JACK, &Devices::default()), None);
+    }
 }

@@ -20,20 +20,22 @@ Examples:
   low-action render song.mid                   to song.wav in the current folder
   low-action render song.mid -o - | aplay      to standard output
   low-action render - -o take.wav < song.mid   from standard input
-  low-action render song.mid --instrument my-guitar.toml --quality studio --bit-depth 32f
+  low-action render song.mid --instrument my-guitar.toml --quality studio
   low-action render song.mid --track 2 --tail 5 --stems strings/
-  low-action render take.mid --input strings --bend-range 12    from a MIDI guitar
+  low-action render take.mid --input strings --bend-range 12
+                                               from a MIDI guitar
 
-Notes go to the string and fret nearest to the hand; those no string can give move by octaves.
-Channel 10 is percussion and left out unless asked for with --channel 10. Where channels are strings, or notes
+Notes go to the string and fret nearest to the hand; those no string can give move by octaves. \
+Channel 10 is percussion and left out unless asked for with --channel 10. Where channels are strings, or notes \
 of MPE, it is one like the others.
 
-Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept), 130 stopped."
+Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept), \
+130 stopped, or ended by the signal itself (143 for SIGTERM, as shells count)."
 )]
 pub struct RenderArgs {
     /// MIDI file to play, - for standard input; without it, the built-in demo.
     pub song: Option<PathBuf>,
-    /// WAV file to write, - for standard output [default: SONG.wav in the current folder].
+    /// WAV file to write, in place of any that is there, - for standard output [default: SONG.wav in the current folder].
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Set-up that comes with the program (electric, classical, steel, bass, tanpura, ...) or was installed, or
@@ -49,8 +51,8 @@ pub struct RenderArgs {
     /// Sample format: 16 or 24 bit whole numbers, or 32f for floating point.
     #[arg(short, long, value_name = "16|24|32f", default_value_t = BitDepth::Int24)]
     pub bit_depth: BitDepth,
-    /// How long to go on after the last event: until it is quiet (auto, 30 s at most), so many
-    /// seconds, or not at all (none).
+    /// How long to go on after the last event that is for the player, whenever the track itself ends: until it is quiet
+    /// (auto, 30 s at most), so many seconds, or not at all (none).
     #[arg(long, value_name = "auto|SECONDS|none", default_value_t = Tail::Auto)]
     pub tail: Tail,
     /// Play only this track, counted from 1; tempo changes of all tracks count.
@@ -81,7 +83,8 @@ pub struct RenderArgs {
     /// Longest music accepted, minutes.
     #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes)]
     pub max_length: f64,
-    /// Also write each string's own sound, mono and before panning, into this folder.
+    /// Also write each string's own sound, mono and before panning, into this folder, as NUMBER-NAME.wav, in place of
+    /// files that are there. Each song needs a folder of its own.
     #[arg(long, value_name = "DIR")]
     pub stems: Option<PathBuf>,
     /// Size of the small differences between one pluck and the next, 0 (none: the hand does the same each time; what
@@ -99,46 +102,53 @@ pub struct RenderArgs {
     allow_negative_numbers = true,
     after_help = "\
 Examples:
-  low-action scene scene.toml                          computed, checked, summed up
+  low-action scene scene.toml                          computed and checked
   low-action scene scene.toml --wav out.wav
   low-action scene scene.toml --trace out.npz --every 4
   low-action scene scene.toml --figure out.svg
-  low-action scene - --wav - < scene.toml | aplay      from standard input to standard output
+  low-action scene - --wav - < scene.toml | aplay      from and to a pipe
 
-The trace is an .npz file of NumPy arrays. Strings (S), frets (F) and fingers (N) count from 1. Row n of
-the arrays over time belongs to its time t: the state there, the forces and powers that act there, and
+The trace is an .npz file of NumPy arrays. Strings (S), frets (F) and fingers (N) count from 1. Row n of \
+the arrays over time belongs to its time t: the state there, the forces and powers that act there, and \
 the energies half a sample later.
-  t                                                    s
-  x_S, u_S                                             m; places, and displacements over time and places
-  u_finger_N                                           m
-  force_board_S, force_fret_S_F, force_finger_N        N
-  iterations                                           of the contact solver, all strings together
-  energy_string, energy_tension, energy_contact, energy_finger    J
-  power_loss, power_solver, power_in                   W
-  power_loss_0, power_loss_1,
-  power_loss_contact, power_loss_hand                  W; the terms of power_loss
-  power_in_pluck, power_in_hand,
-  power_in_slide, power_in_tension                     W; the terms of power_in
-  residual                                             J in that sample: what the balance does not explain
+  t                            s
+  x_S, u_S                     m; places, and displacements over time and there
+  u_finger_N                   m
+  force_board_S, force_fret_S_F,
+  force_finger_N               N
+  iterations                   of the contact solver, all strings together
+  energy_string, energy_tension,
+  energy_contact, energy_finger
+                               J
+  power_loss, power_solver,
+  power_in                     W
+  power_loss_0, power_loss_1, power_loss_contact,
+  power_loss_hand              W; the terms of power_loss
+  power_in_pluck, power_in_hand, power_in_slide,
+  power_in_tension             W; the terms of power_in
+  residual                     J in that sample: what the balance leaves over
 
-The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to
-1e-9 of the largest energy.
+The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to \
+1e-9 of the largest energy, or of what was put in where that is more, beside what rounding can do.
 
-Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check, 130 stopped."
+Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check, \
+130 stopped, or ended by the signal itself (143 for SIGTERM, as shells count)."
 )]
 pub struct SceneArgs {
     /// Scene file (TOML, SI units), - for standard input.
     pub file: PathBuf,
-    /// WAV file to write, - for standard output: 32-bit float, in SI units, at the scene's rate.
+    /// WAV file to write, in place of any that is there, - for standard output: 32-bit float, in SI units, at the scene's
+    /// rate.
     #[arg(long, value_name = "FILE")]
     pub wav: Option<PathBuf>,
-    /// Trace to write: displacements, contact forces and the energy balance.
+    /// Trace to write, in place of any that is there: displacements, contact forces and the energy balance.
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
     /// Keep every N-th sample of the trace, from the first.
     #[arg(long, value_name = "N", default_value_t = 1, requires = "trace", value_parser = whole::<u64>(1..=u64::MAX))]
     pub every: u64,
-    /// Picture to draw (SVG): the strings over the board, energies, contact forces, iterations, penetration.
+    /// Picture to draw (SVG), in place of any that is there: the strings over the board, energies, contact forces,
+    /// iterations, penetration.
     #[arg(long, value_name = "FILE")]
     pub figure: Option<PathBuf>,
 }
@@ -180,13 +190,13 @@ pub struct StandAloneArgs {
 /// Arguments of `low-action instruments`.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
-Installed set-ups can be named like those that come with the program (render --instrument NAME), and the plugin
-lists them by number under `Instrument file` when it is loaded. They are kept in a folder of yours, which the
+Installed set-ups can be named like those that come with the program (render --instrument NAME), and the plugin \
+lists them by number under `Instrument file` when it is loaded. They are kept in a folder of yours, which the \
 variable LOW_ACTION_INSTRUMENTS may name.
 
 Examples:
   low-action instruments                             what there is
-  low-action instruments --install my-guitar.toml    checks the file and copies it to the folder
+  low-action instruments --install my-guitar.toml    checks and copies the file
 
 Exit codes: 0 done, 1 could not be done, 2 wrong usage.")]
 pub struct InstrumentsArgs {

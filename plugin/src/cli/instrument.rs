@@ -8,30 +8,39 @@ use low_action_dsp::Setup;
 use super::Failure;
 use crate::setups::{self, SHIPPED};
 
-/// A set-up that comes with the program or was installed, by name, or one from a file.
-pub(super) fn load(name: &str) -> Result<Setup, Failure> {
-    match Setup::shipped(name) {
-        Some(setup) => Ok(setup),
-        None => Ok(file(name)?.1),
+/// A set-up that comes with the program or was installed, by name, or one from a file; and where that file is, if one was
+/// read.
+pub(super) fn load(name: &str) -> Result<(Setup, Option<PathBuf>), Failure> {
+    if let Some(setup) = Setup::shipped(name) {
+        return Ok((setup, None));
     }
+    let (path, _, setup) = file(name)?;
+    Ok((setup, Some(path)))
 }
 
-/// A set-up that was installed, by name, or one from a file: its text, and what it says.
-pub(super) fn file(name: &str) -> Result<(String, Setup), Failure> {
-    let mut path = PathBuf::from(name);
-    // A bare word that is no file is the name of an installed set-up, or a misspelt one.
-    if !path.exists() && path.extension().is_none() && path.components().count() == 1 {
-        let installed = setups::installed();
-        let Some(file) = installed.iter().find(|file| file.name == name) else {
-            let own = installed.iter().map(|file| file.name.as_str());
-            let known = SHIPPED.into_iter().chain(own).collect::<Vec<_>>().join(", ");
-            return Err(Failure::Usage(format!(
-                "unknown instrument {name:?}: must be {known} or a set-up file"
-            )));
-        };
-        path.clone_from(&file.path);
-    }
+/// A set-up that was installed, by name, or one from a file: where it is, its text, and what it says.
+pub(super) fn file(name: &str) -> Result<(PathBuf, String, Setup), Failure> {
+    let path = path(name)?;
     let text = setups::read(&path)?;
     let setup = Setup::from_toml(&text).with_context(|| path.display().to_string())?;
-    Ok((text, setup))
+    Ok((path, text, setup))
+}
+
+/// Where the file is that a name or a path means.
+fn path(name: &str) -> Result<PathBuf, Failure> {
+    let path = PathBuf::from(name);
+    if path.exists() || path.components().count() > 1 {
+        return Ok(path);
+    }
+    let installed = setups::installed();
+    if let Some(file) = installed.iter().find(|file| file.name == name) {
+        return Ok(file.path.clone());
+    }
+    if path.extension().is_some() {
+        return Ok(path);
+    }
+    // A bare word is a misspelt name.
+    let own = installed.iter().map(|file| file.name.as_str());
+    let known = SHIPPED.into_iter().chain(own).collect::<Vec<_>>().join(", ");
+    Err(Failure::Usage(format!("unknown instrument {name:?}: must be {known} or a set-up file")))
 }

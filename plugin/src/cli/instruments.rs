@@ -2,9 +2,11 @@
 
 use std::io::Write;
 
-use anyhow::Context;
+use anyhow::{Context, Result};
 use low_action_dsp::Setup;
 
+use super::names::{escaped, shown};
+use super::unfinished::undisturbed;
 use super::{InstrumentsArgs, Outcome, say};
 use crate::plugin::shelf::MOST_FILES;
 use crate::setups::{self, FOLDER_VARIABLE, SHIPPED};
@@ -15,8 +17,10 @@ pub(super) fn run(arguments: &InstrumentsArgs) -> Outcome {
         format!("this system has no folder for a user's data: name one in {FOLDER_VARIABLE}")
     })?;
     if !arguments.install.is_empty() {
-        for file in setups::install(&arguments.install, &folder)? {
-            say(&file.name, &format!("installed as {}", file.path.display()));
+        let files = arguments.install.iter().map(|path| setups::check(path)).collect::<Result<Vec<_>>>()?;
+        // Told to stop meanwhile, it still installs them all: some would be neither what was nor what was asked for.
+        for file in undisturbed(|_| setups::install(&files, &folder))? {
+            say(&file.name, &format!("installed as {}", shown(&file.path)));
         }
         return Ok(());
     }
@@ -25,7 +29,7 @@ pub(super) fn run(arguments: &InstrumentsArgs) -> Outcome {
         let description = Setup::shipped(name).map(|setup| setup.description).unwrap_or_default();
         text += &format!("  {name:<18}{description}\n");
     }
-    text += &format!("Yours, in {}:\n", folder.display());
+    text += &format!("Yours, in {}:\n", shown(&folder));
     let files = setups::files_in(&folder);
     if files.is_empty() {
         text += "  none; `low-action instruments --install FILE` puts set-up files there\n";
@@ -34,7 +38,7 @@ pub(super) fn run(arguments: &InstrumentsArgs) -> Outcome {
         let number = if index < MOST_FILES { format!("{}", index + 1) } else { "-".into() };
         let what = setups::read(&file.path).and_then(|text| Ok(Setup::from_toml(&text)?));
         let what = what.map_or_else(|problem| format!("not usable: {problem:#}"), |setup| setup.description);
-        text += &format!("  {number:>2} {:<15}{}\n", file.name, super::one_line(&what));
+        text += &format!("  {number:>2} {:<15}{}\n", escaped(&file.name), super::one_line(&what));
     }
     if files.len() > MOST_FILES {
         text += &format!("  (the plugin has numbers for the first {MOST_FILES})\n");

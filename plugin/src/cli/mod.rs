@@ -2,12 +2,14 @@
 //! instrument.
 //!
 //! Exit codes: 0 done; 1 it could not be done (a file, its format, the disk, a limit); 2 wrong
-//! usage; 3 the result failed its own check, and is kept; 130 told to stop, by a signal. Every error is one line on standard
-//! error; standard output carries a result asked for with `-`, or else the summary of a scene.
+//! usage; 3 the result failed its own check, and is kept; 130 told to stop, by a signal. Where nothing has to be cleaned up,
+//! the signal itself ends the program, which shells count as 128 and its number (143 for SIGTERM). Every error is one line
+//! on standard error; standard output carries a result asked for with `-`, or else the summary of a scene.
 
 mod arguments;
 mod instrument;
 mod instruments;
+mod names;
 mod npz;
 pub mod output;
 mod paths;
@@ -15,6 +17,7 @@ mod progress;
 mod render;
 mod scene;
 mod stand_alone;
+mod stopping;
 mod trace;
 mod unfinished;
 mod wav;
@@ -36,11 +39,11 @@ pub use render::{BitDepth, Tail};
     about,
     args_conflicts_with_subcommands = true,
     after_help = "\
-Without a command, low-action opens the stand-alone instrument, if it was built with it
+Without a command, low-action opens the stand-alone instrument, if it was built with it \
 (cargo feature standalone), which the mouse and what arrives on MIDI play until it is closed.
 
 Examples:
-  low-action --instrument tanpura            played by the first keyboard there is
+  low-action --instrument tanpura            played by the first keyboard
   low-action --list-devices                  outputs and MIDI inputs by name
   low-action --instrument bass --midi-input \"Keystation 49\" --period-size 128
   low-action render                          the built-in demo, to demo.wav
@@ -119,7 +122,13 @@ where
             instruments::run(&arguments)
         }
         Ok(CommandLine { command: None, playing }) => stand_alone::run(&playing),
-        Err(error) => explain(&error, command_of(&arguments).as_deref()),
+        Err(error) => {
+            let command = command_of(&arguments);
+            match misspelt_command(&error, command.as_deref(), &arguments) {
+                Some(failure) => Err(failure),
+                None => explain(&error, command.as_deref()),
+            }
+        }
     };
     match outcome {
         Ok(()) => 0,
@@ -132,7 +141,7 @@ where
 
 /// Writes a line to standard error. A closed standard error is no reason to stop.
 pub(crate) fn say(kind: &str, text: &str) {
-    writeln!(std::io::stderr(), "{kind}: {}", one_line(text)).ok();
+    writeln!(std::io::stderr(), "{}: {}", names::escaped(kind), one_line(text)).ok();
 }
 
 /// The command that arguments, program name first, are for; a command comes before all options.
@@ -140,6 +149,18 @@ fn command_of(arguments: &[OsString]) -> Option<String> {
     let first = arguments.get(1)?.to_str()?;
     let known = CommandLine::command();
     known.get_subcommands().any(|command| command.get_name() == first).then(|| first.to_owned())
+}
+
+/// What to say where a word stands that is no command: without one, the program takes options only.
+fn misspelt_command(error: &clap::Error, command: Option<&str>, arguments: &[OsString]) -> Option<Failure> {
+    let word = arguments.get(1)?.to_string_lossy();
+    if error.kind() != ErrorKind::UnknownArgument || command.is_some() || word.starts_with('-') {
+        return None;
+    }
+    let known = CommandLine::command();
+    let known: Vec<&str> = known.get_subcommands().map(|command| command.get_name()).collect();
+    let known = known.join(", ");
+    Some(Failure::Usage(format!("unknown command {word:?}: must be {known} (see low-action --help)")))
 }
 
 /// Help and version are printed in full; a mistake becomes one line, with what else may have been meant and whose
@@ -172,7 +193,7 @@ pub(crate) fn unless_closed(written: std::io::Result<()>) -> std::io::Result<()>
     })
 }
 
-/// A message folded into one line.
-fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+/// A message folded into one line, without orders to the terminal.
+pub(crate) fn one_line(text: &str) -> String {
+    names::escaped(&text.split_whitespace().collect::<Vec<_>>().join(" "))
 }

@@ -2,13 +2,13 @@
 
 use std::fs::{self, File};
 use std::io::{self, Seek};
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, is_separator};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use tempfile::TempPath;
 
+use super::names::shown;
 use super::unfinished::Unfinished;
-use crate::files::beside;
 
 /// Where a result goes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,14 +34,14 @@ impl Draft {
     /// Begins a result that is to appear at `path`, where `-` is standard output.
     ///
     /// # Errors
-    /// When the place is a folder, or nothing can be written beside it.
+    /// When the place is a folder or can have no file, or nothing can be written beside it.
     pub fn begin(path: &Path) -> Result<Self> {
         let target = Target::find(path)?;
-        let describe = || format!("cannot write {}", path.display());
+        let describe = || format!("cannot write {}", shown(path));
         let (file, beside) = match &target {
             Target::File(path) => {
-                let (file, beside) = beside(path).with_context(describe)?.into_parts();
-                let unfinished = Unfinished::new(&beside);
+                let (file, unfinished) = Unfinished::beside(path).with_context(describe)?;
+                let (file, beside) = file.into_parts();
                 (file, Some((beside, unfinished)))
             }
             Target::StandardOutput | Target::Stream(_) => {
@@ -72,10 +72,10 @@ impl Draft {
                 .write(true)
                 .open(path)
                 .and_then(|mut stream| copy(&mut self.file, &mut stream))
-                .with_context(|| format!("cannot write {}", path.display())),
+                .with_context(|| format!("cannot write {}", shown(path))),
             (Target::File(path), beside) => beside
                 .map_or(Ok(()), |(beside, _unfinished)| beside.persist(path).map_err(|error| error.error))
-                .with_context(|| format!("cannot write {}", path.display())),
+                .with_context(|| format!("cannot write {}", shown(path))),
         }
     }
 }
@@ -86,12 +86,32 @@ impl Target {
             return Ok(Self::StandardOutput);
         }
         match fs::metadata(path) {
-            Ok(found) if found.is_dir() => bail!("cannot write {}: it is a folder", path.display()),
+            Ok(found) if found.is_dir() => bail!("cannot write {}: it is a folder", shown(path)),
             // Replaces what a link points to, not the link.
             Ok(found) if found.is_file() => Ok(Self::File(fs::canonicalize(path)?)),
             Ok(_) => Ok(Self::Stream(path.to_owned())),
-            Err(_) => Ok(Self::File(path.to_owned())),
+            Err(_) => {
+                check_new(path).with_context(|| format!("cannot write {}", shown(path)))?;
+                Ok(Self::File(path.to_owned()))
+            }
         }
+    }
+}
+
+/// Refuses a place where nothing is and no file can be made.
+fn check_new(path: &Path) -> Result<()> {
+    // (The parts of a path are no help: those of `new/` and of `new/.` are those of `new`.)
+    let letters = path.as_os_str().as_encoded_bytes();
+    let last = letters.rsplit(|&letter| is_separator(letter.into())).next();
+    ensure!(!matches!(last, Some(b"" | b"." | b"..")), "that names a folder, not a file");
+    if let Some(folder) = path.parent().filter(|folder| **folder != *"") {
+        let is_missing = fs::metadata(folder).is_err_and(|error| error.kind() == io::ErrorKind::NotFound);
+        ensure!(!is_missing, "the folder {} does not exist", shown(folder));
+    }
+    match fs::symlink_metadata(path) {
+        // Most often a name that is too long.
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error.into()),
+        _ => Ok(()),
     }
 }
 
@@ -99,4 +119,31 @@ fn copy(from: &mut File, to: &mut impl io::Write) -> io::Result<()> {
     from.rewind()?;
     io::copy(from, to)?;
     to.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_no_file_can_be_is_found_out_at_the_beginning() {
+        let room = tempfile::tempdir().unwrap();
+        fs::write(room.path().join("file"), "").unwrap();
+        let long = "x".repeat(300);
+        for (name, expected) in [
+            ("new/", "that names a folder, not a file"),
+            ("new/.", "that names a folder, not a file"),
+            ("file/", "that names a folder, not a file"),
+            ("..", "it is a folder"),
+            ("no/such/x.wav", "no/such does not exist"),
+            (long.as_str(), "cannot write"),
+        ] {
+            let path = room.path().join(name);
+            let error = format!("{:#}", Draft::begin(&path).unwrap_err());
+            assert!(error.contains(expected) && error.contains(name), "{name}: {error}");
+        }
+        assert_eq!(fs::read_dir(room.path()).unwrap().count(), 1);
+        Draft::begin(&room.path().join("new")).unwrap().publish().unwrap();
+        assert!(room.path().join("new").is_file());
+    }
 }

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::names::shown;
 use super::{Failure, Outcome};
 
 /// A file that a command was told of: what it is to the user, and where.
@@ -20,7 +21,7 @@ pub(super) fn keep_apart(read: &[Named], written: &[Named]) -> Outcome {
     for (index, ((name, path), _)) in all.iter().enumerate() {
         for ((other, other_path), is_written) in &all[index + 1..] {
             if *is_written && is_same_file(path, other_path) {
-                let path = other_path.display();
+                let path = shown(other_path);
                 return Err(Failure::Usage(format!("{name} and {other} name the same file, {path}")));
             }
         }

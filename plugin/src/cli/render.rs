@@ -11,6 +11,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
 
+use super::names::{escaped, shown};
 use super::paths::{is_dash, keep_apart};
 pub use super::wav::BitDepth;
 use super::{Failure, Outcome, RenderArgs, instrument, say};
@@ -28,7 +29,7 @@ use playing::{Playing, Rendered};
 /// Renders a song.
 pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let input = input_mode(arguments)?;
-    let setup = instrument::load(&arguments.instrument)?;
+    let (setup, setup_file) = instrument::load(&arguments.instrument)?;
     let song = read_song(arguments)?;
     check_length(arguments, &song).with_context(|| song_name(arguments))?;
     for warning in &song.warnings {
@@ -41,13 +42,13 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         bend_range: arguments.bend_range,
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
-    let mut engine = Engine::new(&options).with_context(|| arguments.instrument.clone())?;
+    let mut engine = Engine::new(&options).with_context(|| escaped(&arguments.instrument))?;
     engine.set_input(input);
     let touching = Touching::new(arguments.variation, arguments.bend_range);
     engine.touch(&Touching { ignore_rpn: arguments.ignore_rpn, ..touching });
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
     let output = output_path(arguments)?;
-    check_paths(arguments, &output, &names)?;
+    check_paths(arguments, setup_file, &output, &names)?;
     let files = Files::begin(arguments, &output, &names)?;
 
     let started = Instant::now();
@@ -71,7 +72,7 @@ fn song_name(arguments: &RenderArgs) -> String {
     match &arguments.song {
         None => "the built-in demo".to_owned(),
         Some(path) if is_dash(path) => "standard input".to_owned(),
-        Some(path) => path.display().to_string(),
+        Some(path) => shown(path),
     }
 }
 
@@ -126,7 +127,7 @@ fn output_path(arguments: &RenderArgs) -> Result<PathBuf> {
         (None, None) => Ok("demo.wav".into()),
         (None, Some(song)) if is_dash(song) => Ok("song.wav".into()),
         (None, Some(song)) => {
-            let stem = song.file_stem().ok_or_else(|| anyhow!("{} is not a file's name", song.display()))?;
+            let stem = song.file_stem().ok_or_else(|| anyhow!("{} is not a file's name", shown(song)))?;
             let mut name = stem.to_owned();
             name.push(".wav");
             Ok(name.into())
@@ -134,10 +135,16 @@ fn output_path(arguments: &RenderArgs) -> Result<PathBuf> {
     }
 }
 
-/// Refuses to write two sounds to one file, or in the place of the song or the instrument.
-fn check_paths(arguments: &RenderArgs, output: &Path, strings: &[&str]) -> Outcome {
-    let mut read = vec![("the instrument".to_owned(), PathBuf::from(&arguments.instrument))];
-    read.extend(arguments.song.clone().map(|song| ("the song".to_owned(), song)));
+/// Refuses to write two sounds to one file, or in the place of the song or the instrument's file, if it has one.
+fn check_paths(
+    arguments: &RenderArgs,
+    setup_file: Option<PathBuf>,
+    output: &Path,
+    strings: &[&str],
+) -> Outcome {
+    let setup_file = setup_file.map(|path| ("the instrument".to_owned(), path));
+    let song = arguments.song.clone().map(|song| ("the song".to_owned(), song));
+    let read: Vec<_> = setup_file.into_iter().chain(song).collect();
     let mut written = vec![("the sound".to_owned(), output.to_owned())];
     let stems = stem_paths(arguments, strings).into_iter().zip(strings);
     written.extend(stems.map(|(path, string)| (format!("the sound of string {string}"), path)));
@@ -161,6 +168,9 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     if *lost_events > 0 {
         say("warning", &format!("{lost_events} events were lost: too many at once"));
     }
+    if *seconds == 0.0 {
+        say("warning", "the sound has no samples: the song ends as it begins (--tail SECONDS goes on)");
+    }
     if arguments.bit_depth != BitDepth::Float32 {
         for (name, findings) in [("sound", mix), ("strings' own sound", stems)] {
             if findings.peak > 1.0 {
@@ -170,7 +180,7 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
             }
         }
     }
-    let name = if is_dash(output) { "standard output".to_owned() } else { output.display().to_string() };
+    let name = if is_dash(output) { "standard output".to_owned() } else { shown(output) };
     let not_finite = mix.not_finite + stems.not_finite;
     if not_finite > 0 {
         let text = format!("{not_finite} samples of {name} are not finite numbers; the file is kept");

@@ -13,9 +13,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
+use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::{Ledger, Scene, Simulation};
 use low_action_figures::SceneFigure;
 
+use super::names::shown;
 use super::output::Draft;
 use super::paths::{is_dash, keep_apart};
 use super::progress::Progress;
@@ -26,8 +28,8 @@ use summary::Summary;
 
 /// The largest scene file read, bytes: room for profiles of many thousand points.
 const LARGEST_SCENE: u64 = 16 << 20;
-/// How far the energy balance may be open over a whole run, as a part of the largest energy. Rounding
-/// leaves some 1e-13 a second.
+/// How far the energy balance may be open over a whole run, as a part of the largest energy or of what was put in, whichever is
+/// more, and beyond what rounding alone may come to. It leaves some 1e-13 a second.
 const BALANCE: f64 = 1e-9;
 /// A trace of more bytes is announced.
 const LARGE_TRACE: u64 = 1_000_000_000;
@@ -37,7 +39,7 @@ const LOOK: u64 = 64;
 /// Computes a scene.
 pub(super) fn run(arguments: &SceneArgs) -> Outcome {
     let scene = read(&arguments.file)?;
-    let mut simulation = Simulation::new(&scene).with_context(|| arguments.file.display().to_string())?;
+    let mut simulation = Simulation::new(&scene).with_context(|| scene_name(&arguments.file))?;
     check_paths(arguments)?;
     if arguments.trace.is_some() || arguments.figure.is_some() || arguments.wav.is_none() {
         simulation.open_ledger();
@@ -57,19 +59,23 @@ pub(super) fn run(arguments: &SceneArgs) -> Outcome {
     check(&seen, sound.as_ref(), simulation.ledgers())
 }
 
+/// What the scene is called in messages.
+fn scene_name(path: &Path) -> String {
+    if is_dash(path) { "standard input".to_owned() } else { shown(path) }
+}
+
 /// Reads the scene from wherever it is.
 fn read(path: &Path) -> Result<Scene> {
     let mut bytes = Vec::new();
     // One byte more than is accepted, so that an endless source ends and is refused.
     let limit = LARGEST_SCENE + 1;
-    let name = if is_dash(path) {
-        io::stdin().lock().take(limit).read_to_end(&mut bytes).context("cannot read standard input")?;
-        "standard input".to_owned()
+    let name = scene_name(path);
+    let read = if is_dash(path) {
+        io::stdin().lock().take(limit).read_to_end(&mut bytes)
     } else {
-        let read = File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
-        read.with_context(|| format!("cannot read {}", path.display()))?;
-        path.display().to_string()
+        File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
     };
+    read.with_context(|| format!("cannot read {name}"))?;
     if bytes.len() as u64 > LARGEST_SCENE {
         bail!("{name} is too large for a scene: at most {} MiB are accepted", LARGEST_SCENE >> 20);
     }
@@ -94,7 +100,11 @@ struct Outputs {
 
 impl Outputs {
     fn begin(arguments: &SceneArgs, scene: &Scene, simulation: &Simulation) -> Result<Outputs> {
-        let wav = arguments.wav.as_ref().map(|path| begin_wav(path, scene, simulation)).transpose()?;
+        if arguments.wav.is_some() {
+            check_sound(scene, simulation).with_context(|| scene_name(&arguments.file))?;
+        }
+        let begin = |path| WavFile::begin(path, 1, scene.sample_rate as u32, BitDepth::Float32);
+        let wav = arguments.wav.as_deref().map(begin).transpose()?;
         let trace = arguments.trace.as_ref().map(|path| Trace::begin(path, simulation, arguments.every));
         let figure = arguments.figure.as_ref().map(|path| Picture::begin(path, arguments, scene, simulation));
         Ok(Outputs { wav, trace: trace.transpose()?, figure: figure.transpose()? })
@@ -122,10 +132,10 @@ struct Picture {
 impl Picture {
     fn begin(path: &Path, arguments: &SceneArgs, scene: &Scene, simulation: &Simulation) -> Result<Picture> {
         let title = match arguments.file.file_name() {
-            Some(name) if !is_dash(&arguments.file) => name.to_string_lossy().into_owned(),
+            Some(name) if !is_dash(&arguments.file) => shown(Path::new(name)),
             _ => "A scene".into(),
         };
-        let figure = SceneFigure::new(scene, simulation)?;
+        let figure = SceneFigure::new(scene, simulation).with_context(|| scene_name(&arguments.file))?;
         Ok(Picture { path: path.to_owned(), draft: Draft::begin(path)?, title, figure })
     }
 
@@ -133,12 +143,13 @@ impl Picture {
     fn complete(self) -> Result<Draft> {
         let picture = self.figure.draw(&self.title)?;
         let written = self.draft.handle().and_then(|mut file| file.write_all(picture.as_bytes()));
-        written.with_context(|| format!("cannot write {}", self.path.display()))?;
+        written.with_context(|| format!("cannot write {}", shown(&self.path)))?;
         Ok(self.draft)
     }
 }
 
-fn begin_wav(path: &Path, scene: &Scene, simulation: &Simulation) -> Result<WavFile> {
+/// Refuses what no WAV file holds.
+fn check_sound(scene: &Scene, simulation: &Simulation) -> Result<()> {
     let rate = scene.sample_rate;
     if rate.fract() != 0.0 {
         bail!("sample_rate = {rate} is refused: --wav needs a whole number of hertz");
@@ -148,7 +159,7 @@ fn begin_wav(path: &Path, scene: &Scene, simulation: &Simulation) -> Result<WavF
         let longest = (longest as f64 / rate).floor();
         bail!("duration = {} is refused: --wav holds at most {longest} s at {rate} Hz", scene.duration);
     }
-    WavFile::begin(path, 1, rate as u32, BitDepth::Float32)
+    Ok(())
 }
 
 /// What was seen while computing.
@@ -163,6 +174,8 @@ struct Seen {
     most_iterations: u32,
     /// The most contacts active at once in one string.
     contacts: u32,
+    /// Where stretching left the least room: the tension there was and the one that the grid bears, N.
+    stretched: Option<[f64; 2]>,
 }
 
 impl Seen {
@@ -171,6 +184,14 @@ impl Seen {
             self.not_finite = Some(simulation.steps() - 1);
         }
         for string in simulation.strings() {
+            if string.model.string.tension_modulation {
+                let own = string.scratch.stiffness().tension;
+                let now =
+                    [own + stretch_tension(&string.model, &string.scratch), string.model.tension_borne(own)];
+                if self.stretched.is_none_or(|[most, borne]| now[0] * borne > most * now[1]) {
+                    self.stretched = Some(now);
+                }
+            }
             let convergence = &string.convergence;
             if convergence.active > 0 {
                 self.penetration = self.penetration.max(string.penetration());
@@ -221,20 +242,25 @@ fn check(seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) -> Outcome {
         return Err(Failure::Check(format!("{count} samples are too large for 32 bits; the file is kept")));
     }
     for (number, ledger) in (1..).zip(ledgers) {
-        let open = open_part(ledger);
-        if open.is_nan() || open > BALANCE {
+        let (open, limit) = (open_part(ledger), BALANCE + ledger.rounding / flow(ledger));
+        if open.is_nan() || open > limit {
             return Err(Failure::Check(format!(
-                "the energy balance of string {number} is open by {open:.1e} of its largest energy, over \
-                 the limit of {BALANCE:e}; the result is kept"
+                "the energy balance of string {number} is open by {open:.1e} of its largest energy or of what was put \
+                 in, over the limit of {limit:.1e}; the result is kept"
             )));
         }
     }
     Ok(())
 }
 
-/// How far a ledger is open in all, as a part of the largest energy.
+/// How far a ledger is open in all, as a part of the largest energy or of what was put in.
 fn open_part(ledger: &Ledger) -> f64 {
-    if ledger.residual_sum == 0.0 { 0.0 } else { ledger.residual_sum.abs() / ledger.largest }
+    if ledger.residual_sum == 0.0 { 0.0 } else { ledger.residual_sum.abs() / flow(ledger) }
+}
+
+/// What a balance is judged by, J: above 0.
+fn flow(ledger: &Ledger) -> f64 {
+    ledger.largest.max(ledger.put_in).max(f64::MIN_POSITIVE)
 }
 
 #[cfg(test)]

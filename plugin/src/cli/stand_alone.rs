@@ -6,7 +6,6 @@ use super::{Failure, Outcome, StandAloneArgs};
 #[cfg(feature = "standalone")]
 pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
     use std::io::Write;
-    use std::path::Path;
 
     use low_action_dsp::Setup;
 
@@ -27,8 +26,8 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
             setup
         }
         _ => {
-            let (text, setup) = instrument::file(name)?;
-            let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+            let (path, text, setup) = instrument::file(name)?;
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             start.file = Some((stem.into_owned(), text));
             setup
         }

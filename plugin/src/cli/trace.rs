@@ -7,6 +7,7 @@ use anyhow::{Context, Result, bail};
 use low_action_dsp::simulation::SceneString;
 use low_action_dsp::{Entry, Simulation};
 
+use super::names::shown;
 use super::npz::{Array, Kind, NpzFile};
 use super::output::Draft;
 
@@ -218,5 +219,5 @@ impl Trace {
 }
 
 fn cannot_write(path: &Path) -> String {
-    format!("cannot write {}", path.display())
+    format!("cannot write {}", shown(path))
 }

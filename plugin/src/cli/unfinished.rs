@@ -1,8 +1,16 @@
 //! What has been begun and is not yet finished: where the program is told to stop, nothing of it is left.
+//!
+//! Whatever is made is made while the list is held, and is in it before the list is let go. Who cleans up takes the list
+//! too, and so never looks between the two. That happens on a thread of its own, which may wait.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, Once, PoisonError};
+use std::{fs, io};
+
+use tempfile::NamedTempFile;
+
+use super::stopping;
+use crate::files;
 
 /// All of it in this process.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -15,9 +23,17 @@ const STOPPED: i32 = 130;
 pub(super) struct Unfinished(PathBuf);
 
 impl Unfinished {
-    pub fn new(path: &Path) -> Self {
-        watch();
-        list().push(path.to_owned());
+    /// Makes a file beside another, as [`files::beside`] does.
+    pub fn beside(path: &Path) -> io::Result<(NamedTempFile, Self)> {
+        undisturbed(|list| {
+            let file = files::beside(path)?;
+            let unfinished = Self::enter(file.path(), list);
+            Ok((file, unfinished))
+        })
+    }
+
+    fn enter(path: &Path, list: &mut Vec<PathBuf>) -> Self {
+        list.push(path.to_owned());
         Self(path.to_owned())
     }
 }
@@ -34,12 +50,15 @@ pub(super) struct NewFolders(Vec<Unfinished>);
 
 impl NewFolders {
     /// Makes a folder and those it lies in, unless they are there.
-    pub fn make(folder: &Path) -> std::io::Result<Self> {
-        let missing = folder.ancestors().take_while(|folder| **folder != *"" && !folder.exists());
-        let missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
-        fs::create_dir_all(folder)?;
-        // The outermost last, as they can only vanish from within.
-        Ok(Self(missing.iter().map(|folder| Unfinished::new(folder)).collect()))
+    pub fn make(folder: &Path) -> io::Result<Self> {
+        let (new, made) = undisturbed(|list| {
+            let missing = folder.ancestors().take_while(|folder| **folder != *"" && !folder.exists());
+            // The outermost last, as they can only vanish from within.
+            let new = Self(missing.map(|folder| Unfinished::enter(folder, list)).collect());
+            (new, fs::create_dir_all(folder))
+        });
+        // Where the innermost cannot be made, those it lies in vanish with the others. (That takes the list.)
+        made.map(|()| new)
     }
 }
 
@@ -52,15 +71,23 @@ impl Drop for NewFolders {
     }
 }
 
+/// Does something that is not to be broken off: whoever asks the program to stop waits for its end. It must not let go of
+/// anything [`Unfinished`], which takes the list.
+pub(super) fn undisturbed<T>(work: impl FnOnce(&mut Vec<PathBuf>) -> T) -> T {
+    // Before anything is there. What asks earlier ends the program by itself, which is as good.
+    watch();
+    work(&mut list())
+}
+
 fn list() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Has Ctrl+C, and where there are such things a request to end and a terminal that is closed, clean up.
+/// Has whatever asks the program to stop clean up.
 fn watch() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
-        let stop = || {
+        stopping::when_asked(|| {
             // The list stays locked, so that nothing more is begun.
             let list = list();
             for path in list.iter() {
@@ -70,8 +97,6 @@ fn watch() {
                 fs::remove_dir(path).ok();
             }
             std::process::exit(STOPPED);
-        };
-        // Who has signals ignored, as nohup does and shells do in the background, keeps it so.
-        ctrlc::try_set_handler(stop).ok();
+        });
     });
 }

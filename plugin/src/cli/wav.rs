@@ -1,5 +1,7 @@
 //! WAV files of the three sample formats, and what is known of the sound once it is written.
 
+mod header;
+
 use std::fmt;
 use std::fs::File;
 use std::io::BufWriter;
@@ -9,6 +11,7 @@ use std::str::FromStr;
 use anyhow::{Context, Result, anyhow};
 use hound::{SampleFormat, WavSpec, WavWriter};
 
+use super::names::shown;
 use super::output::Draft;
 
 /// Bytes a WAV file can hold: sizes are 32-bit, and the header takes some.
@@ -94,7 +97,7 @@ impl WavFile {
             .handle()
             .map_err(hound::Error::from)
             .and_then(|file| WavWriter::new(BufWriter::new(file), spec))
-            .with_context(|| format!("cannot write {}", path.display()))?;
+            .with_context(|| format!("cannot write {}", shown(path)))?;
         Ok(Self { path: path.to_owned(), draft, writer, depth, findings: Findings::default() })
     }
 
@@ -123,12 +126,14 @@ impl WavFile {
     /// Completes the file without letting it appear yet, so that several can appear together.
     pub(super) fn complete(self) -> Result<(Draft, Findings)> {
         let Self { path, draft, writer, findings, .. } = self;
-        writer.finalize().map_err(plain).with_context(|| format!("cannot write {}", path.display()))?;
+        let finished = writer.finalize().map_err(plain);
+        let mended = finished.and_then(|()| Ok(header::mend(&mut draft.handle()?)?));
+        mended.with_context(|| format!("cannot write {}", shown(&path)))?;
         Ok((draft, findings))
     }
 
     fn refused(&self, error: hound::Error) -> anyhow::Error {
-        plain(error).context(format!("cannot write {}", self.path.display()))
+        plain(error).context(format!("cannot write {}", shown(&self.path)))
     }
 }
 

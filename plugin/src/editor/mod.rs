@@ -36,6 +36,7 @@ use nice_plug_egui::NiceEguiApp;
 use crate::display::Reader;
 use crate::params::LowActionParams;
 use crate::params::words::Words;
+use crate::performance::PlayerEvent;
 use crate::plugin::layout::{SIZES, Seen};
 use crate::plugin::meters::Meters;
 use crate::pointer::Pointer;
@@ -59,6 +60,8 @@ pub struct Editor {
     keys: keys::Keys,
     /// Whether the window has yet to become as it was left.
     opening: bool,
+    /// Whether something was typed into at the last picture.
+    typing: bool,
     header: header::Header,
     strings: strings::Strings,
     panels: panels::Panels,
@@ -72,6 +75,7 @@ impl Editor {
             history: Arc::new(History::new(params.clone())),
             keys: keys::Keys::default(),
             opening: true,
+            typing: false,
             params,
             meters,
             reader,
@@ -108,6 +112,7 @@ impl Editor {
             gui,
             keyboard: (gui.plugin_api() == PluginApi::Standalone).then(|| self.params.layout.seen().keys),
         };
+        silence(ui, &given, self.typing);
         follow_shortcuts(ui, &given);
         self.keys.follow(ui, &given);
         let window = ui.ctx().content_rect();
@@ -124,6 +129,7 @@ impl Editor {
         let (size, zoom) = (Some(window.size().into()), ui.ctx().zoom_factor());
         let seen = self.params.layout.seen();
         self.params.layout.keep(Seen { panel, string: self.strings.watched(), size, zoom, ..seen });
+        self.typing = ui.ctx().text_edit_focused();
     }
 
     /// A window opens, which is to become as it was left.
@@ -176,6 +182,15 @@ impl NiceEguiApp for Editor {
         if let Some(gui) = self.gui.clone() {
             self.show(ui, &gui);
         }
+    }
+}
+
+/// Escape silences all strings, unless it ends typing or closes a list. A field has lost the keyboard to it by now, so it
+/// counts what was typed into before.
+fn silence(ui: &Ui, given: &Given, typing: bool) {
+    let meant_for_others = typing || egui::Popup::is_any_open(ui.ctx());
+    if !meant_for_others && ui.input(|input| input.key_pressed(Key::Escape)) {
+        given.pointer.play(PlayerEvent::AllNotesOff);
     }
 }
 

@@ -82,8 +82,8 @@ impl Presets {
         if std::mem::take(&mut self.asking) {
             field.request_focus();
         }
-        let known = given.params.shelf.names().iter().any(|known| known == self.name.trim());
-        let button = Button::new(if known { "Replace" } else { "Save it" }).fill(theme::RAISED);
+        let replaces = is_taken(given, self.name.trim());
+        let button = Button::new(if replaces { "Replace" } else { "Save it" }).fill(theme::RAISED);
         let pressed = ui.add(button).clicked();
         if pressed || entered {
             self.problem = save(given, self.name.trim()).err();
@@ -162,6 +162,13 @@ fn choose(given: &Given, index: usize) {
     };
     values.push((instrument.file.as_ptr(), instrument.file.preview_normalized(file)));
     change(given, &values);
+}
+
+/// Whether something of the user's has this name: a file that was there in the beginning, or one that somebody else has
+/// put there since.
+fn is_taken(given: &Given, name: &str) -> bool {
+    given.params.shelf.names().iter().any(|known| known == name)
+        || setups::folder().is_some_and(|folder| setups::place(name, &folder).exists())
 }
 
 /// Writes what is played, with all that was changed, to the user's folder, and plays that.

@@ -11,6 +11,8 @@ pub(super) struct Chunks<'a> {
     pub division: Division,
     /// The data of each track.
     pub tracks: Vec<&'a [u8]>,
+    /// Tracks after those that the header announces.
+    pub left_out: usize,
 }
 
 impl<'a> Chunks<'a> {
@@ -46,7 +48,11 @@ impl<'a> Chunks<'a> {
         if tracks.len() < announced {
             return Err(MidiFileError::MissingTracks { expected: announced, found: tracks.len() });
         }
-        Ok(Self { sequential: format == 2, division, tracks })
+        let mut left_out = 0;
+        while let Ok((kind, _)) = next_chunk(&mut rest, "what follows") {
+            left_out += usize::from(kind == b"MTrk");
+        }
+        Ok(Self { sequential: format == 2, division, tracks, left_out })
     }
 }
 

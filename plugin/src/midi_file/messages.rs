@@ -67,6 +67,13 @@ pub enum SongWarning {
         /// How many.
         notes: usize,
     },
+    /// There are more tracks than the header announces; those were left out.
+    TracksLeftOut {
+        /// Tracks announced.
+        announced: usize,
+        /// Tracks left out.
+        left_out: usize,
+    },
     /// A track stops without saying so; perhaps something is missing.
     NoEndOfTrack {
         /// Track, counted from 1.
@@ -87,6 +94,13 @@ impl fmt::Display for SongWarning {
                 write!(
                     out,
                     "channel 10 is percussion: {notes} of its notes left out (--channel 10 plays them alone)"
+                )
+            }
+            Self::TracksLeftOut { announced, left_out } => {
+                let there = announced + left_out;
+                write!(
+                    out,
+                    "the header announces {announced} of {there} tracks: the last {left_out} left out"
                 )
             }
             Self::NoEndOfTrack { track } => {

@@ -167,6 +167,8 @@ pub mod poly {
     pub const PLUCK_FORCE: u32 = 1;
     /// Of [`crate::params::PlayerParams::finger_force`].
     pub const FINGER_FORCE: u32 = 2;
+    /// How many there are, from 0 on.
+    pub const COUNT: usize = 3;
 }
 
 /// A factor of what the set-up has, shown as a percentage; 100 % stands in the middle of the range.

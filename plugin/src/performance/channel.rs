@@ -8,6 +8,16 @@ use super::technique::{BRIGHTNESS_REACH, FIRMEST};
 /// Farthest a file or keyboard may set its wheel's reach to, semitones.
 const WIDEST_RANGE: f64 = 96.0;
 
+/// Numbers of controllers that change something for all channels, or may.
+pub(super) mod controller {
+    /// Data entry, upper half.
+    pub const DATA_ENTRY: u8 = 6;
+    /// Fret of the capo.
+    pub const CAPO: u8 = 26;
+    /// First of the keyswitches.
+    pub const SWITCHES: u8 = 27;
+}
+
 /// A parameter number with nothing behind it: both halves 127.
 const NO_PARAMETER: (u8, u8) = (127, 127);
 
@@ -109,6 +119,18 @@ impl Channel {
         }
     }
 
+    /// The reach that was announced, semitones and hundredths, if one was.
+    pub(crate) fn announced_reach(&self) -> Option<(f64, f64)> {
+        self.announced.then_some(self.range)
+    }
+
+    /// Takes over a reach that another channel has announced for all.
+    pub(crate) fn take_reach(&mut self, announced: Option<(f64, f64)>) {
+        if let Some(range) = announced.filter(|_| !self.ignores_range) {
+            (self.range, self.announced) = (range, true);
+        }
+    }
+
     /// Back to rest.
     pub(crate) fn reset(&mut self) {
         *self = Self { ignores_range: self.ignores_range, ..Self::new(self.usual_range) };
@@ -160,13 +182,13 @@ impl Channel {
                 Request::None
             }
             // Data entry for the MPE configuration message: so many member channels, 0 for none.
-            6 if self.parameter == (0, 6) => {
+            controller::DATA_ENTRY if self.parameter == (0, 6) => {
                 self.members = Some(value.min(15));
                 Request::None
             }
-            6 | 38 if self.ignores_range => Request::None,
+            controller::DATA_ENTRY | 38 if self.ignores_range => Request::None,
             // Data entry: the reach of the wheel is registered parameter 0, in semitones and cents.
-            6 if self.parameter == (0, 0) => {
+            controller::DATA_ENTRY if self.parameter == (0, 0) => {
                 self.range = (f64::from(value).min(WIDEST_RANGE), 0.0);
                 self.announced = true;
                 Request::Bend
@@ -197,8 +219,8 @@ impl Channel {
                 self.articulation.set_controller(number, value);
                 Request::Touch
             }
-            26 => Request::Capo(value),
-            27 => Request::Switches(value),
+            controller::CAPO => Request::Capo(value),
+            controller::SWITCHES => Request::Switches(value),
             120 => Request::Silence,
             // Reset all controllers leaves the wheel's reach alone (MIDI recommended practice 15).
             121 => {

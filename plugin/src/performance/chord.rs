@@ -8,10 +8,13 @@
 //! **Strums**: the right hand goes over the strings at one speed, towards the high ones or back, and reaches
 //! the first at once.
 //!
-//! **Legato**: a note that begins alone while the latest one of its channel is held is played on that note's
-//! string, if it is there and near enough.
+//! What notes do that overlap is in `legato`.
+
+mod legato;
 
 use super::articulation::{Articulation, Stop, Stroke};
+use super::channel::controller;
+use super::control::MANAGER;
 use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
 use super::string::{Manner, Start};
 use super::technique::*;
@@ -22,6 +25,8 @@ use super::{CHANNELS, GestureSink, InputMode, Performance};
 pub(super) struct Struck {
     pub wanted: Wanted,
     pub velocity: f64,
+    /// How often its key went down.
+    pub presses: u32,
     /// What the note has for itself, its channel's share included.
     pub manner: Manner,
     pub articulation: Articulation,
@@ -32,8 +37,20 @@ pub(super) struct Struck {
 pub(super) struct Late {
     pub time: u64,
     pub struck: Struck,
-    /// Whether its key has gone up already.
-    pub released: bool,
+    /// How often its key has gone up already.
+    pub releases: u32,
+}
+
+impl Late {
+    /// Whether its key is down.
+    pub fn key_down(&self) -> bool {
+        self.releases < self.struck.presses
+    }
+
+    /// Whether it is the note of a key of a channel.
+    pub fn is(&self, channel: u8, key: u8) -> bool {
+        (self.struck.wanted.channel, self.struck.wanted.key) == (channel, key)
+    }
 }
 
 /// The way of the right hand over the strings of a chord.
@@ -54,8 +71,23 @@ impl Performance {
             self.chord.iter_mut().find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
         if let Some(twin) = twin {
             twin.velocity = twin.velocity.max(velocity);
+            twin.presses = twin.presses.saturating_add(1);
             return;
         }
+        match self.wanted(channel, key) {
+            Some(wanted) if self.chord.len() < LARGEST_CHORD => {
+                self.compromises.moved_by_octaves += u64::from(wanted.is_moved());
+                let (manner, articulation) =
+                    (self.manner(channel), self.channels[usize::from(channel)].articulation);
+                self.chord.push(Struck { wanted, velocity, presses: 1, manner, articulation });
+            }
+            Some(_) => self.compromises.left_out += 1,
+            None => self.compromises.without_string += 1,
+        }
+    }
+
+    /// What a key of a channel asks the hand for, as hands are told to play now; `None` if no string has it.
+    fn wanted(&self, channel: u8, key: u8) -> Option<Wanted> {
         let Articulation { stop, .. } = self.channels[usize::from(channel)].articulation;
         let harmonic = stop == Stop::Harmonic;
         let only = match self.input {
@@ -66,22 +98,47 @@ impl Performance {
             }
             _ => self.forced.filter(|&string| self.hand.reaches(string, f64::from(key), harmonic)),
         };
-        match self.hand.playable_pitch(key, only, harmonic) {
-            Some(pitch) if self.chord.len() < LARGEST_CHORD => {
-                self.compromises.moved_by_octaves += u64::from(pitch != f64::from(key));
-                let wanted = Wanted { channel, key, pitch, only, harmonic };
-                let own = &self.channels[usize::from(channel)];
-                let (manner, articulation) = (own.manner, own.articulation);
-                self.chord.push(Struck { wanted, velocity, manner, articulation });
+        let pitch = self.hand.playable_pitch(key, only, harmonic)?;
+        Some(Wanted { channel, key, pitch, only, harmonic })
+    }
+
+    /// Hands have been told otherwise at the very sample of a chord: its notes are asked for anew.
+    pub(super) fn want_again(&mut self) {
+        for index in 0..self.chord.len() {
+            let Wanted { channel, key, .. } = self.chord[index].wanted;
+            if let Some(wanted) = self.wanted(channel, key) {
+                let before = std::mem::replace(&mut self.chord[index].wanted, wanted);
+                self.compromises.moved_by_octaves += u64::from(wanted.is_moved());
+                self.compromises.moved_by_octaves -= u64::from(before.is_moved());
             }
-            Some(_) => self.compromises.left_out += 1,
-            None => self.compromises.without_string += 1,
         }
+    }
+
+    /// Whether notes that begin now have to be placed before this key goes up: it is one of them, or the one that they take
+    /// over from.
+    pub(super) fn chord_needs(&self, channel: u8, key: u8) -> bool {
+        self.chord.iter().any(|Struck { wanted, articulation, .. }| {
+            // Where each string has a channel, only its own key can be the one before.
+            let before = !self.is_by_strings() || wanted.channel == channel;
+            let connected = before && (articulation.legato || self.touching.legato);
+            connected || (wanted.channel, wanted.key) == (channel, key)
+        })
+    }
+
+    /// Whether notes that begin now have to be placed before a wheel, a pressure or a controller of some number moves: what
+    /// comes after a note of its channel is for the next one. Messages of other channels stand between the notes of one
+    /// chord wherever notes have channels of their own.
+    pub(super) fn changes_chord(&self, channel: u8, number: Option<u8>) -> bool {
+        let of_all = channel == MANAGER && (self.is_mpe() || number == Some(controller::DATA_ENTRY));
+        let of_hand =
+            number.is_some_and(|number| number == controller::CAPO || number == controller::SWITCHES);
+        of_all || of_hand || self.chord.iter().any(|struck| struck.wanted.channel == channel)
     }
 
     /// Places and plays the notes that began together at `now`.
     pub(super) fn begin_chord(&mut self, out: &mut impl GestureSink) {
-        if self.chord.is_empty() || self.take_over_note(out) {
+        self.take_over_notes(out);
+        if self.chord.is_empty() {
             return;
         }
         let time = self.now;
@@ -111,7 +168,7 @@ impl Performance {
 
     /// What a string is told of the note of the chord that is placed there.
     fn start(&mut self, index: usize, placement: Placement, strum: Option<&Strum>) -> Start {
-        let Struck { wanted, velocity, manner, mut articulation } = self.chord[index];
+        let Struck { wanted, velocity, presses, manner, mut articulation } = self.chord[index];
         if articulation.stroke == Stroke::Alternate {
             articulation.stroke = if self.upward { Stroke::Up } else { Stroke::Down };
         }
@@ -126,6 +183,7 @@ impl Performance {
         Start {
             channel: wanted.channel,
             key: wanted.key,
+            presses,
             fret,
             strength: self.touching.strength(velocity),
             deviation: self.variation.next(),
@@ -171,7 +229,7 @@ impl Performance {
             } else if self.late.len() < LARGEST_CHORD {
                 late += 1;
                 let time = self.now + (f64::from(late) * ARPEGGIO * self.sample_rate).round() as u64;
-                self.late.push(Late { time, struck: self.chord[index], released: false });
+                self.late.push(Late { time, struck: self.chord[index], releases: 0 });
                 self.compromises.arpeggiated += 1;
             } else {
                 self.compromises.left_out += 1;
@@ -208,39 +266,9 @@ impl Performance {
             let Wanted { channel, key, .. } = late.struck.wanted;
             self.chord.push(late.struck);
             self.begin_chord(out);
-            if late.released {
+            for _ in 0..late.releases {
                 self.let_go(channel, key, out);
             }
         }
-    }
-
-    /// A note that begins alone takes over from the latest one of its channel, if that is held, notes are
-    /// to be connected, and its string gives the new one within reach.
-    fn take_over_note(&mut self, out: &mut impl GestureSink) -> bool {
-        let [Struck { wanted, articulation, .. }] = self.chord[..] else { return false };
-        let connected = articulation.legato || self.touching.legato;
-        if !connected || articulation.stop == Stop::Harmonic || articulation.stop == Stop::Mute {
-            return false;
-        }
-        let channel = (!self.is_mpe()).then_some(wanted.channel);
-        let held = self.strings.iter().enumerate().filter_map(|(index, string)| {
-            let (since, fret) = string.held(channel)?;
-            Some((since, index, fret))
-        });
-        let Some((_, string, from)) = held.max_by_key(|&(since, ..)| since) else { return false };
-        let Some(fret) = self.hand.fret(&wanted, string) else { return false };
-        let open = from.min(fret) <= self.hand.capo();
-        let slides = articulation.slide || articulation.stop == Stop::Bar;
-        let reach = if slides || open { SLIDE_REACH } else { HAMMER_REACH };
-        if fret == from || fret.abs_diff(from) > reach {
-            return false;
-        }
-        let start = self.start(0, Placement { string, fret }, None);
-        let (time, bend) = (self.now, self.bend(wanted.channel));
-        self.hand.follow(fret);
-        self.strings[string].connect(time, start, out);
-        self.strings[string].bend(time, wanted.channel, bend);
-        self.chord.clear();
-        true
     }
 }

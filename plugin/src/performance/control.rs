@@ -2,6 +2,7 @@
 
 use super::channel::{Channel, Request, pressure_factor};
 use super::chord::Struck;
+use super::string::Manner;
 use super::technique::BRIGHTNESS_REACH;
 use super::{Expression, GestureSink, Performance, PlayerEvent, seven_bits};
 
@@ -28,7 +29,7 @@ pub enum InputMode {
 /// channel, and of the one that bends all.
 const MPE_RANGES: (f64, f64) = (48.0, 2.0);
 /// The channel that acts on all in MPE.
-const MANAGER: u8 = 0;
+pub(super) const MANAGER: u8 = 0;
 
 /// Whether MPE is announced by any of these events, which are in order of time.
 pub(crate) fn announces_mpe(mut events: impl Iterator<Item = PlayerEvent>) -> bool {
@@ -65,6 +66,15 @@ impl Performance {
         if channel == MANAGER { all } else { own.bend(Some(MPE_RANGES.0)) + all }
     }
 
+    /// How notes of a channel are played, as its controllers have it, and in MPE those that act on all.
+    pub(super) fn manner(&self, channel: u8) -> Manner {
+        let own = self.channels[usize::from(channel)].manner;
+        if channel == MANAGER || !self.is_mpe() {
+            return own;
+        }
+        own.under(&self.channels[usize::from(MANAGER)].manner)
+    }
+
     /// Changes a channel's state and carries the consequences to the strings.
     pub(super) fn control(
         &mut self,
@@ -73,10 +83,16 @@ impl Performance {
         out: &mut impl GestureSink,
     ) {
         let Some(channel) = self.channels.get_mut(usize::from(number)) else { return };
+        let before = channel.announced_reach();
         let request = change(channel);
-        let (manner, articulation) = (channel.manner, channel.articulation);
-        let (time, acts_on_all) = (self.now, self.is_mpe() && number == MANAGER);
-        if acts_on_all {
+        let (articulation, reach) = (channel.articulation, channel.announced_reach());
+        let (time, mpe) = (self.now, self.is_mpe());
+        let announces = mpe && number != MANAGER && reach != before;
+        let acts_on_all = (mpe && number == MANAGER) || announces;
+        if announces {
+            // The reach of the wheel that one member announces is that of all.
+            self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.take_reach(reach));
+        } else if acts_on_all {
             self.channels.iter_mut().for_each(|channel| channel.articulation = articulation);
         }
         match request {
@@ -88,34 +104,48 @@ impl Performance {
             _ => {}
         }
         for index in 0..self.strings.len() {
+            if matches!(request, Request::ReleaseKeys | Request::Silence) {
+                self.strings[index].forget_under((!acts_on_all).then_some(number));
+            }
             let Some(channel) = self.strings[index].channel().filter(|&own| own == number || acts_on_all)
             else {
                 continue;
             };
-            let (pedal, bend) = (self.pedal(channel), self.bend(channel));
+            let (pedal, bend, manner) = (self.pedal(channel), self.bend(channel), self.manner(channel));
             let string = &mut self.strings[index];
             match request {
                 Request::None | Request::Capo(_) | Request::Switches(_) => {}
                 Request::Touch => string.set_touch(time, &articulation, out),
                 Request::PedalUp if pedal => {}
-                Request::PedalUp => string.pedal_up(time, channel),
+                Request::PedalUp => string.pedal_up(time, channel, out),
                 Request::Catch => string.catch(channel),
-                Request::LetFall => string.let_fall(time, channel, pedal),
+                Request::LetFall => string.let_fall(time, channel, pedal, out),
                 Request::Bend => string.bend(time, channel, bend),
                 Request::Press => string.press(time, manner.pressure, out),
                 Request::Swing => string.swing(time, manner.vibrato),
-                Request::ReleaseKeys => string.release_channel(time, channel, pedal),
+                Request::ReleaseKeys => string.release_channel(time, channel, pedal, out),
                 Request::Silence => string.silence(time, Some(channel)),
                 Request::Reset => {
-                    string.let_fall(time, channel, pedal);
-                    string.pedal_up(time, channel);
+                    string.let_fall(time, channel, pedal, out);
+                    string.pedal_up(time, channel, out);
                     string.bend(time, channel, bend);
                     string.press(time, manner.pressure, out);
                     string.swing(time, manner.vibrato);
                     string.set_touch(time, &articulation, out);
                 }
             }
+            self.welcome_back(index, out);
         }
+    }
+
+    /// What a channel says now is for a note of it that has come back to a string, too.
+    pub(super) fn welcome_back(&mut self, index: usize, out: &mut impl GestureSink) {
+        let Some(channel) = self.strings[index].take_gone_back() else { return };
+        let (time, bend, manner) = (self.now, self.bend(channel), self.manner(channel));
+        let string = &mut self.strings[index];
+        string.bend(time, channel, bend);
+        string.swing(time, manner.vibrato);
+        string.press(time, manner.pressure, out);
     }
 
     /// A capo goes to a fret of all strings, 0 for none, as soon as each is played.
@@ -153,7 +183,7 @@ impl Performance {
         let time = self.now;
         let Some(string) = self.strings.iter_mut().find(|string| string.sounds(channel, key)) else { return };
         match expression {
-            Expression::Tuning(semitones) => string.tune(time, value(semitones)),
+            Expression::Tuning(semitones) => string.tune(time, channel, key, value(semitones)),
             Expression::Pressure(pressure) => string.press(time, pressure_factor(pressure), out),
             Expression::FingerForce(factor) => string.press(time, value(factor).clamp(0.0, 100.0), out),
             Expression::Vibrato(depth) => string.swing(time, value(depth).clamp(0.0, 1.0)),

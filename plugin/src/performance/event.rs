@@ -20,6 +20,13 @@ pub enum PlayerEvent {
         /// Key, 0 to 127.
         key: u8,
     },
+    /// A key goes up however often it went down, as a host has it that chokes its note.
+    NoteEnd {
+        /// Channel, 0 to 15.
+        channel: u8,
+        /// Key, 0 to 127.
+        key: u8,
+    },
     /// A controller moves.
     Controller {
         /// Channel, 0 to 15.
@@ -73,6 +80,7 @@ impl PlayerEvent {
         match *self {
             Self::NoteOn { channel, .. }
             | Self::NoteOff { channel, .. }
+            | Self::NoteEnd { channel, .. }
             | Self::Controller { channel, .. }
             | Self::PitchBend { channel, .. }
             | Self::ChannelPressure { channel, .. }

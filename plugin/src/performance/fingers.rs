@@ -16,6 +16,7 @@ use super::articulation::Stroke;
 use super::right_hand::{Field, RightHand};
 use super::technique::*;
 use super::{GestureSink, Moment, PlayedString};
+use leaving::hurried;
 pub(super) use leaving::{QUIET_LIFT, lift_force, lifting};
 
 /// A finger behind a fret, or a bar over one.
@@ -28,6 +29,8 @@ struct Finger {
     eased: bool,
     /// Whether it is a bar.
     bar: bool,
+    /// When it is where a slide to its note's fret takes it.
+    arrives: u64,
     /// Where it presses, m from the nut, if not where its fret has it.
     free: Option<f64>,
 }
@@ -35,7 +38,7 @@ struct Finger {
 impl Finger {
     /// It leaves when the next note is about to sound.
     fn gives_way(&self) -> Gesture {
-        lifting(self.slot, self.touch, if self.bar { BAR_LIFT } else { QUICK_LIFT })
+        hurried(self.slot, self.touch)
     }
 }
 
@@ -53,8 +56,8 @@ pub(crate) struct Fingers {
     next_slot: FingerSlot,
     /// Slot of a finger that touches the string lightly.
     light: Option<FingerSlot>,
-    /// What lifts at once a finger that is leaving, and the sample by which it is off the string.
-    departing: Option<(Gesture, u64)>,
+    /// By slot, what lifts at once a finger that is leaving, and the sample by which it is off the string.
+    departing: [Option<(Gesture, u64)>; FINGERS_PER_STRING],
     /// Which slots hold a damper that rests on the string.
     resting: [bool; FINGERS_PER_STRING],
     right: RightHand,
@@ -81,7 +84,7 @@ impl Fingers {
             anchor: None,
             next_slot: 0,
             light: None,
-            departing: None,
+            departing: [None; FINGERS_PER_STRING],
             resting: [false; FINGERS_PER_STRING],
             right: RightHand::default(),
             home: 0,
@@ -93,7 +96,8 @@ impl Fingers {
 
     /// All away.
     pub(crate) fn reset(&mut self) {
-        (self.fretting, self.anchor, self.light, self.departing) = (None, None, None, None);
+        (self.fretting, self.anchor, self.light) = (None, None, None);
+        self.departing = [None; FINGERS_PER_STRING];
         self.next_slot = 0;
         self.resting = [false; FINGERS_PER_STRING];
         self.right.reset();
@@ -192,15 +196,15 @@ impl Fingers {
         &self.geometry
     }
 
-    /// Whether a finger is behind a fret.
-    pub(crate) fn frets(&self) -> bool {
-        self.fretting.is_some()
+    /// Whether a finger stops the string, or the capo.
+    pub(crate) fn stopped(&self) -> bool {
+        self.fretting.is_some() || self.capo[1] > 0
     }
 
     /// A finger leaves in a manner of leaving, and at once if the next note comes first.
     fn depart(&mut self, slot: FingerSlot, touch: Touch, manner: Leaving, at: &mut Moment<impl GestureSink>) {
         at.does(lifting(slot, touch, manner));
-        self.departing = Some((lifting(slot, touch, QUICK_LIFT), at.after(LINGERING * manner.turning)));
+        self.departing[slot] = Some((hurried(slot, touch), at.after(LINGERING * manner.turning)));
     }
 
     /// Whatever keeps the string from sounding leaves at once; the palm stays as it is told.
@@ -209,8 +213,10 @@ impl Fingers {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
         self.resting = [false; FINGERS_PER_STRING];
-        if let Some((lift, _)) = self.departing.take().filter(|&(_, clear)| at.time < clear) {
-            at.does(lift);
+        for (lift, clear) in self.departing.iter_mut().filter_map(Option::take) {
+            if at.time < clear {
+                at.does(lift);
+            }
         }
         if let Some(slot) = self.light.take() {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));

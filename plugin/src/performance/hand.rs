@@ -64,6 +64,13 @@ pub(crate) struct Wanted {
     pub harmonic: bool,
 }
 
+impl Wanted {
+    /// Whether it is another octave than the key's.
+    pub(crate) fn is_moved(&self) -> bool {
+        self.pitch != f64::from(self.key)
+    }
+}
+
 /// Where a note is to be played.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Placement {

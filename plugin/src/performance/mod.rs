@@ -131,20 +131,33 @@ impl Performance {
             PlayerEvent::NoteOn { channel, key, velocity } if velocity > 0.0 => {
                 self.strike(channel, key, f64::from(velocity.min(1.0)));
             }
-            PlayerEvent::NoteOn { channel, key, .. } | PlayerEvent::NoteOff { channel, key } => {
-                self.begin_chord(out);
+            PlayerEvent::NoteOn { channel, key, .. }
+            | PlayerEvent::NoteOff { channel, key }
+            | PlayerEvent::NoteEnd { channel, key } => {
+                if self.chord_needs(channel, key) {
+                    self.begin_chord(out);
+                }
+                if matches!(event, PlayerEvent::NoteEnd { .. }) {
+                    self.leave_one_press(channel, key);
+                }
                 self.let_go(channel, key, out);
             }
             PlayerEvent::Controller { channel, number, value } => {
-                self.begin_chord(out);
+                if self.changes_chord(channel, Some(number)) {
+                    self.begin_chord(out);
+                }
                 self.control(channel, |channel| channel.set_controller(number, seven_bits(value)), out);
             }
             PlayerEvent::PitchBend { channel, value } => {
-                self.begin_chord(out);
+                if self.changes_chord(channel, None) {
+                    self.begin_chord(out);
+                }
                 self.control(channel, |channel| channel.set_wheel(value), out);
             }
             PlayerEvent::ChannelPressure { channel, pressure } => {
-                self.begin_chord(out);
+                if self.changes_chord(channel, None) {
+                    self.begin_chord(out);
+                }
                 self.control(channel, |channel| channel.set_pressure(pressure), out);
             }
             PlayerEvent::Note { channel, key, expression } => self.express(channel, key, expression, out),
@@ -157,6 +170,7 @@ impl Performance {
             PlayerEvent::AllNotesOff => {
                 self.begin_chord(out);
                 self.late.clear();
+                self.forced = None;
                 for string in &mut self.strings {
                     string.silence(time, None);
                 }
@@ -238,6 +252,11 @@ impl Performance {
         self.strings.iter().any(|string| string.sounds(channel, key))
     }
 
+    /// Whether a key of a channel, still down, waits for a string.
+    pub fn awaits(&self, channel: u8, key: u8) -> bool {
+        self.late.iter().any(|late| late.key_down() && late.is(channel, key))
+    }
+
     /// Whether notes are yet to come that wait for strings.
     pub fn is_behind(&self) -> bool {
         !self.late.is_empty()
@@ -272,21 +291,30 @@ impl Performance {
         }
     }
 
+    /// Whatever else a key has been pressed for is forgotten: its next note-off is the last.
+    fn leave_one_press(&mut self, channel: u8, key: u8) {
+        self.strings.iter_mut().for_each(|string| string.leave_one_press(channel, key));
+        for late in self.late.iter_mut().filter(|late| late.key_down() && late.is(channel, key)) {
+            late.releases = late.struck.presses - 1;
+        }
+    }
+
     /// A key goes up.
     fn let_go(&mut self, channel: u8, key: u8, out: &mut impl GestureSink) {
-        if usize::from(channel) >= CHANNELS || self.release_switch(key) {
+        if usize::from(channel) >= CHANNELS {
             return;
         }
+        // (It may sound, too, if it was no keyswitch when it went down.)
+        self.release_switch(key);
         let pedal = self.pedal(channel);
-        for string in &mut self.strings {
-            if string.release(self.now, channel, key, pedal, out) {
-                return;
+        for index in 0..self.strings.len() {
+            if self.strings[index].release(self.now, channel, key, pedal, out) {
+                return self.welcome_back(index, out);
             }
         }
         // A note that has yet to come is heard nevertheless.
-        let waits = |late: &&mut Late| (late.struck.wanted.channel, late.struck.wanted.key) == (channel, key);
-        if let Some(late) = self.late.iter_mut().find(waits) {
-            late.released = true;
+        if let Some(late) = self.late.iter_mut().find(|late| late.key_down() && late.is(channel, key)) {
+            late.releases += 1;
         }
     }
 }

@@ -122,7 +122,8 @@ impl RightHand {
             return;
         }
         self.palm = palm;
-        if sounds {
+        // A thumb goes first; the palm follows it.
+        if sounds && self.laid != Laid::Thumb {
             self.lay(field, PALM_RAMP, at);
         }
     }
@@ -152,8 +153,8 @@ impl RightHand {
         let force = light * PALM_FORCE.0 * libm::pow(PALM_FORCE.1 / PALM_FORCE.0, pressure);
         let position = field.palm(pressure);
         match self.laid {
-            Laid::Palm(_) => at.does(Gesture::Slide { finger, position, duration }),
-            _ => at.does(Gesture::Place { finger, touch, position, clearance: 0.0 }),
+            Laid::Nothing => at.does(Gesture::Place { finger, touch, position, clearance: 0.0 }),
+            Laid::Palm(_) | Laid::Thumb => at.does(Gesture::Slide { finger, position, duration }),
         }
         at.does(Gesture::Press { finger, force, duration });
         self.laid = wanted;
@@ -185,6 +186,20 @@ impl RightHand {
         at.does(Gesture::Place { finger, touch, position: field.pinched(), clearance: 0.0 });
         at.does(Gesture::Press { finger, force, duration: PALM_LANDING });
         self.laid = Laid::Thumb;
+    }
+
+    /// The thumb that grazes the string leaves it, or gives way to the palm, which is as soft.
+    pub(crate) fn leave_graze(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
+        if self.laid == Laid::Thumb {
+            self.lay(field, PALM_RAMP, at);
+        }
+    }
+
+    /// The palm comes back after a thumb that has bounced off, if it is to rest there.
+    pub(crate) fn lay_again(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
+        if self.laid == Laid::Nothing {
+            self.lay(field, PALM_RAMP, at);
+        }
     }
 
     /// Whatever is on the string leaves it.

@@ -49,6 +49,8 @@ pub(crate) struct StringPlayer {
     touched: bool,
     /// Notes bent less far than asked, since that was last asked for.
     bent_short: u64,
+    /// Whether a note has come back whose key was down under another, since that was last asked for.
+    gone_back: bool,
 }
 
 /// Most keys that are remembered under the one that sounds.
@@ -71,6 +73,7 @@ impl StringPlayer {
             tremolo: 0.0,
             touched: false,
             bent_short: 0,
+            gone_back: false,
         }
     }
 
@@ -87,19 +90,23 @@ impl StringPlayer {
         self.tremolo = 0.0;
         self.touched = false;
         self.bent_short = 0;
+        self.gone_back = false;
     }
 
     /// What the string is doing, for the choice of strings.
     pub(crate) fn usage(&self, time: u64) -> Use {
         match self.note {
             _ if self.plucked_at == Some(time) => Use::Untouchable,
-            Some(Note { channel, key, since, key_down, .. }) => Use::Taken { channel, key, since, key_down },
+            Some(note @ Note { channel, key, since, .. }) => {
+                Use::Taken { channel, key, since, key_down: note.key_down() }
+            }
             None => Use::Free,
         }
     }
 
     /// Begins a note; one that sounds gives way.
-    pub(crate) fn start(&mut self, time: u64, start: Start, out: &mut impl GestureSink) {
+    pub(crate) fn start(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
+        start.presses = start.presses.saturating_add(self.take_presses(start.channel, start.key));
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
         let strength = start.force();
@@ -107,7 +114,8 @@ impl StringPlayer {
         let mut at = self.moment(time, out);
         let Articulation { mut stroke, stop, .. } = start.articulation;
         self.fingers.press(start.manner.pressure, &mut at);
-        let taps = stroke == Stroke::Tap && start.fret > self.fingers.capo();
+        // A finger that presses no fret has nothing to strike the string against.
+        let taps = stroke == Stroke::Tap && stop == Stop::Press && start.fret > self.fingers.capo();
         self.parting = if taps { TAPPING } else { RESTING };
         if taps {
             if self.fingers.let_up(&mut at) {
@@ -119,15 +127,9 @@ impl StringPlayer {
             if stroke == Stroke::Tap {
                 stroke = Stroke::Down;
             }
-            self.fingers.stop(start.fret, stop, strength, &mut at);
-            if stop == Stop::Harmonic {
-                self.fingers.touch_node(start.order, &mut at);
-                self.deeds.plan(at.after(start.wait + AT_NODE), Deed::LeaveNode);
-            }
-            let mut beside = start.deviation.place + start.manner.place;
-            if stop == Stop::Harmonic {
-                beside += self.fingers.towards_antinode(start.order);
-            }
+            self.fingers.stop(start.fret, stop, start.landing(), &mut at);
+            self.touch_node(start.wait, &mut at);
+            let beside = start.deviation.place + start.manner.place + self.towards_antinode();
             let struck = Struck { stroke, strength, beside };
             if start.wait > 0.0 {
                 self.deeds.plan(at.after(start.wait + start.deviation.delay), Deed::Strike(struck));
@@ -143,25 +145,22 @@ impl StringPlayer {
 
     /// Writes down that a note begins.
     fn begin(&mut self, time: u64, start: &Start, strength: f64) {
-        let pressed_again = self
-            .note
-            .filter(|note| note.key_down && (note.channel, note.key) == (start.channel, start.key))
-            .map(|_| time);
         let Articulation { slide, slide_time, stop, tremolo, .. } = start.articulation;
         self.note = Some(Note {
             channel: start.channel,
             key: start.key,
             since: time + self.samples(start.wait),
-            key_down: true,
+            presses: start.presses,
             caught: false,
-            pressed_again,
             fret: start.fret,
             strength,
+            tuning: start.manner.tuning,
             bar: stop == Stop::Bar,
+            partial: (stop == Stop::Harmonic).then_some(start.order),
             slide: (slide || stop == Stop::Bar).then_some(slide_time),
             bent_short: false,
         });
-        self.tremolo = tremolo;
+        self.set_tremolo(tremolo);
         self.bend.begin(start.channel);
         self.plucked_at = Some(time);
         self.ending = None;
@@ -177,7 +176,7 @@ impl StringPlayer {
     /// Whether the string sounds a key of a channel.
     pub(crate) fn sounds(&self, channel: u8, key: u8) -> bool {
         let notes = self.under.iter().chain([&self.note]);
-        notes.flatten().any(|note| (note.channel, note.key) == (channel, key))
+        notes.flatten().any(|note| note.is(channel, key))
     }
 
     /// Channel of the string's last note, whose wheel and pedals count.
@@ -185,14 +184,22 @@ impl StringPlayer {
         self.bend.channel()
     }
 
-    /// The note changes its tuning, semitones.
-    pub(crate) fn tune(&mut self, time: u64, semitones: f64) {
-        self.bend.tune(time, semitones);
+    /// A note changes its tuning, semitones: at once, or when it comes back.
+    pub(crate) fn tune(&mut self, time: u64, channel: u8, key: u8, semitones: f64) {
+        let own = |note: &&mut Note| (note.channel, note.key) == (channel, key);
+        if let Some(note) = self.note.as_mut().filter(own) {
+            note.tuning = semitones;
+            self.bend.tune(time, semitones);
+        } else if let Some(note) = self.under.iter_mut().flatten().find(own) {
+            note.tuning = semitones;
+        }
     }
 
-    /// The note's vibrato goes so deep, 0 to 1.
+    /// The note's vibrato goes so deep, 0 to 1. Without a note no hand swings.
     pub(crate) fn swing(&mut self, time: u64, depth: f64) {
-        self.bend.set_vibrato(time, depth);
+        if self.note.is_some() {
+            self.bend.set_vibrato(time, depth);
+        }
     }
 
     /// The tremolo arm moves, semitones.
@@ -232,9 +239,10 @@ impl StringPlayer {
         let sounds = self.note.is_some();
         let mut at = self.moment(time, out);
         self.fingers.set_palm(articulation.palm, sounds, &mut at);
-        let before = std::mem::replace(&mut self.tremolo, articulation.tremolo);
+        let before = self.set_tremolo(articulation.tremolo);
         if let Some(note) = self.note.filter(|_| before == 0.0 && self.tremolo > 0.0) {
-            let struck = Struck { stroke: Stroke::Down, strength: note.strength, beside: 0.0 };
+            let struck =
+                Struck { stroke: Stroke::Down, strength: note.strength, beside: self.towards_antinode() };
             self.deeds.plan(at.after(1.0 / self.tremolo), Deed::Tremolo(struck));
         }
     }

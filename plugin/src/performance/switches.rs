@@ -19,6 +19,7 @@ impl Performance {
         let Some(number) = self.switch(key) else { return false };
         if let Some(string) = number.checked_sub(SWITCHES) {
             self.forced = Some(usize::from(string));
+            self.want_again();
             return true;
         }
         let all = self.is_mpe() || matches!(self.input, InputMode::Strings { .. });
@@ -29,17 +30,17 @@ impl Performance {
         for struck in &mut self.chord {
             struck.articulation = self.channels[usize::from(struck.wanted.channel)].articulation;
         }
+        self.want_again();
         true
     }
 
-    /// A key goes up; `true` if it is a keyswitch.
-    pub(super) fn release_switch(&mut self, key: u8) -> bool {
-        let Some(number) = self.switch(key) else { return false };
+    /// A key goes up that may be a keyswitch.
+    pub(super) fn release_switch(&mut self, key: u8) {
+        let Some(number) = self.switch(key) else { return };
         let string = number.checked_sub(SWITCHES).map(usize::from);
         if string.is_some() && self.forced == string {
             self.forced = None;
         }
-        true
     }
 
     /// The number of a keyswitch.

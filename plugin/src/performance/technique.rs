@@ -55,6 +55,8 @@ pub(crate) const RISE: f64 = 0.001;
 /// which a loud pluck covers and a soft one does not; setting it down slowly lets the open string be
 /// heard before the stopped one.
 pub(crate) const HASTE: f64 = 5.0;
+/// Time in which the finger of the softest note has set its string down, s: over the 1 mm of most frets at 0.04 m/s.
+pub(crate) const SETTLING: f64 = 0.03;
 /// How much more the hand holds back the finger of the softest notes, up to the first of these strengths
 /// (velocity 20), and the one from which on it does not (velocity 29): between them the landing would drown
 /// the pluck, and held back more it would come after it.
@@ -132,6 +134,9 @@ pub(crate) const POINTING: f64 = 0.016;
 /// Hardest pluck of somebody who points, N.
 pub(crate) const HARDEST_POINTED: f64 = 50.0;
 
+/// How long a string rings under a capo after such a pluck, s, before hands damp it: it is as good as silent by then.
+pub(crate) const POINTED_RINGING: f64 = 30.0;
+
 /// How long a light finger stays at a node, s, and how it leaves.
 pub(crate) const AT_NODE: f64 = 0.12;
 /// How light: the damping of its pad as a multiple of a match with the string.
@@ -182,6 +187,8 @@ pub(crate) const SLAP_CLEARANCE: f64 = 5e-4;
 pub(crate) const SLAP_FORCE: f64 = 2.0;
 pub(crate) const SLAP_BOUNCE: f64 = 12.0;
 pub(crate) const SLAP_TIME: f64 = 0.005;
+/// How soon after that it is off the string, s, so that the palm can come back.
+pub(crate) const SLAP_CLEAR: f64 = 0.005;
 /// How far past the last fret it falls, as a part of the length.
 pub(crate) const PAST_LAST_FRET: f64 = 0.012;
 

@@ -1,11 +1,11 @@
 //! Whether there is time enough, in real time.
 
+use crate::display::Health;
+
 /// The mean load over about this time decides, s.
 const MEMORY: f64 = 0.05;
-/// Above this part of the time there is, contacts are solved less exactly.
-const LATE: f64 = 0.85;
-/// Below this part for [`RECOVERY`] seconds they are solved exactly again: far enough under the other that
-/// it does not go back and forth.
+/// Below this part of the time there is for [`RECOVERY`] seconds, contacts are solved exactly again: far enough under
+/// [`Health::LATE`] that it does not go back and forth.
 const EASY: f64 = 0.5;
 const RECOVERY: f64 = 1.0;
 
@@ -36,7 +36,7 @@ impl Budget {
             let share = (available / MEMORY).min(1.0);
             self.load += share * (seconds / available - self.load);
             self.easy_for = if self.load < EASY { self.easy_for + available } else { 0.0 };
-            self.relaxed = self.load > LATE || (self.relaxed && self.easy_for < RECOVERY);
+            self.relaxed = self.load > Health::LATE || (self.relaxed && self.easy_for < RECOVERY);
         }
         self.relaxed
     }

@@ -5,71 +5,12 @@ use std::ops::RangeInclusive;
 use nice_plug::midi::{Channel, Key, VoiceID};
 use nice_plug::prelude::*;
 
+use super::voices::Voices;
 use crate::params::{LowActionParams, poly};
 use crate::performance::{Expression, PlayerEvent};
 
 /// The softest note there is, as a velocity: the smallest of MIDI's that is not a note-off.
 const SOFTEST: f32 = 1.0 / 127.0;
-
-/// How many notes are remembered by the number a host gave them; more than strings can sound.
-const REMEMBERED: usize = 64;
-
-/// The notes of a host that numbers them.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Voices {
-    /// Number, channel and key, the latest overwriting the oldest.
-    notes: [Option<(i32, u8, u8)>; REMEMBERED],
-    next: usize,
-}
-
-impl Default for Voices {
-    fn default() -> Self {
-        Self { notes: [None; REMEMBERED], next: 0 }
-    }
-}
-
-impl Voices {
-    fn begin(&mut self, id: i32, channel: u8, key: u8) {
-        self.notes[self.next] = Some((id, channel, key));
-        self.next = (self.next + 1) % REMEMBERED;
-    }
-
-    /// Forgets the notes that sound no more and those struck again under another number, telling of each.
-    pub fn end(&mut self, sounds: impl Fn(u8, u8) -> bool, send: &mut impl FnMut(NoteEvent<()>) -> bool) {
-        for index in 0..REMEMBERED {
-            let Some((id, channel, key)) = self.notes[index] else { continue };
-            if sounds(channel, key) && self.latest(channel, key) == Some(id) {
-                continue;
-            }
-            let ended = NoteEvent::VoiceTerminated {
-                timing: 0,
-                voice_id: VoiceID::ID(id),
-                channel: Channel::Number(channel),
-                key: Key::Number(key),
-            };
-            // A host whose queue is full is told after the next block.
-            if send(ended) {
-                self.notes[index] = None;
-            }
-        }
-    }
-
-    /// Number of the latest note of a key.
-    fn latest(&self, channel: u8, key: u8) -> Option<i32> {
-        (1..=REMEMBERED)
-            .filter_map(|back| self.notes[(self.next + REMEMBERED - back) % REMEMBERED])
-            .find(|note| (note.1, note.2) == (channel, key))
-            .map(|(id, ..)| id)
-    }
-
-    /// Channel and key of a note; the latest if its number was used again.
-    fn find(&self, id: i32) -> Option<(u8, u8)> {
-        (1..=REMEMBERED)
-            .filter_map(|back| self.notes[(self.next + REMEMBERED - back) % REMEMBERED])
-            .find(|(other, ..)| *other == id)
-            .map(|(_, channel, key)| (channel, key))
-    }
-}
 
 /// Whom an event is meant for.
 struct Address {
@@ -79,14 +20,13 @@ struct Address {
 }
 
 impl Address {
-    /// All channels and keys meant; a host may name a note by its number alone.
-    fn notes(&self, voices: &Voices) -> (RangeInclusive<u8>, RangeInclusive<u8>) {
+    /// All channels and keys meant; a host may name a note by its number alone. A number that nobody has any more
+    /// means nobody.
+    fn notes(&self, voices: &Voices) -> Option<(RangeInclusive<u8>, RangeInclusive<u8>)> {
         let (channel, key) = match (self.voice, self.channel, self.key) {
             (VoiceID::ID(id), Channel::Wildcard, _) | (VoiceID::ID(id), _, Key::Wildcard) => {
-                match voices.find(id) {
-                    Some((channel, key)) => (Channel::Number(channel), Key::Number(key)),
-                    None => (self.channel, self.key),
-                }
+                let (channel, key) = voices.find(id)?;
+                (Channel::Number(channel), Key::Number(key))
             }
             _ => (self.channel, self.key),
         };
@@ -98,12 +38,12 @@ impl Address {
             Key::Number(number) => number..=number,
             Key::Wildcard => 0..=127,
         };
-        (channels, keys)
+        Some((channels, keys))
     }
 
     /// Says something of every note meant.
     fn each(&self, voices: &Voices, mut say: impl FnMut(u8, u8)) {
-        let (channels, keys) = self.notes(voices);
+        let Some((channels, keys)) = self.notes(voices) else { return };
         channels.for_each(|channel| keys.clone().for_each(|key| say(channel, key)));
     }
 }
@@ -144,11 +84,14 @@ pub(super) fn translate(
         } => {
             send(at, PlayerEvent::AllNotesOff);
         }
-        // A string has no faster way to stop than a finger put on it, so a choke is a note-off.
-        NoteEvent::NoteOff { voice_id: voice, channel, key, .. }
-        | NoteEvent::Choke { voice_id: voice, channel, key, .. } => {
+        NoteEvent::NoteOff { voice_id: voice, channel, key, .. } => {
             let address = Address { voice, channel, key };
             address.each(voices, |channel, key| send(at, PlayerEvent::NoteOff { channel, key }));
+        }
+        // A string has no faster way to stop than a finger put on it, so a choke is a note-off for every press.
+        NoteEvent::Choke { voice_id: voice, channel, key, .. } => {
+            let address = Address { voice, channel, key };
+            address.each(voices, |channel, key| send(at, PlayerEvent::NoteEnd { channel, key }));
         }
         NoteEvent::PolyPressure { voice_id: voice, channel, key, pressure, .. } => {
             express(voices, Address { voice, channel, key }, Expression::Pressure(pressure));
@@ -168,10 +111,17 @@ pub(super) fn translate(
         NoteEvent::PolyModulation { voice_id, poly_modulation_id, normalized_offset, .. } => {
             let address =
                 Address { voice: VoiceID::ID(voice_id), channel: Channel::Wildcard, key: Key::Wildcard };
-            if voices.find(voice_id).is_some()
-                && let Some(expression) = modulated(params, poly_modulation_id, normalized_offset)
-            {
+            voices.modulate(voice_id, poly_modulation_id, normalized_offset);
+            if let Some(expression) = modulated(params, poly_modulation_id, normalized_offset) {
                 express(voices, address, expression);
+            }
+        }
+        // What holds for all has changed, and with it what the same offset means for one.
+        NoteEvent::MonoAutomation { poly_modulation_id, .. } => {
+            for (channel, key, offset) in voices.modulated(poly_modulation_id) {
+                if let Some(expression) = modulated(params, poly_modulation_id, offset) {
+                    send(at, PlayerEvent::Note { channel, key, expression });
+                }
             }
         }
         NoteEvent::MidiCC { channel, cc: number, value, .. } => {
@@ -218,7 +168,56 @@ fn signed_bend(value: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::signed_bend;
+    use super::*;
+
+    /// What becomes of a note's end that names the note by its number alone.
+    fn ended(voices: &mut Voices, id: i32) -> Vec<PlayerEvent> {
+        let off = NoteEvent::NoteOff {
+            timing: 0,
+            voice_id: VoiceID::ID(id),
+            channel: Channel::Wildcard,
+            key: Key::Wildcard,
+            velocity: 0.0,
+        };
+        let mut sent = Vec::new();
+        translate(off, &LowActionParams::default(), voices, |_, event| sent.push(event));
+        sent
+    }
+
+    #[test]
+    fn a_number_that_nobody_has_means_nobody() {
+        let mut voices = Voices::default();
+        voices.begin(7, 2, 45);
+        assert_eq!(ended(&mut voices, 8), []);
+        assert_eq!(ended(&mut voices, 7), [PlayerEvent::NoteOff { channel: 2, key: 45 }]);
+    }
+
+    #[test]
+    fn automation_moves_what_a_note_has_for_itself_along() {
+        let (params, mut voices) = (LowActionParams::default(), Voices::default());
+        voices.begin(7, 2, 45);
+        voices.begin(8, 2, 50);
+        let poly_modulation_id = poly::FINGER_FORCE;
+        let moved =
+            NoteEvent::PolyModulation { timing: 0, voice_id: 7, poly_modulation_id, normalized_offset: 0.2 };
+        let mut factor = |event| {
+            let mut sent = Vec::new();
+            translate(event, &params, &mut voices, |_, event| sent.push(event));
+            match sent[..] {
+                [PlayerEvent::Note { channel: 2, key: 45, expression: Expression::FingerForce(factor) }] => {
+                    factor
+                }
+                _ => panic!("{sent:?}"),
+            }
+        };
+        let before = factor(moved);
+        // SAFETY: the parameter lives on.
+        unsafe { params.player.finger_force.as_ptr()._internal_set_normalized_value(0.9) };
+        let after =
+            factor(NoteEvent::MonoAutomation { timing: 0, poly_modulation_id, normalized_value: 0.9 });
+        // There is hardly room for more.
+        assert!(before > 1.2 && after > 1.0 && after < before, "{before}, {after}");
+    }
 
     #[test]
     fn bends_are_those_of_a_midi_file() {

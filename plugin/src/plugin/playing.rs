@@ -1,4 +1,6 @@
-//! An engine at work: events in, sound out, and other engines put in its place on the way.
+//! An engine at work: events in, sound out, and other engines put in its place on the way (`exchange`).
+
+mod exchange;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -6,12 +8,13 @@ use std::time::Instant;
 use nice_plug::prelude::*;
 
 use super::budget::Budget;
-use super::events::{self, Voices};
+use super::events;
 use super::meters::Meters;
 use super::order::{self, Order};
 use super::shelf::Shelf;
+use super::voices::Voices;
 use super::workshop::{Finished, Workshop};
-use crate::engine::{Engine, INAUDIBLE, Quality, Replacement};
+use crate::engine::{Engine, INAUDIBLE, Quality};
 use crate::params::LowActionParams;
 use crate::performance::PlayerEvent;
 
@@ -20,7 +23,9 @@ pub(super) struct Playing {
     engine: Engine,
     /// What the engine was built from.
     order: Order,
-    /// What the workshop has been asked for and has not delivered.
+    /// What could not be built when it was last asked for, if nothing else has been asked for since.
+    refused: Option<Order>,
+    /// What the workshop has been asked for and is not played yet.
     asked: Option<Order>,
     /// A finished engine waiting until the last one has faded.
     ready: Option<Finished>,
@@ -38,16 +43,21 @@ impl Playing {
     /// Builds the engine and opens the workshop; allocates.
     ///
     /// Where the set-up cannot be built with all that was done to it, it is taken as it comes.
-    pub fn new(order: Order, offline: bool, shelf: Shelf, meters: Arc<Meters>) -> Result<Self, String> {
-        let engine = order.build(&shelf, Engine::new).or_else(|problem| {
-            nice_error!("{problem}: the set-up is played as it comes");
-            meters.refuse();
-            order.untouched().build(&shelf, Engine::new)
-        })?;
+    pub fn new(wanted: Order, offline: bool, shelf: Shelf, meters: Arc<Meters>) -> Result<Self, String> {
+        let (engine, order) = match wanted.build(&shelf, Engine::new) {
+            Ok(engine) => (engine, wanted),
+            Err(problem) => {
+                nice_error!("{problem}: the set-up is played as it comes");
+                meters.refuse();
+                (wanted.untouched().build(&shelf, Engine::new)?, wanted.untouched())
+            }
+        };
         let workshop = Workshop::open(shelf).map_err(|error| format!("cannot start a thread: {error}"))?;
+        meters.see_load(0.0, false);
         Ok(Self {
             engine,
             order,
+            refused: (order != wanted).then_some(wanted),
             asked: None,
             ready: None,
             leaving: order,
@@ -60,9 +70,10 @@ impl Playing {
         })
     }
 
-    /// Whether this is what an order asks for, with nothing else on its way.
+    /// Whether this is what would be built for an order, with nothing else on its way.
     pub fn is(&self, order: &Order) -> bool {
-        self.order == *order && self.asked.is_none()
+        let best = if self.refused == Some(*order) { order.untouched() } else { *order };
+        self.order == best && self.asked.is_none()
     }
 
     /// Silence, as if just built.
@@ -70,6 +81,7 @@ impl Playing {
         self.offline = offline;
         self.reset_sound();
         self.budget.reset();
+        self.meters.see_load(0.0, false);
         self.set_effort(false);
     }
 
@@ -139,58 +151,6 @@ impl Playing {
         }
     }
 
-    /// Sees to it that the engine becomes what is wanted: at once where the host renders offline, as soon as
-    /// it is built in real time. Gives the number of samples after which to look again, if before the
-    /// end of the block.
-    fn exchange(&mut self, wanted: Order) -> Option<u64> {
-        if wanted != self.asked.unwrap_or(self.order) {
-            self.asked = Some(wanted);
-            self.workshop.order(wanted);
-        }
-        if self.ready.is_none() && self.asked.is_some() {
-            let fading = self.engine.fading_left();
-            if self.offline && fading > 0 {
-                return Some(fading);
-            }
-            self.ready = if self.offline { self.workshop.wait(&wanted) } else { self.workshop.collect() };
-        }
-        let Finished { order, result } = self.ready.take()?;
-        if self.asked == Some(order) {
-            self.asked = None;
-        }
-        if order == self.order {
-            self.workshop.give_back(Finished { order, result });
-            return None;
-        }
-        match result {
-            Ok(replacement) => match self.engine.replace(replacement) {
-                Ok(()) => {
-                    self.leaving = std::mem::replace(&mut self.order, order);
-                    self.set_effort(self.relaxed);
-                    self.meters.count_exchange();
-                }
-                Err(replacement) => {
-                    self.ready = Some(Finished { order, result: Ok(replacement) });
-                    return Some(self.engine.fading_left().max(1));
-                }
-            },
-            Err(message) => {
-                // The engine there is plays on, and counts as what was asked for.
-                self.order = order;
-                self.meters.refuse();
-                self.workshop.give_back(Finished { order, result: Err(message) });
-            }
-        }
-        None
-    }
-
-    /// Sends what has been replaced back to the workshop.
-    fn retire(&mut self) {
-        if let Some(outgoing) = self.engine.take_outgoing() {
-            self.workshop.give_back(Finished { order: self.leaving, result: Ok(outgoing) });
-        }
-    }
-
     /// Tells the host which of its notes have ended; `send` says whether it took that in.
     pub fn end_voices(&mut self, mut send: impl FnMut(NoteEvent<()>) -> bool) {
         let engine = &self.engine;
@@ -217,6 +177,7 @@ impl Playing {
         }
     }
 
+    /// Solves contacts as exactly as was ordered, or less so.
     fn set_effort(&mut self, relaxed: bool) {
         self.relaxed = relaxed;
         let luthier = &self.order.luthier;
@@ -231,8 +192,11 @@ impl Playing {
     }
 
     /// What to tell the host: for how long the strings can ring on, or that nothing sounds and nothing will.
-    pub fn status(&self) -> ProcessStatus {
-        if self.engine.is_silent() {
+    pub fn status(&self, looked_at: bool) -> ProcessStatus {
+        if self.engine.is_silent() && looked_at && !self.offline {
+            // What is done in the editor comes in only while the host goes on.
+            ProcessStatus::KeepAlive
+        } else if self.engine.is_silent() {
             ProcessStatus::Normal
         } else if self.engine.level() < INAUDIBLE {
             // Nobody hears the strings, but they move: the host is to go on, and has nothing to wait for.
@@ -244,8 +208,40 @@ impl Playing {
     }
 }
 
-// A replacement travels between threads.
-const _: fn() = || {
-    fn assert_send<T: Send>() {}
-    assert_send::<Box<Replacement>>();
-};
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RATE: f32 = 48_000.0;
+
+    fn order() -> Order {
+        Order::of(&LowActionParams::default(), RATE, false)
+    }
+
+    fn playing(order: Order, offline: bool, meters: &Arc<Meters>) -> Playing {
+        Playing::new(order, offline, Shelf::new(Vec::new()), meters.clone()).expect("it can be built")
+    }
+
+    #[test]
+    fn a_rendering_shows_no_load() {
+        let meters = Arc::new(Meters::default());
+        let busy = || meters.see_load(0.9, true);
+        let rests = || meters.load() == 0.0 && !meters.relaxed();
+        busy();
+        let mut playing = playing(order(), true, &meters);
+        assert!(rests(), "after it was built");
+        busy();
+        playing.reset(true);
+        assert!(rests(), "after it was activated again");
+    }
+
+    #[test]
+    fn the_host_goes_on_while_the_editor_is_open() {
+        let meters = Arc::new(Meters::default());
+        let live = playing(order(), false, &meters);
+        assert_eq!(live.status(false), ProcessStatus::Normal);
+        assert_eq!(live.status(true), ProcessStatus::KeepAlive);
+        // A rendering ends all the same.
+        assert_eq!(playing(order(), true, &meters).status(true), ProcessStatus::Normal);
+    }
+}

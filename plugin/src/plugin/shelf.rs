@@ -13,6 +13,7 @@ use nice_plug::params::persist::PersistentField;
 use nice_plug::prelude::nice_error;
 use serde::{Deserialize, Serialize};
 
+use crate::cli::one_line;
 use crate::setups::{self, SetupFile};
 
 /// Files that can be chosen; those beyond are passed over.
@@ -250,8 +251,4 @@ impl<'a> PersistentField<'a, Saved> for Shelf {
 /// Nothing a panicking thread could have left half-done matters here.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -3,7 +3,7 @@
 //! The framework writes parameters by identifier, as the values hosts show. Beside them stands a mark: whose
 //! state it is, and in which version of its form. A state of somebody else's, or of a form that is newer
 //! than this program, is refused as a whole and what was set stays; an older one is brought up to date here;
-//! values that are out of range are brought back into it.
+//! values that a parameter cannot have become some that it can.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,6 @@ use serde::{Deserialize, Serialize};
 
 use super::shelf::{KEPT, Saved, Shelf};
 use crate::params::{LowActionParams, Start};
-use crate::setups::SHIPPED;
 
 /// The form in which states are saved now. It grows when an older program could not read them rightly, or has to be
 /// told what its own mean by now.
@@ -59,10 +58,9 @@ pub(super) fn admit(state: &mut PluginState) {
     match judge(&state.fields, &state.params) {
         Ok(()) => {
             bring_up_to_date(&mut state.params);
-            complete(&mut state.params);
+            put_right(&mut state.params);
             // A state without a file keeps none.
             state.fields.entry(KEPT.into()).or_insert_with(|| "null".into());
-            bring_into_range(&mut state.params);
         }
         Err(reason) => {
             nice_error!("the saved state is refused, and everything stays as it is: {reason}");
@@ -103,50 +101,65 @@ fn bring_up_to_date(values: &mut BTreeMap<String, ParamValue>) {
     }
 }
 
-/// Gives parameters that did not exist when the state was saved their usual values: what was set before has no
-/// place in it.
-fn complete(values: &mut BTreeMap<String, ParamValue>) {
+/// Makes values of all parameters that they can have: numbers are brought into their range, and what is missing,
+/// unknown or of another kind becomes the usual value, since what was set before has no place in the state.
+fn put_right(values: &mut BTreeMap<String, ParamValue>) {
     let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
     for (id, param, _) in params.param_map() {
-        values.entry(id).or_insert_with(|| {
-            // SAFETY: the pointers lead into `params`, which lives on.
-            unsafe {
-                match param {
-                    ParamPtr::FloatParam(param) => ParamValue::F32((*param).default_plain_value()),
-                    ParamPtr::IntParam(param) => ParamValue::I32((*param).default_plain_value()),
-                    ParamPtr::BoolParam(param) => ParamValue::Bool((*param).default_plain_value()),
-                    ParamPtr::EnumParam(param) => ParamValue::I32((*param).default_plain_value()),
-                }
+        let saved = values.remove(&id);
+        // SAFETY: the pointers lead into `params`, which lives on.
+        let possible = unsafe { possible(param, saved.as_ref()) };
+        let value = possible.unwrap_or_else(|| {
+            if let Some(saved) = saved {
+                nice_error!("{id} cannot be {saved:?}: its usual value takes its place");
             }
+            // SAFETY: as above.
+            unsafe { usual(param) }
         });
+        values.insert(id, value);
     }
 }
 
-/// Brings every number into the range of its parameter, and replaces a set-up that is not there any more by
-/// the usual one.
-fn bring_into_range(values: &mut BTreeMap<String, ParamValue>) {
-    let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
-    for (id, param, _) in params.param_map() {
-        let Some(value) = values.get_mut(&id) else { continue };
-        match (param, value) {
+/// What a parameter can have of a saved value; nothing if it is of another kind, or not among the choices.
+///
+/// # Safety
+/// The parameter must be alive.
+unsafe fn possible(param: ParamPtr, saved: Option<&ParamValue>) -> Option<ParamValue> {
+    // SAFETY: as above.
+    unsafe {
+        match (param, saved?) {
             (ParamPtr::FloatParam(param), ParamValue::F32(value)) => {
-                // SAFETY: the pointer leads into `params`, which lives on.
-                let param = unsafe { &*param };
-                let (low, high) = (param.preview_plain(0.0), param.preview_plain(1.0));
-                *value = if value.is_finite() { value.clamp(low, high) } else { param.default_plain_value() };
+                let (low, high) = ((*param).preview_plain(0.0), (*param).preview_plain(1.0));
+                value.is_finite().then(|| ParamValue::F32(value.clamp(low, high)))
             }
             (ParamPtr::IntParam(param), ParamValue::I32(value)) => {
-                // SAFETY: the pointer leads into `params`, which lives on.
-                let param = unsafe { &*param };
-                *value = (*value).clamp(param.preview_plain(0.0), param.preview_plain(1.0));
+                let (low, high) = ((*param).preview_plain(0.0), (*param).preview_plain(1.0));
+                Some(ParamValue::I32((*value).clamp(low, high)))
             }
-            _ => {}
+            (ParamPtr::BoolParam(_), ParamValue::Bool(value)) => Some(ParamValue::Bool(*value)),
+            (ParamPtr::EnumParam(param), ParamValue::String(choice)) => {
+                (*param).set_from_id(choice).then(|| ParamValue::String(choice.clone()))
+            }
+            (ParamPtr::EnumParam(param), ParamValue::I32(place)) => {
+                (0..(*param).len() as i32).contains(place).then_some(ParamValue::I32(*place))
+            }
+            _ => None,
         }
     }
-    if let Some(ParamValue::String(name)) = values.get_mut("instrument")
-        && !SHIPPED.contains(&name.as_str())
-    {
-        nice_error!("the set-up {name:?} is not there: the usual one is played instead");
-        SHIPPED[0].clone_into(name);
+}
+
+/// The usual value of a parameter.
+///
+/// # Safety
+/// The parameter must be alive.
+unsafe fn usual(param: ParamPtr) -> ParamValue {
+    // SAFETY: as above.
+    unsafe {
+        match param {
+            ParamPtr::FloatParam(param) => ParamValue::F32((*param).default_plain_value()),
+            ParamPtr::IntParam(param) => ParamValue::I32((*param).default_plain_value()),
+            ParamPtr::BoolParam(param) => ParamValue::Bool((*param).default_plain_value()),
+            ParamPtr::EnumParam(param) => ParamValue::I32((*param).default_plain_value()),
+        }
     }
 }

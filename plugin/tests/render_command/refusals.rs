@@ -28,6 +28,7 @@ fn wrong_usage_is_code_2() {
         (&["render", "song.mid", "--max-length", "0"], "above 0"),
         (&["render", "song.mid", "--variation", "2"], "0 to 1"),
         (&["render", "song.mid", "--instrument", "banjo"], "electric, classical, steel, bass"),
+        (&["render", "song.mid", "--instrument", ""], "unknown instrument \"\": must be electric"),
         (&["render", "song.mid", "--input", "guitar"], "auto, keyboard, strings, mpe"),
         (&["render", "song.mid", "--first-channel", "0"], "must be a whole number from 1 to 16"),
         (&["render", "song.mid", "--string-order", "up"], "first_first, last_first"),
@@ -54,6 +55,10 @@ fn wrong_usage_is_code_2() {
         (&["instruments", "--bogus"], "(see low-action instruments --help)"),
         (&["--bogus"], "(see low-action --help)"),
         (&["sing"], "sing"),
+        (
+            &["rende", "song.mid"],
+            "unknown command \"rende\": must be render, scene, instruments (see low-action --help)",
+        ),
     ] {
         let said = room.refuses(2, arguments);
         assert!(said.contains(expected), "{arguments:?}: {said}");
@@ -82,6 +87,11 @@ fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
         (&["render", "song.mid", "-o", "text.mid/x.wav"], "cannot write text.mid/x.wav"),
         (&["render", "song.mid", "-o", "folder"], "it is a folder"),
         (&["render", "song.mid", "--stems", "text.mid"], "cannot make the folder text.mid"),
+        // The first of these folders could be made.
+        (
+            &["render", "song.mid", "--stems", &format!("new/{}", "x".repeat(300))],
+            "cannot make the folder new",
+        ),
         (&["render", "song.mid", "--instrument", "missing.toml"], "missing.toml"),
         (&["render", "song.mid", "--instrument", "bad.toml"], "bogus"),
         (&["render", "song.mid", "--instrument", "heavy.toml"], "mass"),
@@ -124,6 +134,25 @@ fn names_of_any_length_become_names_of_files() {
     fs::write(room.path("own.toml"), format!("{own}{}\"\n", "E/é".repeat(200))).unwrap();
     room.renders(&["song.mid", "-i", "own.toml", "--stems", "stems", "--tail", "none"]);
     assert_eq!(fs::read_dir(room.path("stems")).unwrap().count(), 6);
+}
+
+#[cfg(unix)]
+#[test]
+fn names_give_no_orders_to_the_terminal() {
+    let room = Room::new();
+    fs::write(room.path("a\nb\u{1b}.mid"), song()).unwrap();
+    let said = room.renders(&["a\nb\u{1b}.mid", "--tail", "none", "--quality", "draft"]);
+    assert!(said.starts_with("a\\nb\\u{1b}.wav: ") && said.lines().count() == 1, "{said:?}");
+    for arguments in [
+        &["render", "c\nd\u{1b}.mid"][..],
+        &["render", "-o", "c\nd\u{1b}/x.wav"],
+        &["scene", "c\nd\u{1b}.toml"],
+    ] {
+        let said = room.refuses(1, arguments);
+        assert!(said.contains("c\\nd\\u{1b}") && !said.contains('\u{1b}'), "{said:?}");
+    }
+    let said = room.refuses(2, &["render", "--b\u{1b}"]);
+    assert!(!said.contains('\u{1b}'), "{said:?}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use hound::{SampleFormat, WavReader};
+use low_action::setups::FOLDER_VARIABLE;
 use tempfile::TempDir;
 
 /// A folder to work in, with a short song.
@@ -45,6 +46,8 @@ impl Room {
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_low-action"));
         command.current_dir(self.folder.path()).args(arguments).stdin(Stdio::null());
+        // A user without set-ups of their own.
+        command.env(FOLDER_VARIABLE, self.path("instruments"));
         command
     }
 

@@ -65,6 +65,21 @@ fn formats_rates_and_tails_are_as_asked() {
 }
 
 #[test]
+fn the_usual_tail_ends_after_half_a_minute_at_the_latest() {
+    let room = Room::new();
+    // Down by 2.6 dB in that time, and by 72 in a quarter of an hour; a pedal keeps the strings from being damped.
+    let endless = "name = \"own\"\nbased_on = \"electric\"\n".to_owned()
+        + &"[[string]]\nloss_0 = 0.01\nloss_1 = 0.0\n".repeat(6);
+    fs::write(room.path("endless.toml"), endless).unwrap();
+    let events: [(u8, &[u8]); 3] = [(0, &[0xB0, 64, 127]), (0, &[0x90, 40, 90]), (48, &[0x80, 40, 0])];
+    fs::write(room.path("held.mid"), midi(&events)).unwrap();
+    let fast = ["--quality", "draft", "--sample-rate", "8000"];
+    room.renders(&[&["held.mid", "-i", "endless.toml", "--tail", "auto"], &fast[..]].concat());
+    let reader = WavReader::open(room.path("held.wav")).unwrap();
+    assert_eq!(reader.duration(), 8_000 / 4 + 30 * 8_000, "a quarter of a second and 30");
+}
+
+#[test]
 fn the_same_bits_on_every_run_and_others_with_another_seed() {
     let room = Room::new();
     let render = |options: &[&str]| {
@@ -98,6 +113,39 @@ fn stems_are_each_strings_own_sound() {
     // With stems or without, the mix is the same.
     room.renders(&["song.mid", "-o", "alone.wav"]);
     assert!(fs::read(room.path("mix.wav")).unwrap() == fs::read(room.path("alone.wav")).unwrap());
+}
+
+#[test]
+fn stems_of_another_song_are_told_of() {
+    let room = Room::new();
+    fs::create_dir(room.path("stems")).unwrap();
+    let put = |name: &str| fs::write(room.path("stems").join(name), "").unwrap();
+    let render =
+        || room.renders(&["song.mid", "-o", "stems/0-all.wav", "--stems", "stems", "--tail", "none"]);
+    ["cover.png", "notes-1.wav", "1-E4.wav", "-x.wav", "1-E4.txt"].into_iter().for_each(put);
+    assert!(!render().contains("warning"));
+    assert!(!render().contains("warning"));
+    put("7-B1.wav");
+    let said = render();
+    assert!(said.contains("warning: stems also holds 7-B1.wav, which is not of this song\n"), "{said}");
+    put("2-A2.wav");
+    let said = render();
+    assert!(
+        said.contains("stems also holds 2 files, such as 2-A2.wav, which are not of this song\n"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_sound_of_no_samples_is_told_of() {
+    let room = Room::new();
+    // A track that ends two seconds later than its only note begins.
+    fs::write(room.path("end.mid"), midi(&[(0, &[0x90, 60, 90]), (96, &[0xFF, 1, 0]), (96, &[0xFF, 1, 0])]))
+        .unwrap();
+    let said = room.renders(&["end.mid", "--tail", "none"]);
+    assert!(said.contains("warning: the sound has no samples"), "{said}");
+    assert_eq!(WavReader::open(room.path("end.wav")).unwrap().duration(), 0);
+    assert!(!room.renders(&["end.mid", "--tail", "0.1"]).contains("no samples"));
 }
 
 #[test]

@@ -1,13 +1,16 @@
 //! The files of one rendering: the stereo sound, and on request each string's own.
 
+use std::ffi::OsString;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use crate::cli::RenderArgs;
+use crate::cli::names::shown;
 use crate::cli::output::Draft;
 use crate::cli::unfinished::NewFolders;
 use crate::cli::wav::{Findings, WavFile};
+use crate::cli::{RenderArgs, say};
 
 /// The files of one rendering.
 pub(super) struct Files {
@@ -23,11 +26,14 @@ impl Files {
         let (rate, depth) = (arguments.sample_rate, arguments.bit_depth);
         let mix = WavFile::begin(output, 2, rate, depth)?;
         let folder = arguments.stems.as_ref().map(|folder| {
-            NewFolders::make(folder).with_context(|| format!("cannot make the folder {}", folder.display()))
+            NewFolders::make(folder).with_context(|| format!("cannot make the folder {}", shown(folder)))
         });
         let folder = folder.transpose()?.unwrap_or_default();
-        let stems = stem_paths(arguments, strings).into_iter();
-        let stems = stems.map(|path| WavFile::begin(&path, 1, rate, depth)).collect::<Result<_>>()?;
+        let paths = stem_paths(arguments, strings);
+        let stems = paths.iter().map(|path| WavFile::begin(path, 1, rate, depth)).collect::<Result<_>>()?;
+        if let Some(folder) = &arguments.stems {
+            warn_of_others(folder, &paths, output);
+        }
         Ok(Self { mix, stems, folder })
     }
 
@@ -53,6 +59,32 @@ impl Files {
 pub(super) fn stem_paths(arguments: &RenderArgs, strings: &[&str]) -> Vec<PathBuf> {
     let Some(folder) = &arguments.stems else { return Vec::new() };
     strings.iter().enumerate().map(|(index, name)| folder.join(stem_name(index, name))).collect()
+}
+
+/// Warns of files in a folder that look like sounds of strings and are none of those being written.
+fn warn_of_others(folder: &Path, paths: &[PathBuf], output: &Path) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
+    let is_other = |name: &OsString| {
+        let looks_like_it = name.to_str().is_some_and(is_stem_name);
+        let mut written = paths.iter().map(PathBuf::as_path).chain([output]);
+        looks_like_it && !written.any(|path| path.file_name() == Some(name.as_os_str()))
+    };
+    let mut others: Vec<OsString> = entries.filter(is_other).collect();
+    others.sort();
+    if let Some(first) = others.first() {
+        let (folder, first) = (shown(folder), shown(Path::new(first)));
+        let which = match others.len() {
+            1 => format!("{first}, which is"),
+            count => format!("{count} files, such as {first}, which are"),
+        };
+        say("warning", &format!("{folder} also holds {which} not of this song"));
+    }
+}
+
+/// Whether a file's name is a number and a string's name.
+fn is_stem_name(name: &str) -> bool {
+    let number = name.strip_suffix(".wav").and_then(|name| name.split_once('-')).map(|(number, _)| number);
+    number.is_some_and(|number| !number.is_empty() && number.chars().all(|c| c.is_ascii_digit()))
 }
 
 /// The most letters of a string's name in that of its file.

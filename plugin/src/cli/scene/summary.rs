@@ -7,6 +7,7 @@ use low_action_dsp::{Ledger, Scene, Simulation};
 
 use super::{Seen, is_dash, open_part};
 use crate::cli::SceneArgs;
+use crate::cli::names::shown;
 use crate::cli::wav::Findings;
 
 /// What there is to say at the end.
@@ -51,6 +52,7 @@ impl Summary<'_> {
             "time: {samples} samples at {rate} Hz, {seconds:.4} s, computed in {elapsed:.2} s"
         ));
         lines.extend(self.contact());
+        lines.extend(self.stretched());
         lines.push(self.energy());
         lines.extend(self.files());
         lines
@@ -63,6 +65,17 @@ impl Summary<'_> {
             format!(
                 "contact: at most {contacts} at once, penetration at most {penetration:.2e} m, {mean:.2} iterations a \
                  sample, at most {most_iterations}"
+            )
+        })
+    }
+
+    /// Only where the grid had too little room for it.
+    fn stretched(&self) -> Option<String> {
+        let [most, borne] = self.seen.stretched?;
+        (most > borne).then(|| {
+            format!(
+                "stretching: tension at most {most:.2} N, and the grid bears {borne:.2} N: pitch glides too little, and the \
+                 shortest waves ripple. A tension whose course reaches as high, be it after the end, makes room"
             )
         })
     }
@@ -83,16 +96,16 @@ impl Summary<'_> {
     fn files(&self) -> Vec<String> {
         let mut lines = Vec::new();
         if let (Some(path), Some(sound)) = (&self.arguments.wav, self.sound) {
-            let (path, peak) = (path.display(), sound.peak);
+            let (path, peak) = (shown(path), sound.peak);
             lines.push(match self.scene.output.position {
                 ListeningPoint::Bridge => format!("{path}: force on the bridge, at most {peak:.4} N"),
                 ListeningPoint::At(place) => format!("{path}: velocity at {place} m, at most {peak:.4} m/s"),
             });
         }
         if let (Some(path), Some((rows, bytes))) = (&self.arguments.trace, self.trace_size) {
-            lines.push(format!("{}: {rows} rows, {:.1} MB", path.display(), bytes as f64 / 1e6));
+            lines.push(format!("{}: {rows} rows, {:.1} MB", shown(path), bytes as f64 / 1e6));
         }
-        lines.extend(self.arguments.figure.iter().map(|path| format!("{}: a picture", path.display())));
+        lines.extend(self.arguments.figure.iter().map(|path| format!("{}: a picture", shown(path))));
         lines
     }
 }

@@ -6,7 +6,7 @@ use nice_plug::prelude::Enum;
 
 use super::bar;
 use super::cells::Cells;
-use crate::display::StringSeen;
+use crate::display::{Health, StringSeen};
 use crate::editor::Given;
 use crate::editor::control::{NAME, choice, slider, switch};
 use crate::editor::theme::{self, GAP};
@@ -77,7 +77,7 @@ impl Engine {
         response.on_hover_text("How much of the time there is goes into the sound");
         let name = pos2(area.left(), area.top() + 0.5 * NAME);
         ui.painter().text(name, Align2::LEFT_CENTER, "CPU", theme::SMALL, theme::SOFT_TEXT);
-        let colour = if self.load > 0.85 { theme::ALARM } else { theme::CALM };
+        let colour = if f64::from(self.load) > Health::LATE { theme::ALARM } else { theme::CALM };
         let row = area.with_min_y(area.top() + NAME);
         bar::paint(ui, row, self.load, &format!("{:.0} %", 100.0 * self.load), colour);
     }

@@ -2,9 +2,9 @@
 //!
 //! Dragged across strings it plucks each where it crosses it, the harder the faster. Pressed on a string over the board
 //! it is a finger: it slides along while it is held and leaves when it is let go, or stays if Shift was down, so that
-//! the other strings can be stopped too and all be strummed. The other button silences a string, Escape all.
+//! the other strings can be stopped too and all be strummed. The other button silences a string.
 
-use egui::{Align2, Key, PointerButton, Pos2, Response, Stroke, Ui, pos2, vec2};
+use egui::{Align2, PointerButton, Pos2, Response, Stroke, Ui, pos2, vec2};
 use low_action_dsp::Setup;
 
 use super::Sight;
@@ -70,9 +70,6 @@ impl Play {
             && let Some(at) = at
         {
             self.deed(given, sight.nearest(at.y), StringDeed::Damp);
-        }
-        if ui.input(|input| input.key_pressed(Key::Escape)) {
-            given.pointer.play(PlayerEvent::AllNotesOff);
         }
         if let Some(at) = response.hover_pos() {
             hint(ui, at, sight, setup);

@@ -20,30 +20,37 @@ impl Fingers {
             // It keeps quiet what is behind; it leaves as softly as the other.
             self.depart(anchor.slot, anchor.touch, parting.easing, at);
         } else if self.light.is_none() {
-            let behind = BEHIND_FINGER * (self.geometry.length - self.sounding_length());
-            if behind >= NEAREST_NUT {
-                self.rest(self.next_slot, behind, at);
+            // Behind the finger, or behind the capo if there is more that could ring.
+            let stopped = self.geometry.length - self.sounding_length();
+            let capo = self.geometry.finger_position(self.capo[1]);
+            let (from, to) = if stopped - capo < capo { (0.0, capo) } else { (capo, stopped) };
+            if BEHIND_FINGER * (to - from) >= NEAREST_NUT {
+                self.rest(self.next_slot, from + BEHIND_FINGER * (to - from), at);
             }
         }
         let holding = HOLDING * self.fretting.map_or(0.0, |finger| self.leaving_force(finger.fret));
         if holding < self.hands.fretting.force && self.fretting.is_some_and(|finger| !finger.bar) {
             self.ease(holding, parting.relaxing, at);
         }
+        self.relax_capo(parting.relaxing, at);
     }
 
-    /// The fretting finger eases off until the string is free of it.
+    /// Fretting finger and capo ease off until the string is free of them: what was shut in behind them comes out under the
+    /// hand that damps.
     pub(crate) fn ease_off(&mut self, Parting { easing, .. }: Parting, at: &mut Moment<impl GestureSink>) {
+        self.ease_capo(easing, at);
         // It is not lifted yet: the next note may want it back.
         if let Some(finger) = self.fretting {
             self.ease(-lift_force(finger.touch, easing), easing.turning, at);
         }
     }
 
-    /// The fretting finger goes, and the dampers ease off and go.
+    /// Fretting finger and capo go, and the dampers ease off and go.
     pub(crate) fn leave(&mut self, parting: Parting, at: &mut Moment<impl GestureSink>) {
         if let Some(finger) = self.fretting.take() {
-            at.does(lifting(finger.slot, finger.touch, parting.easing));
+            self.depart(finger.slot, finger.touch, parting.easing, at);
         }
+        self.lift_capo(parting.easing, at);
         for slot in self.resting_slots() {
             at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));
         }
@@ -51,13 +58,11 @@ impl Fingers {
         let sounding = self.sounding_length();
         let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
         self.right.leave(&field, at);
-        self.ease_capo(at);
     }
 
     /// The dampers have gone.
-    pub(crate) fn gone(&mut self, at: &mut Moment<impl GestureSink>) {
+    pub(crate) fn gone(&mut self) {
         self.resting = [false; FINGERS_PER_STRING];
-        self.lift_capo(at);
     }
 
     /// Brings the fretting finger's force to another value, N.
@@ -74,6 +79,7 @@ impl Fingers {
         let Damper { touch, force, landing, .. } = self.hands.damper;
         let clearance = self.hands.fretting.hover;
         self.resting[finger] = true;
+        self.departing[finger] = None;
         at.does(Gesture::Place { finger, touch, position, clearance });
         at.does(Gesture::Press { finger, force, duration: landing });
     }
@@ -90,6 +96,11 @@ pub(in crate::performance) const QUIET_LIFT: Leaving = NODE_LIFT;
 /// Lifts a finger in a manner of leaving.
 pub(in crate::performance) fn lifting(finger: FingerSlot, touch: Touch, manner: Leaving) -> Gesture {
     Gesture::Lift { finger, force: lift_force(touch, manner), duration: manner.turning }
+}
+
+/// Lifts a finger, or a bar, that is in the way of the next note.
+pub(super) fn hurried(finger: FingerSlot, touch: Touch) -> Gesture {
+    lifting(finger, touch, if touch == BAR { BAR_LIFT } else { QUICK_LIFT })
 }
 
 /// Force that brings a finger to its leaving speed, N: the hand's damping takes one part of it, the

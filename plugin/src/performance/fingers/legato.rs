@@ -2,8 +2,8 @@
 
 use low_action_dsp::{FingerSlot, Gesture};
 
-use super::{Finger, Fingers};
-use crate::performance::articulation::Stop;
+use super::{Finger, Fingers, lifting};
+use crate::performance::articulation::{Stop, Stroke};
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
@@ -20,11 +20,25 @@ impl Fingers {
     ) {
         let stopped = self.slidable().map_or(self.capo[1], |finger| finger.fret);
         match slide.filter(|_| fret > self.capo[1] && self.slidable().is_some()) {
-            _ if fret == stopped => {}
+            _ if fret == stopped => self.go_on(fret, strength, at),
             Some(duration) => self.slide_to(fret, duration, at),
             None if fret > stopped && bar => self.stop(fret, Stop::Bar, strength, at),
             None if fret > stopped => self.hammer(fret, strength, at),
             None => self.pull_off(fret, strength, at),
+        }
+    }
+
+    /// The string is stopped where the next note has it, by a finger that has slid there or by none. If it sounds it goes on;
+    /// if a light finger or a damper rests on it, it is plucked, how hard, 0 to 1.
+    fn go_on(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
+        self.home = fret;
+        if self.light.is_none() && self.resting_slots().next().is_none() {
+            return;
+        }
+        self.make_way(at);
+        self.lay_capo(at);
+        if let Some(pluck) = self.pluck(Stroke::Down, strength, 0.0) {
+            at.does(pluck);
         }
     }
 
@@ -70,7 +84,10 @@ impl Fingers {
         let (part, duration) = PULL_OFF;
         let force = part * strength * self.hands.pluck_force;
         at.does(Gesture::Pluck { position: self.pressed(&old), force, duration });
-        at.does(old.gives_way());
+        at.does(match old.bar {
+            true => old.gives_way(),
+            false => lifting(old.slot, old.touch, self.letting_go(pulling(strength))),
+        });
     }
 
     /// A finger stops the string behind the one of a slot before that one leaves: an anchor that is there already, or a
@@ -124,7 +141,16 @@ impl Fingers {
     /// The finger that sounds slides to another fret, which is the note's own from then on.
     pub(crate) fn slide_to(&mut self, fret: usize, duration: f64, at: &mut Moment<impl GestureSink>) {
         (self.home, self.glided) = (fret, 0.0);
+        if let Some(finger) = &mut self.fretting {
+            finger.arrives = at.after(duration);
+        }
         self.slide(0, duration, at);
+    }
+
+    /// How long a finger takes that is to be elsewhere after so many seconds: no wheel and no vibrato hurries one that is on
+    /// its way to its note, s.
+    fn unhurried(finger: &Finger, duration: f64, at: &Moment<impl GestureSink>) -> f64 {
+        duration.max(finger.arrives.saturating_sub(at.time) as f64 / at.sample_rate)
     }
 
     /// A finger behind the one that moves to a fret leaves, fast if it is in the way.
@@ -140,7 +166,8 @@ impl Fingers {
     pub(crate) fn slide(&mut self, frets: i32, duration: f64, at: &mut Moment<impl GestureSink>) -> i32 {
         let last = self.geometry.frets.len() as i32;
         let first = self.capo[1] as i32 + 1;
-        let Some(Finger { slot, fret: at_fret, bar, .. }) = self.slidable() else { return 0 };
+        let Some(sliding) = self.slidable() else { return 0 };
+        let Finger { slot, fret: at_fret, bar, .. } = sliding;
         let fret = (self.home as i32 + frets).clamp(first.min(last), last);
         if fret as usize != at_fret {
             self.lift_anchor(fret as usize, at);
@@ -148,6 +175,7 @@ impl Fingers {
                 (finger.fret, finger.free) = (fret as usize, None);
             }
             let position = self.place(fret as usize, bar);
+            let duration = Self::unhurried(&sliding, duration, at);
             at.does(Gesture::Slide { finger: slot, position, duration });
         }
         fret - self.home as i32
@@ -179,7 +207,15 @@ impl Fingers {
         let sounding = |fret: f64| self.geometry.length - self.place(fret as usize, finger.bar);
         let (long, short) = (sounding(below), sounding((below + 1.0).min(last)));
         let position = self.geometry.length - long * libm::pow(short / long, part);
+        let duration = Self::unhurried(&finger, duration, at);
         at.does(Gesture::Slide { finger: finger.slot, position, duration });
         reached
     }
+}
+
+/// How fast a finger lets go of a string that it pulls (0 to 1), how hard: faster than before a pluck, for most of what is
+/// heard comes from letting go. Fitted to plucks as soft, where letting go at once would be 10 to 20 dB louder.
+fn pulling(strength: f64) -> f64 {
+    let softness = (1.0 - strength).clamp(0.0, 1.0);
+    1.0 - softness * softness * softness
 }

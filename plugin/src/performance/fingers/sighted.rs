@@ -7,9 +7,10 @@ use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
-    /// Whatever keeps the string from sounding leaves, a finger that has eased off too.
+    /// Whatever keeps the string from sounding leaves, a finger that has eased off too; the capo stays or comes.
     pub(crate) fn let_ring(&mut self, at: &mut Moment<impl GestureSink>) {
         self.make_way(at);
+        self.lay_capo(at);
         if let Some(old) = self.fretting.take_if(|finger| finger.eased) {
             at.does(lifting(old.slot, old.touch, QUICK_LIFT));
         }
@@ -24,6 +25,7 @@ impl Fingers {
             return at.does(Gesture::Slide { finger: finger.slot, position, duration: POINTING });
         }
         self.make_way(at);
+        self.lay_capo(at);
         for old in [self.anchor.take(), self.fretting.take()].into_iter().flatten() {
             at.does(lifting(old.slot, old.touch, QUICK_LIFT));
         }
@@ -38,6 +40,11 @@ impl Fingers {
         if let Some(finger) = self.fretting.take_if(|finger| finger.free.is_some()) {
             at.does(lifting(finger.slot, finger.touch, QUICK_LIFT));
         }
+    }
+
+    /// Whether something stops the string that nobody holds there.
+    pub(crate) fn stopped_by_nobody(&self) -> bool {
+        self.stopped() && self.fretting.is_none_or(|finger| finger.free.is_none())
     }
 
     /// The fret that a finger at a place (m from the nut) stops.

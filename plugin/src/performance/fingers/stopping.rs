@@ -53,7 +53,7 @@ impl Fingers {
 
     /// How a finger leaves a string that a note of some strength is about to sound on: a string let go of suddenly sounds as
     /// if plucked, by as much as it was pressed down.
-    fn letting_go(&self, strength: f64) -> Leaving {
+    pub(super) fn letting_go(&self, strength: f64) -> Leaving {
         let softness = (1.0 - strength).clamp(0.0, 1.0);
         let pitch = 440.0 * libm::exp2((self.geometry.open_pitch - 69.0) / 12.0);
         let Leaving { speed, turning } = QUICK_LIFT;
@@ -88,7 +88,7 @@ impl Fingers {
     pub(super) fn take_slot(&mut self, fret: usize, touch: Touch, bar: bool) -> FingerSlot {
         let slot = self.next_slot;
         self.next_slot = (slot + 1) % FRETTING_SLOTS;
-        self.fretting = Some(Finger { slot, fret, touch, eased: false, bar, free: None });
+        self.fretting = Some(Finger { slot, fret, touch, eased: false, bar, arrives: 0, free: None });
         slot
     }
 }

@@ -9,8 +9,12 @@ use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
-    /// A light finger touches the node of partial `order` of what sounds, the one nearest to the left hand.
+    /// A light finger touches the node of partial `order` of what sounds, the one nearest to the left hand; one that is
+    /// there already stays.
     pub(crate) fn touch_node(&mut self, order: u32, at: &mut Moment<impl GestureSink>) {
+        if self.light.is_some() {
+            return;
+        }
         let sounding = self.sounding_length();
         let position = self.geometry.length - sounding + sounding / f64::from(order.max(2));
         self.touch_lightly(position, NODE_TOUCH, at);
@@ -40,6 +44,7 @@ impl Fingers {
         // is still on its way up; the dampers are not.
         let finger = if self.fretting.is_some() { LIGHT } else { self.next_slot };
         self.light = Some(finger);
+        self.departing[finger] = None;
         at.does(Gesture::Place { finger, touch, position, clearance: 0.0 });
         at.does(Gesture::Press { finger, force, duration: PALM_LANDING });
     }
@@ -90,19 +95,27 @@ impl Fingers {
         at.does(Gesture::Press { finger: CAPO, force, duration: self.hands.fretting.landing });
     }
 
-    /// The capo of a string that has come to rest eases off: nothing is computed for a string that nobody
-    /// plays.
-    pub(super) fn ease_capo(&mut self, at: &mut Moment<impl GestureSink>) {
+    /// The capo of a string that is being damped holds it just so. (It goes with the fingers when the string has come to rest:
+    /// nothing is computed for a string that nobody plays.)
+    pub(super) fn relax_capo(&mut self, duration: f64, at: &mut Moment<impl GestureSink>) {
+        let force = HOLDING * self.leaving_force(self.capo[1]);
+        if self.capo[1] > 0 && force < self.hands.fretting.force {
+            at.does(Gesture::Press { finger: CAPO, force, duration });
+        }
+    }
+
+    /// It eases off until the string is free of it.
+    pub(super) fn ease_capo(&mut self, manner: Leaving, at: &mut Moment<impl GestureSink>) {
         if self.capo[1] > 0 {
-            let force = -lift_force(self.hands.fretting.touch, FINGER_EASING);
-            at.does(Gesture::Press { finger: CAPO, force, duration: FINGER_EASING.turning });
+            let force = -lift_force(self.hands.fretting.touch, manner);
+            at.does(Gesture::Press { finger: CAPO, force, duration: manner.turning });
         }
     }
 
     /// And goes.
-    pub(super) fn lift_capo(&mut self, at: &mut Moment<impl GestureSink>) {
+    pub(super) fn lift_capo(&mut self, manner: Leaving, at: &mut Moment<impl GestureSink>) {
         if std::mem::take(&mut self.capo[1]) > 0 {
-            at.does(lifting(CAPO, self.hands.fretting.touch, FINGER_EASING));
+            self.depart(CAPO, self.hands.fretting.touch, manner, at);
         }
     }
 
@@ -129,6 +142,13 @@ impl Fingers {
     pub(crate) fn leave_graze(&mut self, at: &mut Moment<impl GestureSink>) {
         let sounding = self.sounding_length();
         let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
-        self.right.leave(&field, at);
+        self.right.leave_graze(&field, at);
+    }
+
+    /// The palm comes back after a slap if it was there.
+    pub(crate) fn lay_palm(&mut self, at: &mut Moment<impl GestureSink>) {
+        let sounding = self.sounding_length();
+        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        self.right.lay_again(&field, at);
     }
 }

@@ -30,8 +30,9 @@ pub(super) enum Deed {
     },
     /// The light finger leaves its node.
     LeaveNode,
-    /// The thumb bounces off.
+    /// The thumb bounces off, and the palm comes back.
     Bounce,
+    LayPalm,
     /// The thumb grazes the string, and leaves it.
     Graze,
     LeaveGraze,
@@ -53,6 +54,28 @@ impl Deeds {
     pub(super) fn forget_tap(&mut self) {
         for deed in &mut self.0 {
             *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Tap { .. }));
+        }
+    }
+
+    /// No stroke comes any more.
+    pub(super) fn forget_strokes(&mut self) {
+        for deed in &mut self.0 {
+            *deed = deed
+                .filter(|(_, deed)| !matches!(deed, Deed::Strike(_) | Deed::Tremolo(_) | Deed::Tap { .. }));
+        }
+    }
+
+    /// A tremolo ends.
+    fn forget_tremolo(&mut self) {
+        for deed in &mut self.0 {
+            *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Tremolo(_)));
+        }
+    }
+
+    /// A finger stays at its node.
+    fn forget_leaving(&mut self) {
+        for deed in &mut self.0 {
+            *deed = deed.filter(|(_, deed)| *deed != Deed::LeaveNode);
         }
     }
 
@@ -85,18 +108,50 @@ impl StringPlayer {
                     other => other,
                 };
                 let struck = Struck { stroke, ..struck };
-                self.strike(struck, 0.0, at);
+                // Under the pedal it waits: a key below may come back.
+                if self.note.is_some_and(|note| note.key_down()) {
+                    self.touch_node(0.0, at);
+                    self.strike(struck, 0.0, at);
+                }
                 self.deeds.plan(at.after(1.0 / self.tremolo).max(at.time + 1), Deed::Tremolo(struck));
             }
             Some(Deed::Tap { fret, strength }) => self.fingers.hammer(fret, strength, at),
             Some(Deed::LeaveNode) => self.fingers.leave_node(at),
-            Some(Deed::Bounce) => self.fingers.bounce(at),
+            Some(Deed::Bounce) => {
+                self.fingers.bounce(at);
+                self.deeds.plan(at.after(SLAP_CLEAR), Deed::LayPalm);
+            }
+            Some(Deed::LayPalm) => self.fingers.lay_palm(at),
             Some(Deed::Graze) => {
                 self.fingers.graze(at);
                 self.deeds.plan(at.after(GRAZE_TIME), Deed::LeaveGraze);
             }
             Some(Deed::LeaveGraze) => self.fingers.leave_graze(at),
         }
+    }
+
+    /// A finger touches the node of a harmonic, and stays for a while after a stroke so many seconds from now.
+    pub(super) fn touch_node(&mut self, wait: f64, at: &mut Moment<impl GestureSink>) {
+        if let Some(order) = self.note.and_then(|note| note.partial) {
+            self.fingers.touch_node(order, at);
+            self.deeds.forget_leaving();
+            self.deeds.plan(at.after(wait + AT_NODE), Deed::LeaveNode);
+        }
+    }
+
+    /// How far beside its usual place a stroke must fall for a harmonic, m.
+    pub(super) fn towards_antinode(&self) -> f64 {
+        let partial = self.note.and_then(|note| note.partial);
+        partial.map_or(0.0, |order| self.fingers.towards_antinode(order))
+    }
+
+    /// A tremolo has so many strokes a second from its next one on, 0 for none. Gives back how many it had.
+    pub(super) fn set_tremolo(&mut self, rate: f64) -> f64 {
+        if rate <= 0.0 {
+            // A stroke that was yet to come would begin a second one beside the next.
+            self.deeds.forget_tremolo();
+        }
+        std::mem::replace(&mut self.tremolo, rate)
     }
 
     /// The right hand strikes, so many seconds from now.

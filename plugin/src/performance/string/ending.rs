@@ -10,9 +10,9 @@ use crate::performance::{GestureSink, Moment};
 pub(super) enum Ending {
     /// The dampers come to rest on the string.
     Damp,
-    /// The string is quiet: the fretting finger eases off.
+    /// The string is quiet: fretting finger and capo ease off.
     EaseOff,
-    /// The fretting finger goes, and the dampers ease off.
+    /// They go, and the dampers ease off.
     Leave,
     /// The dampers have gone too.
     Gone,
@@ -31,9 +31,9 @@ impl StringPlayer {
     pub(super) fn end_by(&mut self, step: Ending, mut at: Moment<impl GestureSink>) {
         let next = match step {
             Ending::Damp => {
-                self.deeds = Deeds::default();
+                (self.deeds, self.touched) = (Deeds::default(), false);
                 self.fingers.damp(self.parting, &mut at);
-                let next = if self.fingers.frets() { Ending::EaseOff } else { Ending::Leave };
+                let next = if self.fingers.stopped() { Ending::EaseOff } else { Ending::Leave };
                 Some((self.parting.relaxing, next))
             }
             Ending::EaseOff => {
@@ -42,10 +42,12 @@ impl StringPlayer {
             }
             Ending::Leave => {
                 self.fingers.leave(self.parting, &mut at);
+                // A hand that went on swinging would never let the string rest.
+                self.bend.set_vibrato(at.time, 0.0);
                 Some((DAMPER_EASING.turning, Ending::Gone))
             }
             Ending::Gone => {
-                self.fingers.gone(&mut at);
+                self.fingers.gone();
                 None
             }
         };

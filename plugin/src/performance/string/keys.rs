@@ -1,11 +1,12 @@
 //! What keeps a note sounding, and lets it end: its key, the pedals, and the messages that stop everything.
 
-use super::StringPlayer;
+use super::{StringPlayer, UNDER};
 use crate::performance::GestureSink;
 use crate::performance::technique::SHORTEST_NOTE;
 
 impl StringPlayer {
-    /// Lets go of a key, if it is this string's. Under the pedal the note goes on.
+    /// Lets go of a key, if it is this string's: one note-off for each of its presses, as MIDI has it. A file whose notes of
+    /// one key overlap would lose every second one otherwise. Under the pedal the note goes on.
     pub(crate) fn release(
         &mut self,
         time: u64,
@@ -14,53 +15,74 @@ impl StringPlayer {
         pedal: bool,
         out: &mut impl GestureSink,
     ) -> bool {
-        let near = self.samples(SHORTEST_NOTE);
-        let Some(note) =
-            self.note.as_mut().filter(|note| note.key_down && (note.channel, note.key) == (channel, key))
-        else {
+        let Some(note) = self.note.as_mut().filter(|note| note.key_down() && note.is(channel, key)) else {
             return self.release_under(channel, key);
         };
-        if note.pressed_again.take().is_some_and(|pressed| time - pressed <= near) {
-            return true;
-        }
-        note.key_down = false;
-        if !pedal && !note.caught && !self.go_back(time, out) {
-            self.end(time);
+        note.presses -= 1;
+        if !note.key_down() && !pedal && !note.caught {
+            self.go_back_or_end(time, out);
         }
         true
+    }
+
+    /// A key that is down, here or under another, is so by one press.
+    pub(crate) fn leave_one_press(&mut self, channel: u8, key: u8) {
+        let notes = self.note.iter_mut().chain(self.under.iter_mut().flatten());
+        notes.filter(|note| note.is(channel, key)).for_each(|note| note.presses = note.presses.min(1));
     }
 
     /// The sostenuto pedal of a channel goes down: it catches the note if its key is down.
     pub(crate) fn catch(&mut self, channel: u8) {
         if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel) {
-            note.caught = note.key_down;
+            note.caught = note.key_down();
         }
     }
 
     /// It goes up: a note that only it kept ends.
-    pub(crate) fn let_fall(&mut self, time: u64, channel: u8, pedal: bool) {
+    pub(crate) fn let_fall(&mut self, time: u64, channel: u8, pedal: bool, out: &mut impl GestureSink) {
         if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel && note.caught) {
             note.caught = false;
-            if !note.key_down && !pedal {
-                self.end(time);
+            if !note.key_down() && !pedal {
+                self.go_back_or_end(time, out);
             }
         }
     }
 
     /// Lets go of whatever key of a channel holds this string.
-    pub(crate) fn release_channel(&mut self, time: u64, channel: u8, pedal: bool) {
-        self.under = self.under.map(|note| note.filter(|note| note.channel != channel));
+    pub(crate) fn release_channel(
+        &mut self,
+        time: u64,
+        channel: u8,
+        pedal: bool,
+        out: &mut impl GestureSink,
+    ) {
         if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel) {
-            note.key_down = false;
+            note.presses = 0;
             if !pedal && !note.caught {
-                self.end(time);
+                self.go_back_or_end(time, out);
             }
         }
     }
 
+    /// Keys of a channel under the one that sounds (`None`: of any) are no more.
+    pub(crate) fn forget_under(&mut self, channel: Option<u8>) {
+        let kept =
+            self.under.into_iter().flatten().filter(|note| channel.is_some_and(|own| own != note.channel));
+        let mut under = [None; UNDER];
+        under.iter_mut().zip(kept).for_each(|(place, note)| *place = Some(note));
+        self.under = under;
+    }
+
     /// The pedal of a channel goes up: a note it kept ends.
-    pub(crate) fn pedal_up(&mut self, time: u64, channel: u8) {
-        if self.note.is_some_and(|note| note.channel == channel && !note.key_down && !note.caught) {
+    pub(crate) fn pedal_up(&mut self, time: u64, channel: u8, out: &mut impl GestureSink) {
+        if self.note.is_some_and(|note| note.channel == channel && !note.key_down() && !note.caught) {
+            self.go_back_or_end(time, out);
+        }
+    }
+
+    /// Nothing keeps the note any longer: one whose key is still down under it comes back, or the string falls silent.
+    fn go_back_or_end(&mut self, time: u64, out: &mut impl GestureSink) {
+        if !self.go_back(time, out) {
             self.end(time);
         }
     }
@@ -69,6 +91,12 @@ impl StringPlayer {
     pub(crate) fn silence(&mut self, time: u64, channel: Option<u8>) {
         let touched = self.touched && channel.is_none();
         if touched || self.note.is_some_and(|note| channel.is_none_or(|channel| note.channel == channel)) {
+            // A stroke that is still on its way does not come, and nobody waits to hear it.
+            self.deeds.forget_strokes();
+            let heard = time.saturating_sub(self.samples(SHORTEST_NOTE));
+            if let Some(note) = self.note.as_mut().filter(|note| note.since > time) {
+                note.since = heard;
+            }
             self.end(time);
         }
     }

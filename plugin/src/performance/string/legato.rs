@@ -7,15 +7,16 @@ impl StringPlayer {
     /// The note that sounds while its key is down, if it is of that channel (`None`: of any): since when, and
     /// its fret.
     pub(crate) fn held(&self, channel: Option<u8>) -> Option<(u64, usize)> {
-        let note = self.note.filter(|note| note.key_down && self.ending.is_none())?;
+        let note = self.note.filter(|note| note.key_down() && self.ending.is_none())?;
         channel.is_none_or(|channel| channel == note.channel).then_some((note.since, note.fret))
     }
 
     /// A note takes over from the one that sounds, whose key stays down under it: by a hammer, a pull or a
     /// slide.
-    pub(crate) fn connect(&mut self, time: u64, start: Start, out: &mut impl GestureSink) {
+    pub(crate) fn connect(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
         let strength = start.force();
-        if let Some(before) = self.note.filter(|note| note.key_down) {
+        start.presses = start.presses.saturating_add(self.take_presses(start.channel, start.key));
+        if let Some(before) = self.note.filter(Note::key_down) {
             // Of too many the first is forgotten.
             if self.under.iter().all(Option::is_some) {
                 self.under.rotate_left(1);
@@ -34,27 +35,53 @@ impl StringPlayer {
         self.follow(time, &start.manner);
     }
 
-    /// Forgets a key under the one that sounds; `false` if it is not there.
+    /// Channel of the note that has come back since this was last asked, if one has: what that channel says now is for it.
+    pub(crate) fn take_gone_back(&mut self) -> Option<u8> {
+        let note = self.note?;
+        std::mem::take(&mut self.gone_back).then_some(note.channel)
+    }
+
+    /// Lets go of a key under the one that sounds; `false` if it is not there.
     pub(super) fn release_under(&mut self, channel: u8, key: u8) -> bool {
-        let same = |note: &Note| (note.channel, note.key) == (channel, key);
-        let Some(found) = self.under.iter().position(|note| note.as_ref().is_some_and(same)) else {
+        let Some(note) = self.under.iter_mut().flatten().find(|note| note.is(channel, key)) else {
             return false;
         };
-        self.under[found] = None;
-        self.under[found..].rotate_left(1);
+        note.presses -= 1;
+        if !note.key_down() {
+            self.take_under(channel, key);
+        }
         true
+    }
+
+    /// What the string remembers of a key that is struck again is of the new note: how often it went down and not up again.
+    pub(super) fn take_presses(&mut self, channel: u8, key: u8) -> u32 {
+        let mut presses = self.note.take_if(|note| note.is(channel, key)).map_or(0, |note| note.presses);
+        while let Some(under) = self.take_under(channel, key) {
+            presses = presses.saturating_add(under.presses);
+        }
+        presses
+    }
+
+    /// Takes out a key under the one that sounds.
+    fn take_under(&mut self, channel: u8, key: u8) -> Option<Note> {
+        let same = |note: &Option<Note>| note.is_some_and(|note| note.is(channel, key));
+        let found = self.under.iter().position(same)?;
+        let taken = self.under[found].take();
+        self.under[found..].rotate_left(1);
+        taken
     }
 
     /// Goes back to the latest note whose key is still down; `false` if there is none.
     pub(super) fn go_back(&mut self, time: u64, out: &mut impl GestureSink) -> bool {
         let Some(latest) = self.under.iter().rposition(Option::is_some) else { return false };
         let (Some(back), Some(from)) = (self.under[latest].take(), self.note) else { return false };
-        self.note = Some(Note { since: time, pressed_again: None, ..back });
+        self.note = Some(Note { since: time, ..back });
         self.bend.begin(back.channel);
         self.deeds.forget_tap();
         let mut at = self.moment(time, out);
         self.fingers.change(back.fret, from.slide, from.bar, from.strength, &mut at);
-        self.bend.tune(time, 0.0);
+        self.bend.tune(time, back.tuning);
+        self.gone_back = true;
         true
     }
 }

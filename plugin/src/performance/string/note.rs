@@ -1,6 +1,7 @@
 //! A note: what it is to be, and what is remembered of it while it sounds.
 
 use crate::performance::articulation::Articulation;
+use crate::performance::technique::SETTLING;
 use crate::performance::variation::Deviation;
 
 /// A note to begin.
@@ -10,6 +11,8 @@ pub(crate) struct Start {
     pub channel: u8,
     /// Its key, as sent.
     pub key: u8,
+    /// How often the key went down for it.
+    pub presses: u32,
     /// Fret, 0 for the open string.
     pub fret: usize,
     /// Part of the hardest pluck's force.
@@ -33,6 +36,12 @@ impl Start {
     pub(super) fn force(&self) -> f64 {
         self.strength * self.deviation.force * self.manner.force * self.accent
     }
+
+    /// How hard its finger comes, 1 for the hardest velocity. One that came as fast as for a stroke at once would be heard before
+    /// a stroke that has yet to go to its string; one that has the time takes it.
+    pub(super) fn landing(&self) -> f64 {
+        self.force() * (1.0 - self.wait / SETTLING).clamp(0.0, 1.0)
+    }
 }
 
 /// What a note can have for itself, beside what holds for all.
@@ -53,6 +62,17 @@ pub(crate) struct Manner {
 impl Manner {
     /// Nothing special.
     pub const PLAIN: Self = Self { place: 0.0, force: 1.0, pressure: 1.0, tuning: 0.0, vibrato: 0.0 };
+
+    /// This, under what another channel says for all.
+    pub(crate) fn under(&self, all: &Self) -> Self {
+        Self {
+            place: self.place + all.place,
+            force: self.force * all.force,
+            pressure: self.pressure * all.pressure,
+            tuning: self.tuning + all.tuning,
+            vibrato: self.vibrato.max(all.vibrato),
+        }
+    }
 }
 
 /// The note on a string, from its pluck until it is damped.
@@ -61,20 +81,34 @@ pub(super) struct Note {
     pub channel: u8,
     pub key: u8,
     pub since: u64,
-    pub key_down: bool,
+    /// How often its key went down that has not gone up again: each press has a note-off of its own.
+    pub presses: u32,
     /// Whether the sostenuto pedal caught it.
     pub caught: bool,
-    /// Sample of the last key press of this very note while it was already down. The note-off of
-    /// the press before may come a moment later and must not end the new one.
-    pub pressed_again: Option<u64>,
     /// Its fret.
     pub fret: usize,
     /// How hard it was begun.
     pub strength: f64,
+    /// Its own tuning, semitones.
+    pub tuning: f64,
     /// Whether a bar stops it.
     pub bar: bool,
+    /// The partial that a harmonic is.
+    pub partial: Option<u32>,
     /// How long a slide to the next note takes, s, if that is how they are connected.
     pub slide: Option<f64>,
     /// Whether it was bent less far than asked.
     pub bent_short: bool,
+}
+
+impl Note {
+    /// Whether its key is down.
+    pub fn key_down(&self) -> bool {
+        self.presses > 0
+    }
+
+    /// Whether it is the note of a key of a channel.
+    pub fn is(&self, channel: u8, key: u8) -> bool {
+        (self.channel, self.key) == (channel, key)
+    }
 }

@@ -2,8 +2,8 @@
 
 use low_action_dsp::Gesture;
 
-use super::{Deeds, StringPlayer, UNDER};
-use crate::performance::technique::HARDEST_POINTED;
+use super::{Deeds, Ending, StringPlayer, UNDER};
+use crate::performance::technique::{HARDEST_POINTED, POINTED_RINGING};
 use crate::performance::{GestureSink, StringDeed};
 
 impl StringPlayer {
@@ -16,10 +16,11 @@ impl StringPlayer {
         match deed {
             StringDeed::Pluck { position, force } => {
                 let force = if force.is_nan() { 0.0 } else { f64::from(force) };
-                self.take_in_hand();
+                self.take_in_hand(time);
                 let duration = self.fingers.pluck_duration();
                 let mut at = self.moment(time, out);
                 self.fingers.let_ring(&mut at);
+                self.rest_later(time);
                 at.does(Gesture::Pluck {
                     position: on_string(position),
                     force: force.clamp(-HARDEST_POINTED, HARDEST_POINTED),
@@ -27,23 +28,36 @@ impl StringPlayer {
                 });
             }
             StringDeed::Press { position } => {
-                self.take_in_hand();
                 // The note that sounded is no more.
                 (self.note, self.under, self.deeds) = (None, [None; UNDER], Deeds::default());
+                self.take_in_hand(time);
                 let mut at = self.moment(time, out);
                 self.fingers.press_at(on_string(position), &mut at);
             }
             StringDeed::Lift => {
                 let mut at = self.moment(time, out);
                 self.fingers.lift_from(&mut at);
+                self.rest_later(time);
             }
             StringDeed::Damp => self.silence(time, None),
         }
     }
 
     /// The string sounds on without a note of its own, and an ending that was under way is called off.
-    fn take_in_hand(&mut self) {
+    fn take_in_hand(&mut self, time: u64) {
         self.ending = None;
         self.touched = true;
+        // The ending would have stopped the hand of a note that is over.
+        if self.note.is_none() {
+            self.bend.set_vibrato(time, 0.0);
+        }
+    }
+
+    /// No key ends what somebody plucks. What stops the string then, a capo, goes when it has rung for long: under it the
+    /// string would never rest.
+    fn rest_later(&mut self, time: u64) {
+        if self.touched && self.note.is_none() && self.fingers.stopped_by_nobody() {
+            self.ending = Some((time + self.samples(POINTED_RINGING), Ending::Damp));
+        }
     }
 }

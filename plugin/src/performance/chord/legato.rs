@@ -1,0 +1,62 @@
+//! **Legato**: a note that begins alone while the latest one of its channel is held is played on that note's
+//! string, if it is there and near enough. Where each string has a channel, it is alone that begins alone on its
+//! string: several are hammered, pulled or slid at once as one is.
+
+use super::{Articulation, HAMMER_REACH, Placement, SLIDE_REACH, Stop, Struck};
+use crate::performance::{GestureSink, InputMode, Performance};
+
+impl Performance {
+    /// Whether each string has a channel.
+    pub(super) fn is_by_strings(&self) -> bool {
+        matches!(self.input, InputMode::Strings { .. })
+    }
+
+    /// Notes of the chord that take over from held ones do so, and are no longer of the chord.
+    pub(super) fn take_over_notes(&mut self, out: &mut impl GestureSink) {
+        let mut index = 0;
+        while index < self.chord.len() {
+            if self.begins_alone(index) && self.take_over_note(index, out) {
+                self.chord.remove(index);
+            } else {
+                index += 1;
+            }
+        }
+    }
+
+    /// Whether no other note begins with one of the chord: none on its string, where each has a channel.
+    fn begins_alone(&self, index: usize) -> bool {
+        let channel = self.chord[index].wanted.channel;
+        let beside = |other: &&Struck| !self.is_by_strings() || other.wanted.channel == channel;
+        self.chord.iter().filter(beside).count() == 1
+    }
+
+    /// A note that begins alone takes over from the latest one of its channel, if that is held, notes are
+    /// to be connected, and its string gives the new one within reach.
+    fn take_over_note(&mut self, index: usize, out: &mut impl GestureSink) -> bool {
+        let Struck { wanted, articulation, .. } = self.chord[index];
+        let Articulation { legato, slide, stop, .. } = articulation;
+        let connected = legato || self.touching.legato;
+        if !connected || stop == Stop::Harmonic || stop == Stop::Mute {
+            return false;
+        }
+        let channel = (!self.is_mpe()).then_some(wanted.channel);
+        let held = self.strings.iter().enumerate().filter_map(|(index, string)| {
+            let (since, fret) = string.held(channel)?;
+            Some((since, index, fret))
+        });
+        let Some((_, string, from)) = held.max_by_key(|&(since, ..)| since) else { return false };
+        let Some(fret) = self.hand.fret(&wanted, string) else { return false };
+        let open = from.min(fret) <= self.hand.capo();
+        let slides = slide || stop == Stop::Bar;
+        let reach = if slides || open { SLIDE_REACH } else { HAMMER_REACH };
+        if fret == from || fret.abs_diff(from) > reach {
+            return false;
+        }
+        let start = self.start(index, Placement { string, fret }, None);
+        let (time, bend) = (self.now, self.bend(wanted.channel));
+        self.hand.follow(fret);
+        self.strings[string].connect(time, start, out);
+        self.strings[string].bend(time, wanted.channel, bend);
+        true
+    }
+}

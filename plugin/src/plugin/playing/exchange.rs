@@ -1,0 +1,193 @@
+//! Other engines in the place of the one that plays.
+
+use super::Playing;
+use crate::engine::Replacement;
+use crate::plugin::order::Order;
+use crate::plugin::workshop::Finished;
+
+impl Playing {
+    /// Sees to it that the engine becomes what is wanted: at once where the host renders offline, as soon as
+    /// it is built in real time. Gives the number of samples after which to look again, if before the
+    /// end of the block.
+    ///
+    /// What was built for a knob that has moved on since is played in the meantime.
+    pub(super) fn exchange(&mut self, wanted: Order) -> Option<u64> {
+        self.ask(wanted);
+        if self.asked.is_none() {
+            // What is finished now comes too late.
+            while let Some(late) = self.ready.take().or_else(|| self.workshop.collect()) {
+                self.workshop.give_back(late);
+            }
+            return None;
+        }
+        if self.ready.is_none() {
+            let fading = self.engine.fading_left();
+            if self.offline && fading > 0 {
+                return Some(fading);
+            }
+            self.ready = if self.offline { self.workshop.wait(&wanted) } else { self.workshop.collect() };
+        }
+        let Finished { order, result } = self.ready.take()?;
+        if order == self.order {
+            self.workshop.give_back(Finished { order, result });
+            return None;
+        }
+        match result {
+            Ok(replacement) => match self.engine.replace(replacement) {
+                Ok(()) => {
+                    self.leaving = std::mem::replace(&mut self.order, order);
+                    self.set_effort(self.relaxed);
+                    self.meters.count_exchange();
+                }
+                Err(replacement) => {
+                    self.ready = Some(Finished { order, result: Ok(replacement) });
+                    return Some(self.engine.fading_left().max(1));
+                }
+            },
+            Err(message) => {
+                // The engine there is plays on, and nothing is asked for again.
+                self.refused = Some(order);
+                self.meters.refuse();
+                self.workshop.give_back(Finished { order, result: Err(message) });
+            }
+        }
+        if self.asked == Some(order) {
+            self.asked = None;
+        }
+        None
+    }
+
+    /// Orders what is wanted, unless it is played, on its way, or was refused.
+    fn ask(&mut self, wanted: Order) {
+        if self.refused.is_some_and(|refused| refused != wanted) {
+            self.refused = None;
+        }
+        if wanted != self.asked.or(self.refused).unwrap_or(self.order) {
+            self.asked = (wanted != self.order).then_some(wanted);
+            if let Some(order) = self.asked {
+                self.workshop.order(order);
+            }
+        }
+    }
+
+    /// Sends what has been replaced back to the workshop.
+    pub(super) fn retire(&mut self) {
+        if let Some(outgoing) = self.engine.take_outgoing() {
+            self.workshop.give_back(Finished { order: self.leaving, result: Ok(outgoing) });
+        }
+    }
+}
+
+// A replacement travels between threads.
+const _: fn() = || {
+    fn assert_send<T: Send>() {}
+    assert_send::<Box<Replacement>>();
+};
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::thread::sleep;
+    use std::time::{Duration, Instant};
+
+    use super::*;
+    use crate::engine::Quality;
+    use crate::params::LowActionParams;
+    use crate::plugin::meters::Meters;
+    use crate::plugin::shelf::Shelf;
+
+    fn order() -> Order {
+        Order::of(&LowActionParams::default(), 48_000.0, false)
+    }
+
+    /// With another action.
+    fn other(action: f64) -> Order {
+        let mut order = order();
+        order.luthier.action = action;
+        order
+    }
+
+    fn playing(order: Order, offline: bool, meters: &Arc<Meters>) -> Playing {
+        Playing::new(order, offline, Shelf::new(Vec::new()), meters.clone()).expect("it can be built")
+    }
+
+    /// Has an engine exchanged in real time until something has come of it.
+    fn exchange_until(playing: &mut Playing, wanted: Order, done: impl Fn(&Playing) -> bool) {
+        let begun = Instant::now();
+        while !done(playing) {
+            assert!(begun.elapsed() < Duration::from_secs(60), "waited in vain");
+            playing.exchange(wanted);
+            sleep(Duration::from_millis(1));
+        }
+    }
+
+    /// One that was exchanged, while another waits until the first has faded.
+    fn waiting(meters: &Arc<Meters>) -> Playing {
+        let mut playing = playing(order(), false, meters);
+        exchange_until(&mut playing, other(1.1), |playing| playing.order == other(1.1));
+        exchange_until(&mut playing, other(1.2), |playing| playing.ready.is_some());
+        assert!(playing.engine.fading_left() > 0);
+        playing
+    }
+
+    /// Plays until everything has faded.
+    fn fade(playing: &mut Playing) {
+        let (mut left, mut right) = ([0.0; 4096], [0.0; 4096]);
+        playing.engine.process(&mut left, &mut right);
+        playing.retire();
+    }
+
+    #[test]
+    fn what_waits_for_a_fade_is_not_ordered_again() {
+        let meters = Arc::new(Meters::default());
+        let mut playing = waiting(&meters);
+        for _ in 0..3 {
+            assert!(playing.exchange(other(1.2)).is_some());
+            assert!(playing.asked == Some(other(1.2)) && playing.ready.is_some());
+        }
+        fade(&mut playing);
+        playing.exchange(other(1.2));
+        assert!(playing.is(&other(1.2)) && playing.ready.is_none());
+        assert_eq!(meters.exchanges(), 2);
+    }
+
+    #[test]
+    fn who_goes_back_keeps_what_plays() {
+        let meters = Arc::new(Meters::default());
+        let mut playing = waiting(&meters);
+        playing.exchange(other(1.1));
+        assert!(playing.is(&other(1.1)) && playing.ready.is_none());
+        fade(&mut playing);
+        playing.exchange(other(1.1));
+        assert_eq!(meters.exchanges(), 1);
+    }
+
+    /// Nothing can be built from it.
+    fn impossible() -> Order {
+        let mut order = order();
+        order.luthier.loss_0 = -1.0;
+        (order.luthier.quality, order.luthier.iterations) = (Quality::Reference, 150);
+        order
+    }
+
+    #[test]
+    fn what_cannot_be_built_changes_nothing() {
+        let meters = Arc::new(Meters::default());
+        let mut playing = playing(order(), true, &meters);
+        for _ in 0..3 {
+            playing.exchange(impossible());
+            assert!(playing.order == order() && !playing.is(&impossible()));
+        }
+        assert_eq!(meters.refusals(), 1);
+    }
+
+    #[test]
+    fn what_cannot_be_built_is_played_as_it_comes() {
+        let meters = Arc::new(Meters::default());
+        let mut playing = playing(impossible(), true, &meters);
+        playing.exchange(impossible());
+        assert!(playing.is(&impossible()), "it would be built again at every activation");
+        assert!(playing.order == impossible().untouched());
+        assert_eq!(meters.refusals(), 1);
+    }
+}
