@@ -176,13 +176,13 @@ impl Reference {
         let matrix_c = &one * (setup.loss_0 * k - 1.0) - &stretch - second * (2.0 * setup.loss_1 * k);
         let invert = |right: &DMatrix<f64>| matrix_a.solve(right).expect("A has eigenvalues above 1");
 
-        // Without contacts: the string, then the fingers, (M + R k/2) e⁺ = (M − R k/2) e − k² f₀ with e = u_f − u_f⁻.
+        // Without contacts: the string, then the fingers, (M̃ + R k/2) e⁺ = (M̃ − R k/2) e − k² f₀ with e = u_f − u_f⁻.
         let mobility = k * k / setup.linear_density;
         let pluck = self.plucks(time);
         let right =
             self.acceleration(time, u) * (k * k) - &stretch * u * 2.0 - matrix_c * d + &pluck * mobility;
         let d_free = matrix_a.solve(&right).expect("A has eigenvalues above 1");
-        let mass = |i: usize| setup.fingers[i].mass;
+        let mass = |i: usize| setup.fingers[i].mass_in_steps_of(k);
         let hand = |i: usize| setup.fingers[i].hand_damping * k / 2.0;
         let push = |i: usize| at(&setup.fingers[i].force, time);
         let e = &self.finger_change;
@@ -245,17 +245,49 @@ impl Reference {
         self.sample += 1;
     }
 
-    /// Σ g_e f_e, N/m.
+    /// Σ g_e f_e, N/m, in the mean from half a sample before to half a sample after: f_e = f_p sin²(πt/2t_p) by Simpson's rule
+    /// in many pieces.
     fn plucks(&self, time: f64) -> DVector<f64> {
+        const PIECES: usize = 1000;
+        let k = self.time_step;
         let mut sum = DVector::zeros(self.now.len());
         for pluck in &self.setup.plucks {
-            let phase = (time - pluck.start) / pluck.duration;
-            if (0.0..=1.0).contains(&phase) {
-                let force = pluck.force / 2.0 * (1.0 - (PI * phase).cos());
-                sum += weights(pluck.position, self.spacing, self.intervals) * (force / self.spacing);
+            let since = time - pluck.start;
+            let (from, to) = ((since - k / 2.0).max(0.0), (since + k / 2.0).min(pluck.duration));
+            let length = to - from;
+            if length <= 0.0 {
+                continue;
             }
+            let push = |part: f64| (PI * (from + part * length) / (2.0 * pluck.duration)).sin().powi(2);
+            let ends = (0..=PIECES).map(|i| push(i as f64 / PIECES as f64)).collect::<Vec<_>>();
+            let middles = (0..PIECES).map(|i| push((i as f64 + 0.5) / PIECES as f64));
+            let even = ends.iter().sum::<f64>() - 0.5 * (ends[0] + ends[PIECES]);
+            let mean = (even + 2.0 * middles.sum::<f64>()) / (3.0 * PIECES as f64);
+            let force = pluck.force * mean * length / k;
+            sum += weights(pluck.position, self.spacing, self.intervals) * (force / self.spacing);
         }
         sum
+    }
+
+    /// Lets go of what `new` holds: it moved as far to where it is as it will move from there, but for what a finger is thrown with.
+    /// Nothing is plucked or slid on meanwhile.
+    pub fn let_go(&mut self) {
+        let mut after = self.clone();
+        after.setup.plucks.clear();
+        for finger in &mut after.setup.fingers {
+            finger.position = vec![[0.0, at(&finger.position, 0.0)]];
+        }
+        after.step();
+        // d⁺ = decay d + q from d = 0, and d⁺ + d = 0.
+        let (k, sigma) = (self.time_step, self.setup.loss_0);
+        self.change = -after.change / (1.0 + (1.0 - sigma * k) / (1.0 + sigma * k));
+        for (i, finger) in self.setup.fingers.iter().enumerate() {
+            let (mass, hand) = (finger.mass_in_steps_of(k), finger.hand_damping * k / 2.0);
+            let decay = (mass - hand) / (mass + hand);
+            let thrown = self.finger_change[i];
+            self.finger_change[i] =
+                (2.0 * thrown - (after.finger_change[i] - decay * thrown)) / (1.0 + decay);
+        }
     }
 
     /// Energy stored between the last two instants, J.
@@ -277,7 +309,7 @@ impl Reference {
             energy += (self.law(i).energy(eta[i]) + self.law(i).energy(eta_before[i])) / 2.0;
         }
         for (finger, change) in self.setup.fingers.iter().zip(&self.finger_change) {
-            energy += finger.mass / 2.0 * (change / k).powi(2);
+            energy += finger.mass_in_steps_of(k) / 2.0 * (change / k).powi(2);
         }
         energy
     }

@@ -19,8 +19,11 @@ use low_action::pointer::{Played, pointer};
 use low_action_dsp::Setup;
 use nice_plug::context::PluginApi;
 use nice_plug::context::gui::GuiContext;
+use nice_plug::prelude::Params;
 
 pub use recorder::{Recorder, Told, is_gesture};
+
+use crate::user::isolate;
 
 /// Of the sound, Hz.
 pub const RATE: f64 = 48_000.0;
@@ -83,6 +86,7 @@ impl Desk {
     }
 
     fn under(api: PluginApi, builder: egui_kittest::HarnessBuilder<Editor>) -> Self {
+        isolate();
         let (params, meters) = (Arc::new(LowActionParams::default()), Arc::new(Meters::default()));
         let (writer, reader) = display();
         let (sender, queue) = pointer();
@@ -173,6 +177,13 @@ impl Desk {
     pub fn named(&self, name: &str) -> Pos2 {
         let places = self.harness.get_all_by_label(name).map(|node| node.rect().center());
         places.min_by(|one, other| one.y.total_cmp(&other.y)).expect("get_all finds one")
+    }
+
+    /// Names of all parameters.
+    pub fn names(&self) -> Vec<String> {
+        let map = self.params.param_map();
+        // SAFETY: the pointers lead into the parameters, which the desk keeps.
+        map.into_iter().map(|(_, param, _)| unsafe { param.name() }.to_owned()).collect()
     }
 
     /// The middle of a control in the panel that is seen, if it is there.

@@ -14,6 +14,8 @@ use clack_host::prelude::*;
 pub use score::{Action, Score, parameter};
 use score::{events_between, transport};
 
+use crate::user::isolate;
+
 /// The host's side of the conversation.
 pub struct Listener {
     restart_requested: AtomicBool,
@@ -79,6 +81,7 @@ impl Host {
 
     /// The same in real time.
     pub fn in_real_time() -> Self {
+        isolate();
         // SAFETY: the entry is the one that the plugin framework generates for CLAP hosts.
         let entry = unsafe { PluginEntry::load_from_raw(&low_action::plugin::clap_entry, c"") }
             .expect("the entry initialises");

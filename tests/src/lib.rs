@@ -1,11 +1,14 @@
 //! Helpers shared by the promise tests.
 
+pub mod cases;
+pub mod clicks;
 pub mod command;
 pub mod dense;
 pub mod desk;
 pub mod hands;
 pub mod host;
 pub mod midi;
+pub mod numbers;
 pub mod paper;
 pub mod parameters;
 #[cfg(feature = "pictures")]
@@ -13,3 +16,5 @@ pub mod pictures;
 pub mod pitch;
 pub mod session;
 pub mod stage;
+pub mod user;
+pub mod watch;

@@ -34,11 +34,6 @@ pub fn with(settings: &[(&str, f64)], score: &Score) -> Vec<f32> {
     left
 }
 
-/// Mean size of a sound.
-pub fn rms(sound: &[f32]) -> f64 {
-    (sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / sound.len() as f64).sqrt()
-}
-
 /// One stopped note, C3 on the string A2.
 pub fn stopped() -> Score {
     vec![(0, Action::NoteOn { channel: 0, key: 48, velocity: 100 })]

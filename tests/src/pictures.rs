@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use egui_kittest::wgpu::WgpuTestRenderer;
 
 use crate::desk::Desk;
+use crate::user::isolate;
 
 /// Has the pictures drawn anew instead of compared.
 const DRAW_ANEW: &str = "UPDATE_SNAPSHOTS";
@@ -15,9 +16,15 @@ const DRAW_ANEW: &str = "UPDATE_SNAPSHOTS";
 /// of the driver to another.
 const STEPS: u8 = 6;
 const PIXELS: usize = 200;
+/// Pixels a side of the smallest square that may not be off all over, however few are. What drivers draw differently are
+/// slopes: edges fade out over one pixel, and a line as thin as one pixel is nothing but two edges, two pixels across. No
+/// square of three has its nine middles in a strip so narrow. What has come, gone or moved is wider, such as the lit line
+/// of a control, 37 pixels by 4.
+const SIDE: usize = 3;
 
 /// Whether pictures can be drawn here. Where the whole project is checked they must be.
 pub fn can_draw() -> bool {
+    isolate();
     let can = std::panic::catch_unwind(WgpuTestRenderer::new).is_ok();
     assert!(
         can || std::env::var("CI").as_deref() != Ok("true"),
@@ -44,10 +51,9 @@ pub fn assert_looks(desk: &mut Desk, name: &str) {
             panic!("there is no picture {}: with {DRAW_ANEW}=1 it is drawn", kept.display());
         }
         Some(expected) => {
-            let off = seen.differs(&expected);
-            if off > PIXELS {
+            if let Some(fault) = seen.fault(&expected) {
                 seen.write(&beside);
-                panic!("{off} pixels of {name} are not as they were: compare {}", beside.display());
+                panic!("{name} is not as it was, {fault}: compare {}", beside.display());
             }
             fs::remove_file(beside).ok();
         }
@@ -81,12 +87,53 @@ impl Picture {
         writer.write_image_data(&self.pixels).expect("the picture can be written");
     }
 
-    /// How many pixels differ; all if the size does.
-    fn differs(&self, other: &Self) -> usize {
+    /// Where it is not as another, if it is further off than a driver may be.
+    fn fault(&self, other: &Self) -> Option<String> {
         if self.size != other.size {
-            return usize::MAX;
+            return Some(format!("{:?} pixels instead of {:?}", self.size, other.size));
         }
-        let off = |(one, other): (&[u8], &[u8])| one.iter().zip(other).any(|(a, b)| a.abs_diff(*b) > STEPS);
-        self.pixels.chunks(4).zip(other.pixels.chunks(4)).filter(|pair| off(*pair)).count()
+        let is_off =
+            |(one, other): (&[u8], &[u8])| one.iter().zip(other).any(|(a, b)| a.abs_diff(*b) > STEPS);
+        let off: Vec<bool> = self.pixels.chunks(4).zip(other.pixels.chunks(4)).map(is_off).collect();
+        let count = off.iter().filter(|&&off| off).count();
+        if count > PIXELS {
+            return Some(format!("{count} pixels off where at most {PIXELS} may be"));
+        }
+        let [width, height] = self.size.map(|size| size as usize);
+        let corners = (0..(height + 1).saturating_sub(SIDE))
+            .flat_map(|y| (0..(width + 1).saturating_sub(SIDE)).map(move |x| (x, y)));
+        let all_off = |&(x, y): &(usize, usize)| {
+            (y..y + SIDE).all(|y| off[y * width + x..][..SIDE].iter().all(|&off| off))
+        };
+        let (x, y) = corners.into_iter().find(all_off)?;
+        Some(format!("{SIDE} by {SIDE} pixels off all over at {x}, {y}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A grey ground with a brighter rectangle: left, top, width, height.
+    fn rectangle([left, top, width, height]: [u32; 4]) -> Picture {
+        let size = [200, 40];
+        let inside = |n: u32| {
+            let (x, y) = (n % size[0], n / size[0]);
+            (left..left + width).contains(&x) && (top..top + height).contains(&y)
+        };
+        let pixels = (0..size[0] * size[1]).flat_map(|n| [if inside(n) { 200 } else { 50 }; 4]).collect();
+        Picture { size, pixels }
+    }
+
+    #[test]
+    fn a_lit_line_that_is_gone_is_seen_and_an_edge_that_has_moved_is_not() {
+        let nothing = rectangle([0; 4]);
+        assert_eq!(nothing.fault(&nothing), None);
+        for gone in [[20, 10, 37, 4], [197, 37, 3, 3], [0, 0, 3, 3]] {
+            assert!(nothing.fault(&rectangle(gone)).is_some(), "{gone:?}");
+        }
+        // A line across all of it, one pixel thick with its edges.
+        assert_eq!(nothing.fault(&rectangle([10, 20, 100, 2])), None);
+        assert!(nothing.fault(&rectangle([10, 20, 101, 2])).is_some(), "too many");
     }
 }

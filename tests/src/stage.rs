@@ -5,6 +5,7 @@ use low_action::performance::{InputMode, Performance, PlayerEvent};
 use low_action_dsp::{Instrument, Quality, Setup, TimedGesture};
 
 use crate::hands::{EXACT, RATE, strings};
+use crate::numbers::{largest, rms};
 
 /// Samples between two looks of an observer.
 pub const LOOK: u64 = 16;
@@ -130,10 +131,15 @@ pub fn hertz(key: f64) -> f64 {
 
 /// The largest |sample|.
 pub fn peak(sound: &[f32]) -> f64 {
-    f64::from(sound.iter().fold(0.0_f32, |most, sample| most.max(sample.abs())))
+    largest(sound.iter().map(|sample| sample.abs()))
 }
 
 /// A ratio of sizes, dB.
 pub fn decibels(ratio: f64) -> f64 {
-    20.0 * ratio.max(1e-15).log10()
+    20.0 * largest([ratio, 1e-15]).log10()
+}
+
+/// The mean size of a sound, dB.
+pub fn level(sound: &[f32]) -> f64 {
+    decibels(rms(sound))
 }

@@ -1,13 +1,14 @@
 //! The plain string that the fast one is compared with gives the numbers worked by hand on three points.
 
 use low_action_tests::dense::{Finger, Fretboard, Law, Pluck, Reference, Setup, Stencil, weights};
-use std::f64::consts::PI;
+use low_action_tests::numbers::largest;
+use std::f64::consts::{LN_2, PI};
 
 /// Asserts that every entry is within 1e-13 of the hand-worked one, relative to the largest.
 #[track_caller]
 fn assert_near(got: &[f64], expected: &[f64]) {
     assert_eq!(got.len(), expected.len());
-    let scale = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let scale = largest(expected.iter().map(|value| value.abs()));
     for (a, b) in got.iter().zip(expected) {
         assert!((a - b).abs() <= 1e-13 * scale, "{got:?} is not {expected:?}");
     }
@@ -30,8 +31,8 @@ fn three_points() -> Setup {
         tension_modulation: true,
         shape: vec![[1.0, 0.0], [2.0, 8.0], [3.0, 0.0]],
         fretboard: None,
-        // Ends at t = 0 and at its full force, 6 N.
-        plucks: vec![Pluck { start: -1.0, duration: 1.0, position: 1.0, force: 6.0 }],
+        // Ends at t = 0: from −1/2 to 1/2 it pushes by 6 N in the mean, for ∫ (1 − cos πτ)/2 dτ from 1/2 to 1 is 1/4 + 1/(2π).
+        plucks: vec![Pluck { start: -1.0, duration: 1.0, position: 1.0, force: 6.0 / (0.25 + 0.5 / PI) }],
         fingers: vec![],
     }
 }
@@ -97,8 +98,9 @@ fn better_stencils_by_hand() {
 fn board_and_finger_by_hand() {
     // The first step of `two_steps_by_hand` with the board at 0 under point 2 (far below elsewhere) and a
     // finger over point 1. Left alone the string would reach (9.6, −0.8, 4.8).
-    //   Finger: M = 3/2, R = 1, f₀ = 2, u_f⁰ = −1, v = 5, so u_f⁻¹ = −6:
-    //   free u_f¹ = (2M u_f⁰ − (M − R/2) u_f⁻¹ − f₀)/(M + R/2) = (−3 + 6 − 2)/2 = 1/2
+    //   Finger: M = 1/ln 2, R = 1, so that half of its motion is left after a step and M̃ = (R/2)/tanh(R/(2M)) = 3/2;
+    //   f₀ = 2, u_f⁰ = −1, v = 5, so u_f⁻¹ = −6:
+    //   free u_f¹ = (2M̃ u_f⁰ − (M̃ − R/2) u_f⁻¹ − f₀)/(M̃ + R/2) = (−3 + 6 − 2)/2 = 1/2
     //   A⁻¹e₁ = (4/5)(25, 8, −4)/29,  A⁻¹e₂ = (4/5)(8, 13, 8)/29
     // Let the forces be f_b = 29/8 (board) and f_f = 29/4 (finger); then
     //   u¹ = (9.6, −0.8, 4.8) + (4/5)(−(1/4)(25, 8, −4) + (1/8)(8, 13, 8)) = (5.4, −1.1, 6.4)
@@ -117,7 +119,7 @@ fn board_and_finger_by_hand() {
             frets: vec![],
         }),
         fingers: vec![Finger {
-            mass: 1.5,
+            mass: 1.0 / LN_2,
             stiffness: 29.0 / 4.0 / 2.45625,
             exponent: 1.0,
             damping: 0.5,

@@ -5,6 +5,8 @@ use low_action::display::{Health, POINTS, Reader, Writer, display};
 use low_action::engine::{Engine, EngineOptions};
 use low_action::performance::PlayerEvent;
 use low_action_dsp::Setup;
+use low_action_tests::numbers::largest;
+use low_action_tests::watch;
 use nice_assert_no_alloc::assert_no_alloc;
 
 const RATE: f64 = 48_000.0;
@@ -52,6 +54,12 @@ fn seen(blocks: usize) -> (Engine, Reader) {
     play(&mut engine, blocks, &mut writer, |_| true);
     assert!(reader.fetch(), "there is no picture");
     (engine, reader)
+}
+
+#[test]
+#[cfg_attr(not(debug_assertions), ignore = "in a release build nobody keeps watch over allocations")]
+fn the_watch_over_allocations_is_kept() {
+    watch::assert_it_is_kept("the_watch_over_allocations_is_kept");
 }
 
 #[test]
@@ -122,7 +130,7 @@ fn still_strings_are_seen_less_often_and_at_once_when_they_move() {
     let damped = in_two_seconds(&mut engine, &mut reader);
     assert!((6..=10).contains(&damped) && !engine.is_silent(), "{damped} once it was damped");
     let string = &reader.latest().strings()[5];
-    let widest = string.highest.iter().zip(string.lowest).map(|(high, low)| high - low).fold(0.0, f32::max);
+    let widest = largest(string.highest.iter().zip(string.lowest).map(|(high, low)| high - low));
     assert!(widest > 0.0 && widest < 5e-6, "{widest} m");
     engine.event(0, on(40, 1.0));
     (0..4).for_each(|_| block(&mut engine));
@@ -139,13 +147,16 @@ fn strings_are_where_they_are() {
     let string = &reader.latest().strings()[low_e];
     let (model, state) = (instrument.model(low_e), instrument.state(low_e));
     assert_eq!(reader.latest().strings().len(), 6);
-    let largest = string.displacement.iter().fold(0.0_f32, |most, u| most.max(u.abs()));
+    let largest = largest(string.displacement.iter().map(|u| u.abs()));
     assert!(largest > 1e-4, "it does not move: {largest} m");
     for point in 0..POINTS {
         let shown = string.displacement[point];
         let reading = model.grid.reading(f64::from(string.place(point)));
         let there = state.displacement_at(&reading) as f32;
-        assert!((shown - there).abs() < 0.02 * largest, "point {point}: {shown} m instead of {there} m");
+        assert!(
+            f64::from((shown - there).abs()) < 0.02 * largest,
+            "point {point}: {shown} m instead of {there} m"
+        );
         assert!((string.lowest[point]..=string.highest[point]).contains(&shown), "point {point}");
     }
     assert_eq!((string.displacement[0], string.displacement[POINTS - 1]), (0.0, 0.0));
@@ -161,7 +172,7 @@ fn fingers_plucks_and_forces_are_seen() {
     let (mut left, mut right) = ([0.0; BLOCK], [0.0; BLOCK]);
     // F on the low string: first fret.
     engine.event(0, on(41, 1.0));
-    let (mut plucked, mut hit, mut iterated) = (None, 0.0_f32, 0.0_f32);
+    let (mut plucked, mut hit, mut iterated) = (None, 0.0, 0.0);
     for _ in 0..40 {
         writer.look(true, &mut engine);
         engine.process(&mut left, &mut right);
@@ -169,8 +180,8 @@ fn fingers_plucks_and_forces_are_seen() {
         if reader.fetch() {
             let string = &reader.latest().strings()[5];
             plucked = plucked.or(string.pluck);
-            hit = string.frets().iter().fold(hit, |most, fret| most.max(fret.hit));
-            iterated = iterated.max(string.iterations);
+            hit = largest(string.frets().iter().map(|fret| f64::from(fret.hit)).chain([hit]));
+            iterated = largest([iterated, f64::from(string.iterations)]);
         }
     }
     let string = &reader.latest().strings()[5];

@@ -6,7 +6,6 @@ use egui_kittest::kittest::Queryable;
 use low_action::engine::Quality;
 use low_action::params::words::heard_of;
 use low_action_tests::desk::{Desk, is_gesture};
-use nice_plug::prelude::Params;
 
 /// Opens a panel and points at one of its controls.
 fn at(desk: &mut Desk, tab: &str, name: &str) -> egui::Pos2 {
@@ -32,13 +31,7 @@ fn write_level(desk: &mut Desk, text: &str) {
 #[test]
 fn every_parameter_has_its_place() {
     let mut desk = Desk::new();
-    let names: Vec<String> = desk
-        .params
-        .param_map()
-        .into_iter()
-        // SAFETY: the pointers lead into the parameters, which the desk keeps.
-        .map(|(_, param, _)| unsafe { param.name() }.to_owned())
-        .collect();
+    let names = desk.names();
     let mut found = vec![0; names.len()];
     for tab in ["Player", "Luthier", "Sound", "Engine"] {
         desk.open(tab);

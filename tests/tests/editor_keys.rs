@@ -10,6 +10,7 @@ use low_action::plugin::layout::{KeyMap, Keyboard};
 use low_action_dsp::Setup;
 use low_action_tests::desk::{Desk, RATE};
 use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::peak;
 use nice_plug::prelude::Params;
 
 /// The rows of keys as they lie.
@@ -135,11 +136,10 @@ fn the_note_is_that_of_the_fret_and_ends_with_the_key() {
     let expected = 440.0 * (-5.0_f64 / 12.0).exp2();
     let off = cents(frequency_near(&desk.sound[from..], RATE, expected), expected);
     assert!(off.abs() < 8.0, "{off} cents");
-    let loudest = |sound: &[f32]| sound.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
-    let before = loudest(&desk.sound[from..]);
+    let before = peak(&desk.sound[from..]);
     down(&mut desk, Key::Y, false, Modifiers::NONE);
     desk.wait(1.0);
-    let after = loudest(&desk.sound[desk.sound.len() - 4800..]);
+    let after = peak(&desk.sound[desk.sound.len() - 4800..]);
     assert!(after < 0.01 * before, "{before} before, {after} after");
 }
 

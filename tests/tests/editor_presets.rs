@@ -2,31 +2,13 @@
 //! step back each, as is every gesture; A and B are two sets of values; what cannot be saved is told in one line.
 
 use std::fs;
-use std::path::PathBuf;
-use std::sync::OnceLock;
 
 use egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use low_action::setups::FOLDER_VARIABLE;
 use low_action_dsp::Setup;
 use low_action_tests::desk::Desk;
+use low_action_tests::user::isolate as folder;
 use nice_plug::prelude::{ParamSetter, Params};
-
-/// The folder of the user this test is.
-fn folder() -> &'static PathBuf {
-    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
-    FOLDER.get_or_init(|| {
-        let folder = tempfile::tempdir().expect("there is room").keep();
-        // SAFETY: every test begins here, before it has read the environment.
-        unsafe { std::env::set_var(FOLDER_VARIABLE, &folder) };
-        folder
-    })
-}
-
-fn desk() -> Desk {
-    folder();
-    Desk::new()
-}
 
 /// Types a value into the control of a parameter.
 fn enter(desk: &mut Desk, tab: &str, name: &str, value: &str) {
@@ -66,7 +48,7 @@ fn redo(desk: &mut Desk) {
 
 #[test]
 fn one_is_chosen_as_its_maker_left_it() {
-    let mut desk = desk();
+    let mut desk = Desk::new();
     enter(&mut desk, "Luthier", "Action", "150");
     desk.open("Player");
     desk.click(desk.named("Electric *"));
@@ -85,7 +67,7 @@ fn one_is_chosen_as_its_maker_left_it() {
 
 #[test]
 fn nothing_of_the_last_one_is_left() {
-    let mut desk = desk();
+    let mut desk = Desk::new();
     let setter = ParamSetter::new(&*desk.host);
     for (_, param, group) in desk.params.param_map() {
         if ["Set-up", "Strings", "Player"].iter().any(|of| group.starts_with(of)) {
@@ -104,7 +86,7 @@ fn nothing_of_the_last_one_is_left() {
 
 #[test]
 fn what_is_saved_is_what_was_heard() {
-    let mut desk = desk();
+    let mut desk = Desk::new();
     enter(&mut desk, "Luthier", "Action", "150");
     enter(&mut desk, "Luthier", "Relief", "0.1");
     enter(&mut desk, "Player", "Finger force", "80");
@@ -138,7 +120,7 @@ fn what_is_saved_is_what_was_heard() {
 
 #[test]
 fn names_that_cannot_be_are_told() {
-    let mut desk = desk();
+    let mut desk = Desk::new();
     for name in ["electric", "../elsewhere", " "] {
         save(&mut desk, name);
         let told = desk.harness.query_by_label_contains("name").is_some();
@@ -149,8 +131,23 @@ fn names_that_cannot_be_are_told() {
 }
 
 #[test]
+fn what_somebody_else_has_saved_is_not_replaced_unasked() {
+    let mut desk = Desk::new();
+    fs::write(folder().join("Meanwhile.toml"), "based_on = \"steel\"\n").expect("it can be written");
+    desk.click(desk.named("Save"));
+    desk.wait(0.1);
+    for (name, button, other) in [("Mean", "Save it", "Replace"), ("Meanwhile", "Replace", "Save it")] {
+        desk.harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        desk.harness.event(Event::Text(name.into()));
+        desk.wait(0.1);
+        assert!(desk.harness.query_by_label(button).is_some(), "{name}");
+        assert!(desk.harness.query_by_label(other).is_none(), "{name}");
+    }
+}
+
+#[test]
 fn every_gesture_is_one_step_back() {
-    let mut desk = desk();
+    let mut desk = Desk::new();
     for value in ["150", "60", "200"] {
         enter(&mut desk, "Luthier", "Action", value);
     }
@@ -172,7 +169,7 @@ fn every_gesture_is_one_step_back() {
 
 #[test]
 fn what_a_host_does_is_not_undone() {
-    let mut desk = desk();
+    let mut desk = Desk::new();
     enter(&mut desk, "Luthier", "Action", "150");
     let setter = ParamSetter::new(&*desk.host);
     setter.set_parameter(&desk.params.player.variation, 0.5);
@@ -182,7 +179,7 @@ fn what_a_host_does_is_not_undone() {
 
 #[test]
 fn a_and_b_are_heard_in_turn() {
-    let mut desk = desk();
+    let mut desk = Desk::new();
     desk.click(desk.named("B"));
     enter(&mut desk, "Luthier", "Action", "150");
     desk.click(desk.named("A"));

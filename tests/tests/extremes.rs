@@ -3,7 +3,7 @@
 //! put in, or to the last digits of the numbers in the balance where these are worth more; at every cap of the
 //! solver. `docs/stability.md` says why; `cargo xtask measure extremes` tries very many more.
 
-use xtask::measure::extremes::{Outcome, Trial};
+use xtask::measure::extremes::{Outcome, TOLERANCE, Trial};
 
 /// The seed of the trials, unless `EXTREMES_SEED` says another. It is not that of the long run.
 const SEED: u64 = 2;
@@ -14,11 +14,14 @@ const TRIALS: u64 = 300;
 fn random_scenes_and_streams() {
     let seed = std::env::var("EXTREMES_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(SEED);
     println!("seed {seed}");
-    let mut computed = 0;
+    // Computed; where rounding alone may be more than the tolerance, and where it was.
+    let (mut computed, mut coarse, mut beyond) = (0, 0, 0);
     for number in 0..TRIALS {
         let trial = Trial::random(seed, number);
         if let Outcome::Computed(record) = trial.run() {
             computed += 1;
+            coarse += u32::from(record.rounding > TOLERANCE);
+            beyond += u32::from(record.created > TOLERANCE || record.open > TOLERANCE);
             if let Some(fault) = record.fault {
                 panic!("trial {number} of seed {seed}: {fault}\n{}", trial.to_toml());
             }
@@ -26,6 +29,11 @@ fn random_scenes_and_streams() {
     }
     // Refusals may only be rare: a generator of illegal scenes would check nothing.
     assert!(computed * 100 >= TRIALS * 99, "only {computed} of {TRIALS} were computed");
+    // And so may be excuses. Of the 100,000 trials of the long run rounding may be more in 7,271, and was in 121: of 300 in 22
+    // with a deviation of 4.5, of which 3 more make 36, and in 0.4, which is more than 3 once in 1,500 times.
+    println!("rounding alone may be more in {coarse} of {TRIALS}, and was in {beyond}");
+    assert!(coarse <= 36, "rounding alone may be more than {TOLERANCE:e} in {coarse} of {TRIALS}");
+    assert!(beyond <= 3, "more than {TOLERANCE:e} is open or created in {beyond} of {TRIALS}");
 }
 
 /// What failed once is tried for ever.

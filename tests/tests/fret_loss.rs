@@ -77,7 +77,8 @@ fn what_strikes_lose_is_what_the_law_says() {
         // Places of some mm are known to 1e-18 m, penetrations of 1 µm to 1e-12 of themselves, their powers and
         // products to some times that.
         assert!((booked - by_law).abs() <= 1e-11 * start);
-        assert_eq!(gone > 0.01 * start, damping > 0.0, "{gone} J of {start} J");
+        // What is lost is known to 1e-12 of all, and so is nothing.
+        assert_eq!(gone > 1e-6 * start, damping > 0.0, "{gone} J of {start} J");
     }
 }
 
@@ -85,7 +86,7 @@ fn what_strikes_lose_is_what_the_law_says() {
 #[test]
 fn a_lossy_fretboard_never_pulls() {
     for damping in [0.3, 30.0, 1e5] {
-        let mut simulation = struck(0.3, 100, &format!("damping = {damping:e}\n"));
+        let mut simulation = struck(0.6, 100, &format!("damping = {damping:e}\n"));
         let (mut pushed, mut let_go) = (0, 0);
         for _ in 0..simulation.samples() {
             let inside = penetrations(&simulation);

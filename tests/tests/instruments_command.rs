@@ -57,6 +57,77 @@ fn what_is_installed_is_listed_and_played() {
 }
 
 #[test]
+fn the_plugin_has_numbers_for_the_first_64() {
+    let place = workplace();
+    let folder = place.path("instruments");
+    std::fs::create_dir(&folder).expect("there is room");
+    let put = |number: usize| {
+        std::fs::write(folder.join(format!("own{number:02}.toml")), LOWER).expect("there is room");
+    };
+    (1..=64).for_each(put);
+    let list = place.run(&["instruments"]).text();
+    for number in 1..=64 {
+        assert!(list.contains(&format!("\n  {number:>2} own{number:02} ")), "{number}: {list}");
+    }
+    assert!(!list.contains("has numbers"), "{list}");
+    (65..=66).for_each(put);
+    let list = place.run(&["instruments"]).text();
+    assert!(list.contains("\n  64 own64 "), "{list}");
+    assert!(list.contains("\n   - own65 ") && list.contains("\n   - own66 "), "{list}");
+    assert!(list.ends_with("\n  (the plugin has numbers for the first 64)\n"), "{list}");
+    // Those it has are the first of the same order, and what lies beyond is played by its name.
+    let render = ["render", "-o", "low.wav", "--instrument", "own65", "--quality", "draft", "--tail", "none"];
+    let done = place.run(&render);
+    assert_eq!(done.code, 0, "{}", done.error);
+}
+
+#[cfg(unix)]
+#[test]
+fn names_break_no_line_of_the_list() {
+    let place = workplace();
+    place.write("a\nb\u{1b}.toml", LOWER);
+    let done = place.run(&["instruments", "--install", "a\nb\u{1b}.toml"]);
+    assert!(done.code == 0 && done.error.starts_with("a\\nb\\u{1b}: "), "{:?}", done.error);
+    assert_eq!(done.error.lines().count(), 1, "{:?}", done.error);
+    let list = place.run(&["instruments"]).text();
+    assert!(list.contains(" 1 a\\nb\\u{1b}"), "{list:?}");
+}
+
+#[test]
+fn names_with_dots_are_whole_names() {
+    let place = workplace();
+    place.write("les-paul-v1.toml", LOWER);
+    place.write("les-paul-v1.2.toml", LOWER.replace("two", "three"));
+    let done = place.run(&["instruments", "--install", "les-paul-v1.toml", "les-paul-v1.2.toml"]);
+    assert_eq!(done.code, 0, "{}", done.error);
+    assert_eq!(installed(&place), ["les-paul-v1.2.toml", "les-paul-v1.toml"]);
+    std::fs::remove_file(place.path("les-paul-v1.2.toml")).expect("it is there");
+    let render =
+        ["render", "-o", "low.wav", "--instrument", "les-paul-v1.2", "--quality", "draft", "--tail", "none"];
+    let done = place.run(&render);
+    assert_eq!(done.code, 0, "{}", done.error);
+}
+
+#[test]
+fn what_is_played_is_not_written_over() {
+    let place = workplace();
+    place.write("lower.toml", LOWER);
+    assert_eq!(place.run(&["instruments", "--install", "lower.toml"]).code, 0);
+    std::fs::remove_file(place.path("lower.toml")).expect("it is there");
+    let render = |instrument, output| {
+        let rest = ["--quality", "draft", "--tail", "none"];
+        place.run(&[&["render", "--instrument", instrument, "-o", output], &rest[..]].concat())
+    };
+    let done = render("lower", "instruments/lower.toml");
+    assert_eq!(done.code, 2, "{}", done.error);
+    assert!(done.error.contains("the instrument and the sound name the same file"), "{}", done.error);
+    assert_eq!(std::fs::read_to_string(place.path("instruments/lower.toml")).expect("it is there"), LOWER);
+    // What comes with the program is no file that could be lost.
+    let done = render("electric", "electric");
+    assert_eq!(done.code, 0, "{}", done.error);
+}
+
+#[test]
 fn what_is_no_set_up_is_refused_in_one_line() {
     let place = workplace();
     place.write("broken.toml", "name = \"broken\"\nbased_on = \"electric\"\n[neck]\naction = 9.0\n");

@@ -8,6 +8,7 @@ use low_action_dsp::simulation::SceneString;
 use low_action_dsp::{
     Barrier, Drive, Entry, Inputs, Ledger, Losses, Model, Scene, Scratch, Simulation, State, StringParameters,
 };
+use low_action_tests::numbers::largest;
 
 const STRING: &str = r#"
 sample_rate = 88200
@@ -110,14 +111,36 @@ fn moving_tension_with_all_contacts() {
     closes(&format!("{bent}{LOSSES}{PLUCK}{SLIDE}{ALL}"), "wide");
 }
 
-/// Largest departure of the total energy from its value after the last force has acted, over the
-/// largest.
-fn energy_change(scene: &str, stencil: &str) -> f64 {
+/// A ledger that is opened while a bent string rings goes on from there: its first step is as closed as those of one that has
+/// been open all the time, with the same numbers.
+#[test]
+fn a_ledger_may_be_opened_at_any_time() {
+    let bent = STRING.replace("tension = 60.0", "tension = [[0.0, 60.0], [0.5, 84.0], [9.0, 60.0]]");
+    let scene = Scene::from_toml(&format!("{bent}{LOSSES}{PLUCK}{PRESS}{ALL}")).expect("the scene is valid");
+    let begin = || Simulation::new(&scene).expect("the scene can be built");
+    let (mut always, mut later) = (begin(), begin());
+    always.open_ledger();
+    for _ in 0..10_000 {
+        always.step();
+        later.step();
+    }
+    later.open_ledger();
+    for n in 0..1000 {
+        let (entry, of_later) = (always.step().expect("it is open"), later.step().expect("it is open"));
+        assert_eq!(entry, of_later, "step {n}");
+    }
+    let ledger = &later.ledgers()[0];
+    assert!(ledger.largest > 1e-4 && ledger.worst_residual <= 1e-14, "{:e}", ledger.worst_residual);
+}
+
+/// Largest departure of the total energy from its value after the last force has acted, which is after so many seconds,
+/// as a part of it.
+fn energy_change(scene: &str, stencil: &str, forced_for: f64) -> f64 {
     let text = format!("{scene}[solver]\nstencil = \"{stencil}\"\n");
     let scene = Scene::from_toml(&text).expect("the scene is valid");
     let mut simulation = Simulation::new(&scene).expect("the scene can be built");
     simulation.open_ledger();
-    let forced = (0.003 * scene.sample_rate) as u64;
+    let forced = (forced_for * scene.sample_rate) as u64;
     let mut start = 0.0;
     let mut change = 0.0f64;
     for n in 0..simulation.samples() {
@@ -125,7 +148,7 @@ fn energy_change(scene: &str, stencil: &str) -> f64 {
         if n == forced {
             start = total;
         } else if n > forced {
-            change = change.max((total - start).abs() / start);
+            change = largest([change, (total - start).abs() / start]);
         }
     }
     println!("{stencil}: energy changed by {change:.2e}");
@@ -135,11 +158,12 @@ fn energy_change(scene: &str, stencil: &str) -> f64 {
 #[test]
 fn without_loss_energy_stays() {
     for stencil in ["paper", "corrected", "wide"] {
-        assert!(energy_change(&format!("{STRING}{PLUCK}{ALL}"), stencil) <= 1e-11, "buzzing string");
+        assert!(energy_change(&format!("{STRING}{PLUCK}{ALL}"), stencil, 0.003) <= 1e-11, "buzzing string");
     }
-    // The finger bounces off and flies away with its share for the rest of the ten seconds.
+    // The finger bounces off, 2.5 ms after the start, and flies away with its share for the rest of the ten seconds. No
+    // hand pushes it: all energy there is comes with it.
     for stencil in ["paper", "wide"] {
-        assert!(energy_change(&format!("{STRING}{TAP}{ALL}"), stencil) <= 1e-11, "tapping finger");
+        assert!(energy_change(&format!("{STRING}{TAP}{ALL}"), stencil, 0.0) <= 1e-11, "tapping finger");
     }
 }
 

@@ -3,6 +3,7 @@
 
 use low_action::midi_file::{LARGEST_FILE, MidiFileError, Selection, Song, SongWarning};
 use low_action::performance::PlayerEvent;
+use low_action_tests::cases::cases;
 use low_action_tests::midi::{END, file, tempo, track};
 use proptest::prelude::*;
 
@@ -131,6 +132,22 @@ fn odd_but_legal_contents_play() {
     wrapped.extend((inner.len() as u32).to_le_bytes());
     wrapped.extend(inner);
     assert_eq!(note_ons(&read(&wrapped)).len(), 1);
+}
+
+#[test]
+fn tracks_that_the_header_does_not_announce_are_left_out_with_one_warning() {
+    let note = |key| track(&[(0, &[0x90, key, 100])]);
+    let mut bytes = file(1, 96, &[note(60), note(61), note(62)]);
+    // The header's count of tracks.
+    bytes[11] = 1;
+    let song = read(&bytes);
+    assert_eq!(note_ons(&song), [(0, 60)]);
+    assert_eq!(song.warnings, [SongWarning::TracksLeftOut { announced: 1, left_out: 2 }]);
+    assert!(song.warnings[0].to_string().contains("the last 2 left out"), "{}", song.warnings[0]);
+    // What follows without being a track is no matter.
+    bytes[11] = 3;
+    bytes.extend(b"XFIH\0\0\0\x03abcMTrk\0");
+    assert_eq!(read(&bytes).warnings, []);
 }
 
 #[test]
@@ -268,16 +285,37 @@ fn rich() -> Vec<u8> {
     file(1, 480, &[first, second])
 }
 
+/// The name of a chunk, most often of a track.
+fn any_name() -> impl Strategy<Value = [u8; 4]> {
+    prop_oneof![6 => Just(*b"MTrk"), 1 => Just(*b"MThd"), 1 => any::<[u8; 4]>()]
+}
+
+/// How long a chunk says it is, if that is not the truth.
+fn any_length() -> impl Strategy<Value = Option<u32>> {
+    prop_oneof![6 => Just(None), 1 => (0..80_u32).prop_map(Some), 1 => any::<u32>().prop_map(Some)]
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(4_000))]
 
     #[test]
-    fn random_bytes(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+    fn random_chunks_behind_a_header(
+        fields: [u8; 6],
+        sane: bool,
+        chunks in prop::collection::vec((any_name(), any_length(), prop::collection::vec(any::<u8>(), 0..60)), 0..6),
+    ) {
+        // Format 1 and 96 ticks a beat, or anything at all.
+        let mut bytes = [&b"MThd\0\0\0\x06"[..], if sane { &[0, 1, 0, 2, 0, 96] } else { &fields }].concat();
+        for (name, length, data) in chunks {
+            bytes.extend(name);
+            bytes.extend(length.unwrap_or(data.len() as u32).to_be_bytes());
+            bytes.extend(data);
+        }
         survives(&bytes);
     }
 
     #[test]
-    fn random_bytes_behind_a_header(division: u16, bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+    fn random_bytes_in_a_track(division: u16, bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         survives(&file(0, division, &[bytes]));
     }
 

@@ -6,7 +6,16 @@ use low_action as _;
 use low_action_dsp::{
     Drive, Gesture, Instrument, Model, Quality, Scene, Scratch, Setup, State, StringParameters, TimedGesture,
 };
+use low_action_tests::numbers::largest;
+use low_action_tests::stage::peak;
+use low_action_tests::watch;
 use nice_assert_no_alloc::assert_no_alloc;
+
+#[test]
+#[cfg_attr(not(debug_assertions), ignore = "in a release build nobody keeps watch over allocations")]
+fn the_watch_is_kept() {
+    watch::assert_it_is_kept("the_watch_is_kept");
+}
 
 #[test]
 fn playing_an_instrument() {
@@ -18,6 +27,8 @@ fn playing_an_instrument() {
             (0..instrument.string_count()).map(|string| instrument.geometry(string).clone()).collect();
         let (mut left, mut right) = (vec![0.0; 512], vec![0.0; 512]);
         let touch = setup.player.fretting.touch;
+        // How many gestures of each kind were taken, and how loud it was.
+        let (mut taken, mut loudest) = ([0; 6], 0.0);
         assert_no_alloc(|| {
             for block in 0..100u64 {
                 for (string, geometry) in geometry.iter().enumerate() {
@@ -35,14 +46,17 @@ fn playing_an_instrument() {
                     for (index, gesture) in gestures.into_iter().enumerate() {
                         let time = instrument.now() + 80 * index as u64;
                         // A full queue leaves a gesture out, which is no concern here.
-                        let _ = instrument.schedule(TimedGesture { time, string, gesture });
+                        let scheduled = instrument.schedule(TimedGesture { time, string, gesture });
+                        taken[index] += u32::from(scheduled.is_ok());
                     }
                 }
                 instrument.process(&mut left, &mut right);
+                loudest = largest([loudest, peak(&left)]);
             }
             instrument.reset();
         });
-        assert!(left.iter().all(|sample| sample.is_finite()));
+        assert!(taken.iter().all(|taken| *taken > 0), "{name}: {taken:?} gestures were taken");
+        assert!(loudest > 1e-3 && loudest.is_finite(), "{name}: nothing was played");
     }
 }
 

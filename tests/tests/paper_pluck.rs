@@ -4,6 +4,7 @@
 
 use low_action_dsp::curve::OneOrEach;
 use low_action_dsp::{Scene, Simulation};
+use low_action_tests::numbers::largest;
 use low_action_tests::paper::{run, scene, shortened};
 
 /// Long enough for the deepest contacts of the pluck, s.
@@ -34,10 +35,10 @@ fn sink(scene: &Scene) -> (f64, u32, f64) {
         let depth = string.penetration();
         let energy = entry.energies.total();
         let bound = (2.0 * (exponent + 1.0) * energy / stiffness).powf(1.0 / (exponent + 1.0));
-        deepest = deepest.max(depth);
+        deepest = largest([deepest, depth]);
         most = most.max(string.convergence.iterations);
         if depth > 0.0 {
-            nearest = nearest.max(depth / bound);
+            nearest = largest([nearest, depth / bound]);
         }
     });
     (deepest, most, nearest)

@@ -3,6 +3,7 @@
 //! that is not the grid's doing.
 
 use low_action_dsp::Scene;
+use low_action_tests::numbers::{largest, smallest};
 use low_action_tests::paper::{run, scene, shortened};
 use low_action_tests::pitch::{cents, frequency_near};
 
@@ -17,7 +18,7 @@ fn a_fret_further_is_a_semitone_higher() {
         let finger = simulation.string(0).fingers().next().expect("there is a finger");
         iterations = iterations.max(simulation.string(0).convergence.iterations);
         if simulation.steps() > 8820 {
-            force = (force.0.min(finger.force), force.1.max(finger.force));
+            force = (smallest([force.0, finger.force]), largest([force.1, finger.force]));
         }
     });
     assert!(force.0 > 0.0, "the finger leaves the string");
@@ -68,9 +69,8 @@ fn the_string_turns_at_the_fret() {
     let turn = |window: &[f64]| ((window[2] - 2.0 * window[1] + window[0]) / spacing).abs();
     let turns: Vec<_> =
         u.windows(3).zip(2..).map(|(window, node)| (node as f64 * spacing, turn(window))).collect();
-    let most = |near: &dyn Fn(f64) -> bool| {
-        turns.iter().filter(|(x, _)| near(*x)).map(|turn| turn.1).fold(0.0, f64::max)
-    };
+    let most =
+        |near: &dyn Fn(f64) -> bool| largest(turns.iter().filter(|(x, _)| near(*x)).map(|turn| turn.1));
     let (at_fret, beyond) = (most(&|x| (x - 0.1630).abs() < 0.006), most(&|x| x > 0.35));
     println!("the slope changes by {at_fret:.1e} at the fret, by at most {beyond:.1e} beyond the frets");
     assert!(at_fret > 3.0 * beyond, "{at_fret} and {beyond}");

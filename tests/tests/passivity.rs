@@ -3,6 +3,7 @@
 //! maximum, and everything stays finite.
 
 use low_action_dsp::{Scene, Simulation};
+use low_action_tests::numbers::largest;
 
 const STIFFNESSES: [f64; 4] = [1e10, 1e13, 1e15, 1e20];
 const CAPS: [usize; 6] = [0, 1, 2, 4, 8, 50];
@@ -26,7 +27,7 @@ fn run(text: &str) -> Outcome {
         let total = entry.energies.total();
         assert!(total.is_finite(), "not finite in {text}");
         let ledger = &simulation.ledgers()[0];
-        excess = excess.max((total - ledger.put_in) / ledger.largest.max(f64::MIN_POSITIVE));
+        excess = largest([excess, (total - ledger.put_in) / largest([ledger.largest, f64::MIN_POSITIVE])]);
         solver_loss += step * entry.power_solver;
     }
     let state = &simulation.string(0).state;
@@ -46,8 +47,8 @@ fn passive_everywhere(scene: &str, duration: f64) {
                     scene.replace("{K}", &format!("{stiffness:e}"))
                 );
                 let outcome = run(&text);
-                worst = worst.max(outcome.excess);
-                lost = lost.max(outcome.solver_loss);
+                worst = largest([worst, outcome.excess]);
+                lost = largest([lost, outcome.solver_loss]);
                 assert!(
                     outcome.excess <= 1e-10,
                     "K {stiffness:e}, cap {cap}, {rate} Hz: {:e} over what was put in",

@@ -4,8 +4,9 @@
 use std::sync::LazyLock;
 
 use low_action::controls::Touching;
-use low_action::performance::{Expression, InputMode, Performance, PlayerEvent, Style};
+use low_action::performance::{Expression, InputMode, Performance, PlayerEvent, StringDeed, Style};
 use low_action_dsp::{FINGERS_PER_STRING, Gesture, TimedGesture};
+use low_action_tests::cases::cases;
 use low_action_tests::hands::{Neck, of_string, play, play_in_blocks};
 use proptest::prelude::*;
 
@@ -21,6 +22,18 @@ fn player(neck: usize, input: InputMode, touching: &Touching) -> Performance {
 
 const CONTROLLERS: [u8; 22] =
     [1, 2, 5, 6, 11, 20, 21, 22, 23, 24, 25, 26, 27, 64, 65, 66, 68, 74, 100, 101, 121, 123];
+
+/// What somebody may do who sees a string: at any place, on it or not, and as hard as one likes.
+fn any_deed() -> impl Strategy<Value = StringDeed> {
+    let place = prop_oneof![6 => -0.2_f32..1.2, 1 => any::<f32>()];
+    let force = prop_oneof![6 => -60.0_f32..60.0, 1 => any::<f32>()];
+    prop_oneof![
+        3 => (place.clone(), force).prop_map(|(position, force)| StringDeed::Pluck { position, force }),
+        3 => place.prop_map(|position| StringDeed::Press { position }),
+        2 => Just(StringDeed::Lift),
+        1 => Just(StringDeed::Damp),
+    ]
+}
 
 /// Any event: many controllers, and among notes many that are held over one another.
 fn any_event() -> impl Strategy<Value = PlayerEvent> {
@@ -41,6 +54,8 @@ fn any_event() -> impl Strategy<Value = PlayerEvent> {
             PlayerEvent::Note { channel, key, expression: Expression::Vibrato(value) }
         }),
         1 => (channel, unit).prop_map(|(channel, pressure)| PlayerEvent::ChannelPressure { channel, pressure }),
+        // There are four to six strings; others are ignored.
+        3 => (0..7_u8, any_deed()).prop_map(|(string, deed)| PlayerEvent::Touched { string, deed }),
         1 => Just(PlayerEvent::AllNotesOff),
     ]
 }
@@ -55,7 +70,7 @@ fn any_input() -> impl Strategy<Value = InputMode> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(256))]
 
     #[test]
     fn nothing_hangs_and_blocks_do_not_matter(
@@ -89,6 +104,21 @@ proptest! {
             prop_assert_eq!(&done, &of_string(&blocks, string));
             let length = NECKS[neck].strings[string].geometry.length;
             for TimedGesture { gesture, .. } in done {
+                // How far forces, speeds and times may go, as far as documented: nobody plucks harder than who points, with
+                // 50 N, throws a finger faster than a tap's 1.75 m/s (1.91 with a tenth more force, by half of the largest
+                // variation), or takes longer for anything than for the slowest slide, 2 s.
+                let (force, speed, duration) = match gesture {
+                    Gesture::Pluck { force, duration, .. } => (force, 0.0, duration),
+                    Gesture::Throw { speed, .. } => (0.0, speed, 0.0),
+                    Gesture::Press { duration, .. }
+                    | Gesture::Slide { duration, .. }
+                    | Gesture::Lift { duration, .. }
+                    | Gesture::Bend { duration, .. } => (0.0, 0.0, duration),
+                    Gesture::Place { .. } => (0.0, 0.0, 0.0),
+                };
+                prop_assert!(force.abs() <= 50.0, "{gesture:?}");
+                prop_assert!((0.0..=1.91 + 1e-9).contains(&speed), "{gesture:?}");
+                prop_assert!((0.0..=2.0 + 1e-9).contains(&duration), "{gesture:?}");
                 let place = match gesture {
                     Gesture::Place { finger, position, .. } | Gesture::Throw { finger, position, .. } => {
                         left[string][finger] = true;
@@ -109,7 +139,8 @@ proptest! {
                         0.5 * length
                     }
                 };
-                prop_assert!(place > 0.0 && place < length, "{gesture:?}");
+                // Who points may point at an end, and beyond it means it.
+                prop_assert!((0.0..=length).contains(&place), "{gesture:?}");
                 // A finger is moved only while it is there.
                 if let Gesture::Slide { finger, .. } | Gesture::Press { finger, .. } = gesture {
                     prop_assert!(left[string][finger], "{gesture:?} of nobody");

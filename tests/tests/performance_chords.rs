@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 use low_action::controls::Touching;
 use low_action::performance::{InputMode, Performance, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::cases::cases;
 use low_action_tests::hands::{EXACT, Neck, RATE, play};
 use low_action_tests::stage::{cc, off, on};
 use proptest::prelude::*;
@@ -56,6 +57,14 @@ fn what_finds_no_string_comes_later() {
     events.extend(keys.iter().map(|&key| (480, off(key))));
     let mut performance = player();
     assert_eq!(plucks(&play(&mut performance, &events)).len(), 8);
+    assert!((0..128).all(|key| !performance.sounds(0, key)));
+    // The same chord again before they have come: each has its own end.
+    let again: Vec<(u64, PlayerEvent)> = [(0, true), (480, false), (960, true), (1440, false)]
+        .into_iter()
+        .flat_map(|(at, down)| keys.iter().map(move |&key| (at, if down { on(key, 90) } else { off(key) })))
+        .collect();
+    let mut performance = player();
+    assert_eq!(plucks(&play(&mut performance, &again)).len(), 16);
     assert!((0..128).all(|key| !performance.sounds(0, key)));
     // Everything stopping stops them too.
     events.push((960, PlayerEvent::AllNotesOff));
@@ -174,7 +183,7 @@ fn what_is_left_out_is_counted() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(200))]
 
     /// Whatever keys are struck together, up to all there are, each of them sounds: at once, or 70 ms after another.
     #[test]

@@ -258,3 +258,25 @@ fn a_finger_held_behind_is_in_nobodys_way() {
         assert!(cents.abs() < 6.0, "{setup} {string}, open: {cents} cents");
     }
 }
+
+/// What a pedal kept gives way to a key that is still down under it, as it would have without the pedal.
+#[test]
+fn a_pedal_that_goes_up_leaves_the_key_below() {
+    // Sustain, sostenuto, and both put back by one message.
+    for (pedal, up) in [(64, cc(64, 0)), (66, cc(66, 0)), (64, cc(121, 0)), (66, cc(121, 0))] {
+        let events = [
+            (0.0, cc(68, 127)),
+            (0.0, on(55, 90)),
+            (0.3, on(57, 90)),
+            (0.4, cc(pedal, 127)),
+            (0.6, off(57)),
+            (0.8, up),
+        ];
+        let sound = &Stage::alone("electric", 2).play(&events, 1.6).strings[0];
+        for (from, to, key) in [(0.4, 0.8, 57), (0.9, 1.6, 55)] {
+            let part = &sound[at(from)..at(to)];
+            let cents = off_pitch(part, key);
+            assert!(cents.abs() < 4.0 && peak(part) > 0.01, "pedal {pedal} from {from} s: {cents} cents");
+        }
+    }
+}

@@ -3,7 +3,7 @@
 
 use low_action::performance::PlayerEvent;
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{Stage, decibels, hertz, off, on};
+use low_action_tests::stage::{Stage, hertz, level, off, on};
 
 const RATE: f64 = 48_000.0;
 /// When the second note begins, s.
@@ -15,11 +15,6 @@ const STRINGS: [(&str, usize, u8); 5] =
 
 fn part(sound: &[f32], from: f64, to: f64) -> &[f32] {
     &sound[(from * RATE) as usize..(to * RATE) as usize]
-}
-
-/// Root mean square, dB.
-fn level(sound: &[f32]) -> f64 {
-    decibels((sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / sound.len() as f64).sqrt())
 }
 
 /// Frets played one after another, so loud, with a rest between them, and when the last of them begins, s.

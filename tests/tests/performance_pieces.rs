@@ -2,6 +2,7 @@
 //! left out, no note and no finger stays when the music is over, and nothing is clipped. Every gesture has its
 //! file and every set-up its phrase.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -10,6 +11,7 @@ use low_action::midi_file::{Selection, Song};
 use low_action::performance::{InputMode, PlayerEvent, Style};
 use low_action_dsp::{Quality, Setup, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, any_left, of_string};
+use low_action_tests::numbers::largest;
 
 const RATE: u32 = 48_000;
 
@@ -112,16 +114,16 @@ fn hear(name: &str, song: &Song, setup: &str, input: InputMode) {
     engine.set_input(input);
     let mut events = song.events.iter().map(|event| (event.time.sample(RATE), event.event)).peekable();
     let end = (song.duration() * f64::from(RATE)) as u64 + 2 * u64::from(RATE);
-    let (mut peak, mut left, mut right) = (0.0_f32, [0.0; 480], [0.0; 480]);
-    let mut last = 0.0_f32;
+    let (mut peak, mut left, mut right) = (0.0, [0.0; 480], [0.0; 480]);
+    let mut last = 0.0;
     for start in (0..end).step_by(480) {
         while let Some((time, event)) = events.next_if(|event| event.0 < start + 480) {
             engine.event((time - start) as u32, event);
         }
         engine.process(&mut left, &mut right);
-        last = left.iter().chain(&right).fold(0.0, |most, sample| most.max(sample.abs()));
+        last = largest(left.iter().chain(&right).map(|sample| sample.abs()));
         assert!(last.is_finite());
-        peak = peak.max(last);
+        peak = largest([peak, last]);
     }
     let level = 20.0 * peak.log10();
     println!("{name}: {:.1} s, peak {level:.1} dBFS, {:?}", song.duration(), engine.compromises());
@@ -161,6 +163,11 @@ fn every_gesture_has_a_file_that_plays() {
     let gestures = songs("gestures");
     let page =
         fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/gestures.md")).expect("there");
+    // None is missing, and none is left that nobody finds.
+    let names: BTreeSet<&str> = gestures.iter().map(|(name, _)| name.as_str()).collect();
+    let links = page.split("](gestures/").skip(1).filter_map(|rest| rest.split_once(".mid)"));
+    assert_eq!(names, links.map(|(name, _)| name).collect());
+    assert!(!names.is_empty());
     each(&gestures, |name, song| {
         let (setup, input) = (documented(&page, name), InputMode::Keyboard);
         let Fate { left_out, late, .. } = play(name, song, setup, input);

@@ -3,8 +3,9 @@
 
 use low_action::performance::{PlayerEvent, StringDeed};
 use low_action_dsp::Gesture;
+use low_action_tests::hands::any_left;
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{Stage, hertz, off, on, peak};
+use low_action_tests::stage::{Stage, cc, hertz, off, on, peak};
 
 const RATE: f64 = 48_000.0;
 
@@ -125,4 +126,52 @@ fn nonsense_does_no_harm() {
     let sound = &stage.play(&events, 4.0).strings[0];
     assert!(sound.iter().all(|sample| sample.is_finite()));
     assert!(above(&sound[at(3.2)..], 50.0).abs() < 5.0);
+}
+
+#[test]
+fn a_capo_is_a_nut_for_those_who_point_too() {
+    let (mut stage, place) = string();
+    let sound = &stage.play(&[(0.0, cc(26, 3)), (0.1, pluck(place, 0.7))], 1.0).strings[0];
+    let off = above(&sound[at(0.2)..], 53.0);
+    assert!(off.abs() < 8.0, "{off} cents");
+    // A finger that comes and goes leaves it there.
+    let finger = stage.instrument.geometry(0).finger_position(7);
+    let events = [(0.0, cc(26, 3)), (0.1, press(finger)), (0.8, touched(StringDeed::Lift))];
+    let sound = &stage.play(&[&events[..], &[(0.9, pluck(place, 0.7))]].concat(), 1.8).strings[0];
+    let off = above(&sound[at(1.0)..], 53.0);
+    assert!(off.abs() < 8.0, "{off} cents");
+}
+
+/// A capo that is easing off a string that falls silent comes back for a pluck, and for a finger.
+#[test]
+fn a_capo_that_is_leaving_comes_back() {
+    let (mut stage, place) = string();
+    let finger = stage.instrument.geometry(0).finger_position(7);
+    for wait in [0.2, 0.5, 0.7, 0.85] {
+        let note = [(0.0, cc(26, 3)), (0.0, on(57, 90)), (0.5, off(57))];
+        let plucked = [(0.5 + wait, pluck(place, 0.7))];
+        let pressed = [
+            (0.5 + wait, press(finger)),
+            (0.6 + wait, touched(StringDeed::Lift)),
+            (0.7 + wait, pluck(place, 0.7)),
+        ];
+        for (pointed, from) in [(&plucked[..], 0.6), (&pressed[..], 0.8)] {
+            let sound = &stage.play(&[&note[..], pointed].concat(), from + wait + 0.9).strings[0];
+            let off = above(&sound[at(from + wait)..], 53.0);
+            assert!(off.abs() < 8.0, "after {wait} s: {off} cents");
+        }
+    }
+}
+
+/// No key ends what is plucked under a capo, but the string must rest some time.
+#[test]
+fn a_string_plucked_under_a_capo_comes_to_rest() {
+    let (mut stage, place) = string();
+    let mut gestures = Vec::new();
+    stage.performance.event(0, cc(26, 3), &mut gestures);
+    stage.performance.event(0, pluck(place, 0.7), &mut gestures);
+    stage.performance.advance(29 * 48_000, &mut gestures);
+    assert!(any_left(&gestures), "the capo must stay while the string sounds");
+    stage.performance.advance(34 * 48_000, &mut gestures);
+    assert!(!any_left(&gestures));
 }

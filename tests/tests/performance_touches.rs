@@ -4,6 +4,7 @@
 
 use low_action::performance::PlayerEvent;
 use low_action_dsp::{Gesture, Setup};
+use low_action_tests::numbers::{largest, smallest};
 use low_action_tests::pitch::{cents, frequency_near};
 use low_action_tests::stage::{Stage, amplitude, cc, decibels, hertz, off, on, peak};
 
@@ -225,6 +226,48 @@ fn a_capo_is_a_new_nut() {
     assert!(peak(&played.strings[0][at(3.3)..]) < 1e-4);
 }
 
+/// It leaves a quiet string slowly, last of all: a note below it that comes meanwhile must not sound from it.
+#[test]
+fn a_capo_that_is_leaving_stops_no_note() {
+    for (setup, string, open) in [("electric", 2, 55), ("bass", 2, 33)] {
+        let mut stage = Stage::alone(setup, string);
+        for rest in [0.3, 0.95, 1.2, 1.5, 2.2] {
+            let start = 0.5 + rest;
+            let events = [
+                (0.0, cc(26, 3)),
+                (0.0, on(open + 5, 80)),
+                (0.5, off(open + 5)),
+                (0.5, cc(26, 0)),
+                (start, on(open + 1, 80)),
+            ];
+            let sound = &stage.play(&events, start + 0.6).strings[0];
+            let pitch = hertz(f64::from(open + 1));
+            let off = cents(frequency_near(&sound[at(start + 0.1)..], RATE, pitch), pitch);
+            assert!(off.abs() < 5.0, "{setup} {rest} s after: {off} cents");
+        }
+    }
+}
+
+/// What rings between nut, capo and finger comes out while hands still damp the string, and not as an open string when they
+/// have gone.
+#[test]
+fn a_capo_goes_in_silence() {
+    for (setup, string, open) in
+        [("classical", 4, 45), ("bass", 3, 28), ("fretless-bass", 3, 28), ("electric", 5, 40)]
+    {
+        let mut stage = Stage::alone(setup, string);
+        for (capo, fret) in [(3, 3), (3, 5), (3, 10), (5, 7), (7, 19)] {
+            let events = [(0.0, cc(26, capo)), (0.0, on(open + fret, 100)), (0.5, off(open + fret))];
+            let sound = &stage.play(&events, 3.0).strings[0];
+            let level = |from, to| decibels(peak(&sound[at(from)..at(to)]));
+            let [heard, shut_in, left] = [level(0.0, 0.5), level(0.75, 2.0), level(2.2, 3.0)];
+            assert!(heard > -40.0, "{setup}, capo {capo}, fret {fret}: the note is at {heard} dB");
+            assert!(shut_in < -50.0, "{setup}, capo {capo}, fret {fret}: {shut_in} dB");
+            assert!(left < -90.0, "{setup}, capo {capo}, fret {fret}: {left} dB when all have gone");
+        }
+    }
+}
+
 #[test]
 fn a_slap_throws_the_string_against_the_frets() {
     let mut stage = Stage::alone("bass", 3);
@@ -234,7 +277,7 @@ fn a_slap_throws_the_string_against_the_frets() {
         let events = [(0.0, cc(22, stroke)), (0.0, on(28, velocity))];
         let played = stage.watch(&events, 0.3, |_, instrument| {
             let ledger = instrument.ledger(0).expect("it is open");
-            most = most.max(ledger.energies().contact);
+            most = largest([most, ledger.energies().contact]);
         });
         (most, peak(&played.strings[0]))
     };
@@ -287,7 +330,7 @@ fn bends_and_vibrato_have_their_depth() {
         .step_by(96)
         .map(|n| cents(frequency_near(&sound[n..n + width], RATE, hertz(71.0)), hertz(71.0)))
         .collect();
-    let (low, high) = off.iter().fold((0.0_f64, 0.0_f64), |(low, high), &x| (low.min(x), high.max(x)));
+    let (low, high) = (smallest(off.iter().copied()), largest(off.iter().copied()));
     assert!((low + 50.0).abs() < 3.0 && (high - 50.0).abs() < 3.0, "{low} to {high} cents");
 }
 
@@ -301,7 +344,7 @@ fn on_a_bare_board_the_finger_itself_swings_and_bends() {
         }
     });
     assert!(played.gestures.iter().all(|g| !matches!(g.gesture, Gesture::Bend { .. })), "no pull");
-    let (near, far) = places.iter().fold((f64::MAX, 0.0_f64), |(near, far), &x| (near.min(x), far.max(x)));
+    let (near, far) = (smallest(places.iter().copied()), largest(places.iter().copied()));
     assert!((0.01..0.05).contains(&(far - near)), "the finger rolls over {} m", far - near);
     let bent = [(0.0, on(50, 90)), (0.3, PlayerEvent::PitchBend { channel: 0, value: 1.0 })];
     let sound = &stage.play(&bent, 1.5).strings[0];

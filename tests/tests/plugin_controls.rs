@@ -2,7 +2,8 @@
 //! channels mean, which notes are connected and which are none, level and bypass, and what is meant for one way of rendering alone.
 
 use low_action_tests::host::{Action, Host, Score, parameter};
-use low_action_tests::parameters::{LENGTH, RATE, rms, score, sounding_pitch, stopped, with};
+use low_action_tests::numbers::{largest, rms};
+use low_action_tests::parameters::{LENGTH, RATE, score, sounding_pitch, stopped, with};
 
 #[test]
 fn the_hands_act_as_they_are_told() {
@@ -90,6 +91,7 @@ fn channels_mean_what_they_are_told() {
 
 /// The key whose fundamental is strongest among C3 and C4.
 fn key_heard(sound: &[f32]) -> u8 {
+    assert!(rms(&sound[4800..]) > 1e-3, "nothing is heard");
     let sound: Vec<f64> = sound[4800..].iter().map(|&x| f64::from(x)).collect();
     let size = |key: u8| {
         let frequency = 440.0 * ((f64::from(key) - 69.0) / 12.0).exp2() * std::f64::consts::TAU / RATE;
@@ -168,16 +170,45 @@ fn level_and_bypass_act_on_the_output_alone() {
         let gain = 10_f64.powf(decibels / 20.0);
         let found = with(&[("level", value)], &score());
         let off = usual.iter().zip(&found).map(|(a, b)| (f64::from(*a) * gain - f64::from(*b)).abs());
-        assert!(off.fold(0.0, f64::max) <= 1e-6 * gain, "level at {decibels} dB");
+        assert!(largest(off) <= 1e-6 * gain, "level at {decibels} dB");
     }
     assert_eq!(with(&[("bypass", 0.0)], &score()), usual);
     assert!(with(&[("bypass", 1.0)], &score()).iter().all(|&sample| sample == 0.0));
 }
 
-#[test]
-fn relaxing_is_for_real_time_alone() {
+/// Of a change in the middle of a sound, at the samples that are loud enough to tell: the time since then, s, and how much
+/// of the sound is left.
+fn left_after(id: &str, value: f64) -> Vec<(f64, f64)> {
+    let at = 12_000;
     let usual = with(&[], &score());
-    [0.0, 1.0].into_iter().for_each(|end| assert_eq!(with(&[("relax", end)], &score()), usual));
+    let mut changed = score();
+    changed.push((at as u64, Action::Parameter(parameter(id), value)));
+    changed.sort_by_key(|(time, _)| *time);
+    let found = with(&[], &changed);
+    assert!(found[..at] == usual[..at], "{id} counts too early");
+    let parts =
+        usual.iter().zip(&found).enumerate().skip(at).take(4800).filter(|(_, (usual, _))| usual.abs() > 1e-4);
+    let left =
+        |(n, (usual, found)): (usize, (&f32, &f32))| ((n - at) as f64 / RATE, f64::from(found / usual));
+    let left: Vec<_> = parts.map(left).collect();
+    assert!(left.len() > 2000, "too soft to tell");
+    left
+}
+
+#[test]
+fn level_and_bypass_are_spread_over_20_milliseconds() {
+    // The level goes down by 60 dB at an even rate, the bypass takes away the sound at an even rate; a step may count at its
+    // sample or at the next, which is a 960th of the way.
+    let step = 1.0 / (0.02 * RATE);
+    for (time, left) in left_after("level", 0.0) {
+        let way = (time / 0.02).min(1.0);
+        let off = 20.0 * left.log10() + 60.0 * way;
+        assert!(off.abs() <= 60.0 * step + 1e-3, "level {time} s after: {off} dB off");
+    }
+    for (time, left) in left_after("bypass", 1.0) {
+        let off = left - (1.0 - time / 0.02).max(0.0);
+        assert!(off.abs() <= step + 1e-5, "bypass {time} s after: {off} off");
+    }
 }
 
 #[test]

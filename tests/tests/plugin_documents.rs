@@ -4,6 +4,7 @@
 use low_action::engine::Quality;
 use low_action::params::LowActionParams;
 use low_action::params::words::heard_of;
+use low_action_tests::user::isolate;
 use nice_plug::prelude::{ParamPtr, Params};
 
 /// Name, ends of the range and default of a parameter, as hosts show them.
@@ -75,6 +76,7 @@ fn what_is_said_of_qualities_was_measured() {
 #[test]
 fn the_table_of_parameters_is_what_hosts_see() {
     let document = document("plugin.md");
+    isolate();
     let params = LowActionParams::default();
     let rows: Vec<String> =
         params.param_map().into_iter().map(|(id, param, group)| row(&id, param, &group)).collect();

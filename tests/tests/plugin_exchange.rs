@@ -9,16 +9,20 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use low_action_tests::host::{Action, Host, Score, Watch, parameter};
+use low_action_tests::numbers::largest_step;
 use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::peak;
+use low_action_tests::watch;
 
 const RATE: f64 = 48_000.0;
-/// Ten seconds, of which the first half is the change's.
+/// Ten seconds, of which the last second shows what has come of the change.
 const LENGTH: usize = 480_000;
 /// Where the change is.
 const CHANGE: usize = 24_000;
-/// Pause between two blocks while waiting: so long that the longest wait fits in the sound.
-const PAUSE: Duration = Duration::from_millis(50);
-/// The longest wait.
+/// Pause between two blocks while waiting: so long that the longest wait fits in the sound. Between a change and the last
+/// second there are (480,000 − 24,000 − 48,000)/512 = 796 blocks of the longest size that is used there.
+const PAUSE: Duration = Duration::from_millis(80);
+/// The longest wait: 750 pauses.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn note() -> Score {
@@ -44,8 +48,10 @@ fn wait(from: usize, mut heard: impl FnMut(&[f32]) -> bool + 'static) -> Option<
     }))
 }
 
-fn largest_step(sound: &[f32]) -> f32 {
-    sound.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max)
+#[test]
+#[cfg_attr(not(debug_assertions), ignore = "in a release build nobody keeps watch over allocations")]
+fn the_watch_over_allocations_is_kept() {
+    watch::assert_it_is_kept("the_watch_over_allocations_is_kept");
 }
 
 #[test]
@@ -74,8 +80,8 @@ fn a_knob_that_keeps_moving_is_followed() {
     let lowered = |left: &[f32]| cents(frequency_near(&left[left.len() - 48_000..], RATE, 103.83), 110.0);
     let mut host = Host::in_real_time();
     host.watch = wait(last + 48_000, move |left| (lowered(left) + 100.0).abs() < 1.0);
-    // Long enough for the longest wait in blocks of 533 samples on average.
-    let length = last + 1200 * 534;
+    // The wait begins a second after the last move; 750 pauses between blocks of 533 samples on average, and a second more.
+    let length = last + 48_000 + 750 * 534 + 48_000;
     let [left, _] = host.play(RATE, &score, length, &[512, 64, 1024]);
     assert!(left.iter().all(|sample| sample.is_finite() && sample.abs() < 1.0));
     assert!((lowered(&left[..length]) + 100.0).abs() < 3.0, "lowered by {} cents", lowered(&left));
@@ -86,9 +92,8 @@ fn another_instrument_fades_in() {
     let mut score = note();
     score.push(set(CHANGE as u64, "instrument", 1.0));
     score.push((LENGTH as u64 - 48_000, Action::NoteOn { channel: 0, key: 50, velocity: 100 }));
-    let peak = |span: &[f32]| span.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
     let mut host = Host::in_real_time();
-    host.watch = wait(CHANGE, move |left| peak(&left[left.len() - 256..]) == 0.0);
+    host.watch = wait(CHANGE, |left| peak(&left[left.len() - 256..]) == 0.0);
     let [left, _] = host.play(RATE, &score, LENGTH, &[512]);
     // The old one has faded, the new one is silent until it is played.
     assert_eq!(peak(&left[LENGTH - 60_000..LENGTH - 48_000]), 0.0);

@@ -3,17 +3,17 @@
 //! instrument that comes with the program is, and hosts show why.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::OnceLock;
 
 use clack_extensions::params::{ParamInfoFlags, PluginParams};
 use clack_host::prelude::ClapId;
 use low_action::engine::{Engine, EngineOptions, Quality};
 use low_action::performance::PlayerEvent;
-use low_action::setups::FOLDER_VARIABLE;
 use low_action_dsp::Setup;
 use low_action_tests::host::{Action, Host, Score, parameter};
 use low_action_tests::session::{packed, unpacked};
+use low_action_tests::user::isolate;
 use serde_json::{Value, json};
 
 const RATE: f64 = 48_000.0;
@@ -48,10 +48,10 @@ const LOWER_FILE: f64 = 3.0;
 const NO_FILE: f64 = 17.0;
 
 /// The folder of the user this test is. All tests share it, and none changes what another needs.
-fn folder() -> &'static PathBuf {
-    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+fn folder() -> &'static Path {
+    static FOLDER: OnceLock<&Path> = OnceLock::new();
     FOLDER.get_or_init(|| {
-        let folder = tempfile::tempdir().expect("there is room").keep();
+        let folder = isolate();
         for (name, text) in [
             ("lower.toml", LOWER),
             ("eight.toml", &eight()),
@@ -60,8 +60,6 @@ fn folder() -> &'static PathBuf {
         ] {
             fs::write(folder.join(name), text).expect("it can be written");
         }
-        // SAFETY: every test begins here, before it has read the environment.
-        unsafe { std::env::set_var(FOLDER_VARIABLE, &folder) };
         folder
     })
 }

@@ -1,8 +1,11 @@
 //! Promise: what hosts and keyboards say about single notes and channels is heard on those notes and channels,
 //! and on no others.
 
+use std::collections::HashSet;
+
 use clack_host::events::event_types::NoteExpressionType;
 use low_action_tests::host::{Action, Host, Score, parameter};
+use low_action_tests::numbers::{largest, rms, smallest};
 use low_action_tests::pitch::{cents, frequency_near};
 
 const RATE: f64 = 48_000.0;
@@ -33,10 +36,6 @@ fn play(mut score: Score) -> Vec<f32> {
 fn above(sound: &[f32], key: f64) -> f64 {
     let frequency = 440.0 * ((key - 69.0) / 12.0).exp2();
     cents(frequency_near(&sound[LENGTH - 24_000..], RATE, frequency), frequency)
-}
-
-fn rms(sound: &[f32]) -> f64 {
-    (sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / sound.len() as f64).sqrt()
 }
 
 fn brightness(sound: &[f32]) -> f64 {
@@ -84,10 +83,7 @@ fn vibrato_swings() {
             .map(|part| cents(frequency_near(part, RATE, 220.0), 220.0))
             .collect()
     };
-    let spread = |pitches: &[f64]| {
-        let most = pitches.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        most - pitches.iter().copied().fold(f64::INFINITY, f64::min)
-    };
+    let spread = |pitches: &[f64]| largest(pitches.iter().copied()) - smallest(pitches.iter().copied());
     assert!(spread(&pitches(&usual)) < 6.0, "{:?}", pitches(&usual));
     assert!(spread(&pitches(&swung)) > 20.0, "{:?}", pitches(&swung));
 }
@@ -157,6 +153,39 @@ fn pedals_keep_what_they_should() {
 }
 
 #[test]
+fn every_message_that_ends_notes_lets_go_of_keys() {
+    let with = |controller, value| play(vec![on(0, 0, 45), midi(9000, [0xB0, controller, value])]);
+    let released = with(123, 0);
+    assert!(rms(&released[30_000..]) < 1e-3 && rms(&play(vec![on(0, 0, 45)])[30_000..]) > 1e-3);
+    // Omni off and on, mono and poly: modes that there are none of here, and what the standard says of them all.
+    for (controller, value) in [(124, 0), (125, 0), (126, 1), (126, 0), (127, 0)] {
+        assert!(with(controller, value) == released, "controller {controller}");
+    }
+    // Another channel's keys stay down.
+    let elsewhere = play(vec![on(0, 0, 45), midi(9000, [0xB1, 123, 0])]);
+    assert_eq!(elsewhere, play(vec![on(0, 0, 45)]));
+}
+
+#[test]
+fn what_is_for_the_mixer_of_the_host_changes_nothing() {
+    let usual = play(vec![on(0, 0, 45), on(9000, 0, 62)]);
+    // Volume, pan, a program, a bank, reverberation and chorus, before a note and while it sounds.
+    let messages = [
+        [0xB0, 7, 20],
+        [0xB0, 10, 0],
+        [0xC0, 3, 0],
+        [0xB0, 0, 1],
+        [0xB0, 32, 1],
+        [0xB0, 91, 127],
+        [0xB0, 93, 127],
+    ];
+    for message in messages {
+        let sound = play(vec![midi(0, message), on(0, 0, 45), midi(6000, message), on(9000, 0, 62)]);
+        assert!(sound == usual, "{message:?}");
+    }
+}
+
+#[test]
 fn expression_is_a_factor_of_the_force() {
     let usual = rms(&play(vec![on(0, 0, 45)])[480..]);
     let half = rms(&play(vec![midi(0, [0xB0, 11, 64]), on(0, 0, 45)])[480..]);
@@ -174,12 +203,38 @@ fn hosts_hear_when_a_note_has_ended() {
         on(0, 0, 45),
         on(100, 0, 62),
         (6000, Action::NoteOff { channel: 0, key: 45 }),
-        // Struck again while it sounds: the same string, and so the same note goes on.
+        // Struck again while it sounds: the same string, and so the same note goes on until both presses have been let go of.
         on(12_000, 0, 62),
+        (15_000, Action::NoteOff { channel: 0, key: 62 }),
         (18_000, Action::NoteOff { channel: 0, key: 62 }),
     ];
     let ended = Host::new().perform(RATE, &score, LENGTH, &[512], 0).ended;
     let times = |key| ended.iter().filter(|(_, other)| *other == key).map(|(at, _)| *at).collect::<Vec<_>>();
     assert_eq!(times(45), [6144]);
     assert!(times(62).last().is_some_and(|&at| at == 18_432), "{:?}", times(62));
+}
+
+/// However often its key went down, and whether it sounds or lies under another.
+#[test]
+fn a_choke_ends_a_note() {
+    let score = vec![on(0, 0, 62), on(3000, 0, 62), (6000, Action::Choke { channel: 0, key: 62 })];
+    let ended = Host::new().perform(RATE, &score, LENGTH, &[512], 0).ended;
+    assert_eq!(ended.last(), Some(&(6144, 62)));
+    // With a note-off in its place the other press keeps it.
+    let score = vec![on(0, 0, 62), on(3000, 0, 62), (6000, Action::NoteOff { channel: 0, key: 62 })];
+    let ended = Host::new().perform(RATE, &score, 12_000, &[512], 0).ended;
+    assert!(ended.iter().all(|&(at, _)| at < 6000), "{ended:?}");
+}
+
+#[test]
+fn a_note_that_comes_late_has_not_ended() {
+    // Two more than there are strings: 70 and 140 ms later they take those of others.
+    let keys = [40, 47, 52, 55, 59, 64, 67, 71];
+    let mut score: Score = keys.iter().map(|&key| on(0, 0, key)).collect();
+    score.extend(keys.iter().map(|&key| (12_000, Action::NoteOff { channel: 0, key })));
+    let mut ended = Host::new().perform(RATE, &score, 24_000, &[512], 0).ended;
+    ended.sort_unstable_by_key(|(at, _)| *at);
+    let times: Vec<u64> = ended.iter().map(|(at, _)| *at).collect();
+    assert_eq!(times, [vec![3584, 7168], vec![12_288; 6]].concat());
+    assert_eq!(ended.iter().map(|(_, key)| *key).collect::<HashSet<_>>(), HashSet::from(keys));
 }

@@ -12,6 +12,7 @@ use low_action_dsp::Setup;
 use low_action_dsp::setup::Pickup;
 use low_action_tests::host::{Action, Host, Score, parameter};
 use low_action_tests::parameters::{LENGTH, RATE, host_with, score, with};
+use low_action_tests::user::isolate;
 use nice_plug::prelude::Params;
 
 /// The left channel of an engine.
@@ -234,6 +235,7 @@ fn each_string_has_a_tuning() {
 
 #[test]
 fn everything_at_its_end_at_once_plays() {
+    isolate();
     let params = LowActionParams::default();
     let params_of = params.param_map();
     // What would leave nothing to be heard, or another instrument.
@@ -300,6 +302,7 @@ fn every_parameter_is_tested_here() {
         "bypass",
         "relax",
     ];
+    isolate();
     for (id, ..) in LowActionParams::default().param_map() {
         let one_of_eight = id.starts_with("string_tuning_");
         let built = BUILT.iter().any(|built| built.id == id) || HANDS.iter().any(|hands| hands.0 == id);

@@ -8,6 +8,7 @@ use low_action::engine::{Engine, EngineOptions, Quality};
 use low_action::performance::PlayerEvent;
 use low_action_dsp::Setup;
 use low_action_tests::host::{Action, Host, Score};
+use low_action_tests::numbers::rms;
 
 const RATE: f64 = 48_000.0;
 
@@ -48,6 +49,7 @@ fn player_event(action: Action) -> PlayerEvent {
             PlayerEvent::NoteOn { channel, key, velocity: unit(velocity.max(1)) }
         }
         Action::NoteOff { channel, key } => PlayerEvent::NoteOff { channel, key },
+        Action::Choke { channel, key } => PlayerEvent::NoteEnd { channel, key },
         Action::ChokeAll => PlayerEvent::AllNotesOff,
         Action::Midi([status, first, second]) => {
             let channel = status & 15;
@@ -94,10 +96,6 @@ fn assert_same_bits(expected: &[Vec<f32>; 2], found: &[Vec<f32>; 2], what: &str)
             panic!("{what}: channel {side} differs at sample {at}: {:e} and {:e}", expected[at], found[at]);
         }
     }
-}
-
-fn rms(samples: &[f32]) -> f32 {
-    (samples.iter().map(|x| x * x).sum::<f32>() / samples.len() as f32).sqrt()
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use low_action::engine::QUIET;
 use low_action_dsp::Setup;
 use low_action_tests::host::{Action, Host, Score, parameter};
+use low_action_tests::numbers::largest;
 
 const RATE: f64 = 48_000.0;
 
@@ -57,16 +58,16 @@ fn nothing_subnormal_comes_out() {
 
 #[test]
 fn the_tail_is_as_long_as_the_strings_ring() {
-    let expected = |name: &str, loss: f64| {
-        let setup = Setup::shipped(name).expect("it comes with the program");
-        let wavenumber = std::f64::consts::PI / setup.neck.scale_length;
-        let longest = setup
-            .string
-            .iter()
-            .map(|string| -QUIET.ln() / (loss * (string.loss_0 + string.loss_1 * wavenumber.powi(2))))
-            .fold(0.0, f64::max);
-        (longest * RATE) as u32
-    };
+    let expected =
+        |name: &str, loss: f64| {
+            let setup = Setup::shipped(name).expect("it comes with the program");
+            let wavenumber = std::f64::consts::PI / setup.neck.scale_length;
+            let longest =
+                largest(setup.string.iter().map(|string| {
+                    -QUIET.ln() / (loss * (string.loss_0 + string.loss_1 * wavenumber.powi(2)))
+                }));
+            (longest * RATE) as u32
+        };
     let ringing = |settings: &[(&str, f64)]| {
         let mut host = Host::new();
         let mut score: Score =

@@ -149,6 +149,27 @@ fn numbers_out_of_range_are_brought_back() {
 }
 
 #[test]
+fn what_a_parameter_cannot_be_becomes_the_usual() {
+    let mut state = unpacked(&Host::new().save());
+    for (id, value) in [
+        ("quality", json!({ "string": "ultra" })),
+        ("legato", json!({ "i32": 99 })),
+        ("tension_modulation", json!({ "f32": 0.0 })),
+        ("action", json!({ "string": "high" })),
+        ("iterations", json!({ "bool": true })),
+    ] {
+        state["params"][id] = value;
+    }
+    // What was set before has no place in it.
+    let mut host = Host::new();
+    let before = [("quality", 3.0), ("legato", 1.0), ("action", 0.8), ("iterations", 9.0)];
+    host.play(RATE, &set(&before), 64, &[64]);
+    host.play(RATE, &set(&[("tension_modulation", 0.0)]), 64, &[64]);
+    assert!(host.load(&packed(&state)));
+    assert_eq!(unpacked(&host.save())["params"], unpacked(&Host::new().save())["params"]);
+}
+
+#[test]
 fn every_rate_and_block_size_plays() {
     for rate in [8000.0, 22_050.0, 44_100.0, 96_000.0, 384_000.0] {
         for block in [1, 8192] {
@@ -267,10 +288,14 @@ fn hosts_are_told_the_truth() {
     }
     let all = LowActionParams::default().param_map().into_iter().map(|(id, ..)| parameter(&id));
     assert_eq!(held, all.collect());
-    // As many voices as there are strings.
-    host.play(RATE, &set(&[("instrument", 3.0)]), 64, &[64]);
-    host.play(RATE, &score(), 64, &[64]);
-    let handle = host.handle();
-    let voices = handle.get_extension::<PluginVoiceInfo>().expect("it tells its voices");
-    assert_eq!(voices.get(&handle).expect("it does").voice_count, 4);
+    // As many voices as there are strings, from the block on in which the instrument comes.
+    for (instrument, strings) in [(3.0, 4), (0.0, 6)] {
+        host.play(RATE, &set(&[("instrument", instrument)]), 64, &[64]);
+        for _ in 0..2 {
+            let handle = host.handle();
+            let voices = handle.get_extension::<PluginVoiceInfo>().expect("it tells its voices");
+            assert_eq!(voices.get(&handle).expect("it does").voice_count, strings);
+            host.play(RATE, &score(), 64, &[64]);
+        }
+    }
 }

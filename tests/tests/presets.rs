@@ -5,7 +5,9 @@
 use low_action::engine::{Engine, EngineOptions};
 use low_action::performance::{InputMode, PlayerEvent};
 use low_action_dsp::Setup;
+use low_action_tests::numbers::rms;
 use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{decibels, peak};
 
 const RATE: f64 = 48_000.0;
 
@@ -35,10 +37,6 @@ fn open_keys(setup: &Setup) -> Vec<(u8, u8)> {
     (0..).zip(&setup.string).map(|(string, spec)| (string, spec.pitch.round() as u8)).collect()
 }
 
-fn rms(sound: &[f32]) -> f64 {
-    (sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / sound.len() as f64).sqrt()
-}
-
 /// Size of the sound's differences beside the sound itself: grows with the share of high partials.
 fn brightness(sound: &[f32]) -> f64 {
     let differences: Vec<f32> = sound.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -64,8 +62,7 @@ fn all_can_be_played_and_are_as_loud_as_the_others() {
         assert_eq!(setup.name, name);
         assert!(!setup.description.is_empty(), "{name} says nothing of itself");
         let chord = play(&setup, &open_keys(&setup), 1.5);
-        let peak = chord.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
-        let level = 20.0 * f64::from(peak).log10();
+        let level = decibels(peak(&chord));
         assert!((-12.0..=-2.0).contains(&level), "{name}: {level} dBFS");
     }
 }

@@ -1,5 +1,5 @@
-//! Promise: the same gestures give the same bits, in blocks of any size, on every run, and whether or not
-//! anything is measured.
+//! Promise: the same gestures give the same bits, in blocks of any size, on every run, after a reset, and whether or not
+//! strings are asked for by themselves or ledgers are kept.
 
 use low_action_dsp::{Gesture, Instrument, Quality, Scene, Setup, Simulation, TimedGesture};
 
@@ -47,7 +47,7 @@ fn render(instrument: &mut Instrument, block: usize) -> Vec<u32> {
 #[test]
 fn blocks_of_any_size() {
     let whole = render(&mut instrument(), SAMPLES);
-    for block in [1, 64, 480] {
+    for block in [1, 7, 64, 480, 1000] {
         assert!(render(&mut instrument(), block) == whole, "blocks of {block}");
     }
 }
@@ -98,6 +98,12 @@ fn with_and_without_the_ledger() {
         bits
     };
     assert!(run(true) == run(false));
+    // The same of an instrument.
+    let mut measured = instrument();
+    measured.open_ledgers();
+    assert!(render(&mut measured, 480) == render(&mut instrument(), 480));
+    let closed = |string| measured.ledger(string).is_some_and(|ledger| ledger.put_in > 0.0);
+    assert!((0..measured.string_count()).all(closed), "a ledger without an entry");
 }
 
 /// Hosts may flush subnormal numbers to zero; there are none to flush, so that the bits do not depend on it.

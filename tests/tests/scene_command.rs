@@ -7,6 +7,7 @@ use std::path::Path;
 
 use low_action_dsp::{Entry, Scene, Simulation};
 use low_action_tests::command::Workplace;
+use low_action_tests::numbers::largest;
 use npyz::NpyFile;
 
 /// Two strings of different grids, board and frets, fingers out of order, moving and pressed.
@@ -220,7 +221,7 @@ fn the_trace_holds_the_ledger() {
         let names = found.keys().filter(|name| name.starts_with("energy_"));
         names.map(|name| number(name, row)).sum::<f64>()
     };
-    let largest = (0..entries.len()).map(energy).fold(0.0, f64::max);
+    let largest = largest((0..entries.len()).map(energy));
     let time_step = found["t"].numbers[1];
     let open: f64 = (1..entries.len())
         .map(|row| {
@@ -315,6 +316,51 @@ fn a_run_is_summed_up() {
     let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
     assert!(done.text().contains("energy: not measured"), "{}", done.text());
     assert!(done.text().contains("out.wav: velocity at 0.55 m, at most "), "{}", done.text());
+}
+
+/// A string that is stretched to 114 N where its grid, made for 60 N, bears 76.
+const OVERSTRETCHED: &str = "sample_rate = 88200\nduration = 0.01\n[[string]]\nlength = 0.65\n\
+                             linear_density = 5.25e-3\ntension = 60.0\nyoungs_modulus = 2e11\ncore_radius = 4.3e-4\n\
+                             tension_modulation = true\nshape = [[0.0, 0.0], [0.3, 0.01], [0.65, 0.0]]\n";
+
+#[test]
+fn a_string_stretched_beyond_its_grid_is_told() {
+    let place = workplace();
+    place.write("scene.toml", OVERSTRETCHED);
+    let done = place.run(&["scene", "scene.toml"]);
+    assert_eq!((done.code, done.error.as_str()), (0, ""));
+    assert!(done.text().contains("stretching: tension at most 114."), "{}", done.text());
+    assert!(done.text().contains("and the grid bears 76."), "{}", done.text());
+    // A course of the tension that reaches as high, after the end, makes room.
+    let room = OVERSTRETCHED.replace("tension = 60.0", "tension = [[0.0, 60.0], [1.0, 60.0], [2.0, 120.0]]");
+    place.write("room.toml", room);
+    let done = place.run(&["scene", "room.toml"]);
+    assert!(done.code == 0 && !done.text().contains("stretching:"), "{}", done.text());
+}
+
+/// Beside a string at rest a hand pushes a finger through a thick liquid: energies of nothing much, and a flow of kilowatts.
+const FLOW: &str = "sample_rate = 44100\nduration = 0.5\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\n\
+                    tension = 60.0\n[[finger]]\nmass = 5e-3\nstiffness = 1e8\nexponent = 2.0\nposition = 0.2\n\
+                    height = 1.0\nforce = 1000.0\nhand_damping = 1e5\n";
+
+#[test]
+fn a_balance_is_judged_by_what_flows_through_it() {
+    let mut simulation = Simulation::new(&Scene::from_toml(FLOW).unwrap()).unwrap();
+    simulation.open_ledger();
+    (0..simulation.samples()).for_each(|_| {
+        simulation.step();
+    });
+    let ledger = &simulation.ledgers()[0];
+    assert!(
+        ledger.put_in > 1e4 * ledger.largest,
+        "{} J put in, at most {} J there",
+        ledger.put_in,
+        ledger.largest
+    );
+    let place = workplace();
+    place.write("scene.toml", FLOW);
+    let done = place.run(&["scene", "scene.toml"]);
+    assert_eq!((done.code, done.error.as_str()), (0, ""));
 }
 
 #[test]

@@ -160,6 +160,13 @@ fn scenes_too_large_to_compute_are_refused() {
         fast,
         &["duration = 10000", "grid points", "1e7 Hz", "s"],
     );
+    // Every fret on the same few points answers every other.
+    let crowd: Vec<String> = (0..12_000).map(|i| format!("{:?}", 0.2 + 1e-8 * f64::from(i))).collect();
+    assert_scene_refused(
+        "frets = 3",
+        &format!("frets = [{}]", crowd.join(", ")),
+        &["string = 1", "contacts that share grid points", "1e8 numbers"],
+    );
 }
 
 #[test]
@@ -257,10 +264,10 @@ fn what_a_wav_file_cannot_hold_is_refused() {
     let place = workplace();
     place.write("scene.toml", SCENE.replace("44100", "44100.5"));
     let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
-    assert_refused(&done, 1, &["sample_rate = 44100.5", "--wav", "whole number"]);
+    assert_refused(&done, 1, &["error: scene.toml: sample_rate = 44100.5", "--wav", "whole number"]);
     place.write("scene.toml", SCENE.replace("duration = 0.01", "duration = 90000"));
     let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
-    assert_refused(&done, 1, &["duration = 90000", "--wav", "at most"]);
+    assert_refused(&done, 1, &["error: scene.toml: duration = 90000", "--wav", "at most"]);
     assert_eq!(place.names(), ["scene.toml"]);
 }
 

@@ -41,13 +41,45 @@ fn workplace() -> Workplace {
     Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
 }
 
-/// The texts of a picture, in order. Reads every element, so that a picture that is not well-formed fails.
+/// Every element of a picture ends, in the order in which they begin, every attribute has its quotes, and no `&` or `<`
+/// stands for itself.
+fn assert_well_formed(picture: &str) {
+    let mut open = Vec::new();
+    let mut rest = picture;
+    while let Some((text, element)) = rest.split_once('<') {
+        assert!(!text.contains('>') && entities(text), "text {text:?}");
+        assert!(!open.is_empty() || text.trim().is_empty(), "{text:?} stands outside");
+        let (tag, after) = element.split_once('>').unwrap_or_else(|| panic!("<{element} does not end"));
+        assert!(!tag.contains('<') && entities(tag), "<{tag}>");
+        if let Some(name) = tag.strip_prefix('/') {
+            assert_eq!(open.pop(), Some(name), "</{name}>");
+        } else {
+            assert_eq!(tag.matches('"').count(), 2 * tag.matches("=\"").count(), "<{tag}>");
+            let name = tag.split([' ', '\n', '/']).next().expect("split gives one part");
+            assert!(!name.is_empty() && name.chars().all(char::is_alphanumeric), "<{tag}>");
+            if !tag.ends_with('/') {
+                open.push(name);
+            }
+        }
+        rest = after;
+    }
+    assert!(open.is_empty() && rest.trim().is_empty(), "{open:?} do not end");
+}
+
+/// Whether every `&` begins an entity.
+fn entities(text: &str) -> bool {
+    text.split('&').skip(1).all(|rest| {
+        rest.split_once(';').is_some_and(|(name, _)| name.chars().all(|c| c.is_alphanumeric() || c == '#'))
+    })
+}
+
+/// The texts of a picture, in order.
 fn texts(picture: &str) -> Vec<String> {
     assert!(picture.starts_with("<svg ") && picture.trim_end().ends_with("</svg>"), "not SVG");
+    assert_well_formed(picture);
     let mut found = Vec::new();
     for element in picture.split("<text ").skip(1) {
-        let (attributes, rest) = element.split_once('>').expect("tags end");
-        assert_eq!(attributes.matches('"').count() % 2, 0, "{attributes}");
+        let (_, rest) = element.split_once('>').expect("tags end");
         found.push(rest.split_once("</text>").expect("elements end").0.trim().to_owned());
     }
     found

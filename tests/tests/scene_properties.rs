@@ -1,8 +1,12 @@
 //! Promise: whatever stands in a scene file, it is either refused in one line or computed, in bounded
 //! time and memory and without a panic; and whatever is accepted stays finite and closes its energy balance.
 
-use low_action_dsp::{Scene, Simulation};
+use std::cell::Cell;
+
+use low_action_dsp::{Ledger, Scene, Simulation};
+use low_action_tests::cases::cases;
 use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 
 /// Samples computed of each accepted scene.
 const SAMPLES: u64 = 48;
@@ -249,12 +253,6 @@ fn the_examples_are_accepted() {
     }
 }
 
-/// So many cases, the same in every run.
-fn cases(cases: u32) -> ProptestConfig {
-    let rng_seed = proptest::test_runner::RngSeed::Fixed(1);
-    ProptestConfig { cases, rng_seed, failure_persistence: None, ..ProptestConfig::default() }
-}
-
 proptest! {
     #![proptest_config(cases(400))]
 
@@ -278,15 +276,31 @@ proptest! {
     }
 }
 
-proptest! {
-    #![proptest_config(cases(100))]
-
-    #[test]
-    fn accepted_scenes_stay_finite_and_balanced(text in scene()) {
+#[test]
+fn accepted_scenes_stay_finite_and_balanced() {
+    let (accepted, coarse) = (Cell::new(0), Cell::new(0));
+    let tried = TestRunner::new(cases(100)).run(&scene(), |text| {
         match Scene::from_toml(&text).and_then(|scene| Simulation::new(&scene)) {
-            Ok(mut simulation) => compute(&mut simulation),
+            Ok(mut simulation) => {
+                compute(&mut simulation);
+                accepted.set(accepted.get() + 1);
+                let rounds = |ledger: &Ledger| ledger.rounding > BALANCE * ledger.largest;
+                coarse.set(coarse.get() + u32::from(simulation.ledgers().iter().any(rounds)));
+            }
             // What does not fit its grid is refused only now.
-            Err(error) => prop_assert!(!error.to_string().contains('\n')),
+            Err(error) => {
+                println!("{error}");
+                prop_assert!(!error.to_string().contains('\n'));
+            }
         }
-    }
+        Ok(())
+    });
+    tried.unwrap_or_else(|error| panic!("{error}"));
+    println!("{} of 100 accepted, {} of them coarse", accepted.get(), coarse.get());
+    // A generator of scenes that are refused would check nothing. 87 are accepted; of the others a string is too short for
+    // the grid that its rate allows. Other seeds give others, with a deviation of 3.4, of which 3 fewer make 77.
+    assert!(accepted.get() >= 77, "only {} of 100 scenes were accepted", accepted.get());
+    // Where rounding alone may be more nothing is checked: in 6 here and in 7 of 100 random trials (`docs/stability.md`), with
+    // a deviation of 2.6, of which 3 more make 14.
+    assert!(coarse.get() <= 14, "rounding alone may open the balance of {} scenes", coarse.get());
 }

@@ -251,3 +251,29 @@ fn what_is_too_stiff_is_named_as_in_the_file() {
         }
     }
 }
+
+/// A string so stiff that it sounds higher than it should however slack it is cannot be tuned; and no string is so near to
+/// silence that the other pickup, brought to its scale, would blow up.
+#[test]
+fn a_string_too_stiff_for_its_pitch_is_refused() {
+    let text = "based_on = \"bass\"\nblend = 0.5\n[[string]]\ncore_radius = 4e-3\n[[string]]\n[[string]]\n[[string]]\n";
+    let setup = Setup::from_toml(text).unwrap();
+    let error = Instrument::new(&setup, &Quality::Live.settings(RATE)).unwrap_err().to_string();
+    assert!(error.starts_with("string[1].pitch = 43 is refused: "), "{error}");
+    assert!(!error.contains('\n') && error.contains("core_radius"), "{error}");
+}
+
+/// Whatever the relief and wherever compensation moves the frets: board and crowns begin below the strings at rest.
+#[test]
+fn nothing_stands_above_the_strings() {
+    let bows = "based_on = \"bass\"\n[neck]\nfret_height = 1e-4\nrelief = 2e-3\n";
+    let tilts = "based_on = \"electric\"\n[neck]\naction = 0.004\nrelief = 0.00436\n";
+    for text in [bows, tilts] {
+        let setup = Setup::from_toml(text).unwrap();
+        let instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).unwrap();
+        for string in 0..setup.string.len() {
+            let highest = instrument.model(string).contacts.iter().map(|contact| contact.height);
+            assert!(highest.fold(f64::NEG_INFINITY, f64::max) <= -1e-5, "{text}");
+        }
+    }
+}

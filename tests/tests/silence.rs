@@ -1,6 +1,8 @@
 //! The promise: a string falls asleep when it is silent, and nobody hears that it ever slept.
 
 use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture, Touch};
+use low_action_tests::numbers::{largest, largest_step};
+use low_action_tests::stage::peak;
 
 const RATE: f64 = 48_000.0;
 /// Energy at which a string falls asleep, J, as the documentation states it.
@@ -64,13 +66,31 @@ fn a_string_that_slept_sounds_like_one_that_never_did() {
         let impedance = instrument.geometry(0).wave_impedance;
         // A coil's resonance raises it by its quality, 2.
         let signal = if name == "electric" { 2.0 * speed } else { 2.0 * impedance * speed };
-        let bound = (setup.gain * string.level * signal) as f32;
-        let peak = awake.iter().fold(0.0f32, |peak, sample| peak.max(sample.abs()));
+        let bound = setup.gain * string.level * signal;
+        let peak = peak(&awake);
         assert!(bound < 1e-6 * peak, "{name}: the bound says something: {bound} of {peak}");
-        let difference = slept.iter().zip(&awake).fold(0.0f32, |most, (a, b)| most.max((a - b).abs()));
+        let difference = largest(slept.iter().zip(&awake).map(|(a, b)| (a - b).abs()));
         println!("{name}: at most {difference:e} apart, {bound:e} allowed, peak {peak:e}");
         assert!(difference <= bound, "{name}: {difference} apart, {bound} allowed");
     }
+}
+
+#[test]
+fn what_is_reset_is_silent() {
+    let mut instrument = Instrument::new(&setup("electric"), &LIVE).expect("it can be built");
+    assert!(instrument.is_silent(), "nobody has played yet");
+    let pluck = Gesture::Pluck { position: 0.5, force: 0.5, duration: 0.003 };
+    for time in [0, 10_000] {
+        instrument.schedule(TimedGesture { time, string: 0, gesture: pluck }).expect("there is room");
+    }
+    assert!(!instrument.is_silent(), "a pluck is to come");
+    let (mut left, mut right) = (vec![0.0; 4800], vec![0.0; 4800]);
+    instrument.process(&mut left, &mut right);
+    assert!(!instrument.is_silent(), "it rings");
+    instrument.reset();
+    assert!(instrument.is_silent(), "it has been reset");
+    instrument.process(&mut left, &mut right);
+    assert!(left.iter().chain(&right).all(|sample| *sample == 0.0), "nothing of it is left");
 }
 
 #[test]
@@ -79,8 +99,7 @@ fn asleep_is_silent_and_wakes_at_the_gesture() {
     let before = &sound[AGAIN as usize - 4800..AGAIN as usize];
     assert!(before.iter().all(|sample| *sample == 0.0), "it sleeps without a sound");
     // The pluck grows as a raised cosine: no click where it begins.
-    let steps = |sound: &[f32]| sound.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0f32, f32::max);
-    let first = steps(&sound[AGAIN as usize - 1..AGAIN as usize + 24]);
-    let later = steps(&sound[AGAIN as usize..AGAIN as usize + 4800]);
+    let first = largest_step(&sound[AGAIN as usize - 1..AGAIN as usize + 24]);
+    let later = largest_step(&sound[AGAIN as usize..AGAIN as usize + 4800]);
     assert!(first < 0.2 * later, "{first} at first, {later} later");
 }

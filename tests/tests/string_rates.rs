@@ -2,7 +2,11 @@
 //! a better sound. All strings come equally late at every multiple, by what hosts are told; gestures act at
 //! their exact sample; one multiple takes over from another without a click, and the ledger closes.
 
-use low_action_dsp::{EngineSettings, Gesture, Instrument, Quality, Ratio, Setup, TimedGesture};
+use low_action_dsp::{
+    EngineSettings, Gesture, Instrument, Model, Quality, Ratio, Setup, StringParameters, TimedGesture,
+};
+use low_action_tests::clicks::{click, smallest_jump, with_jump};
+use low_action_tests::stage::peak;
 
 const RATE: f64 = 48_000.0;
 
@@ -26,6 +30,47 @@ fn stems(settings: &EngineSettings, first: u64) -> Vec<Vec<f32>> {
 fn rms(sound: impl Iterator<Item = f64> + Clone) -> f64 {
     let count = sound.clone().count() as f64;
     (sound.map(|value| value * value).sum::<f64>() / count).sqrt()
+}
+
+/// Rates and strings that cannot be are refused, and nobody looks for a grid for ever.
+#[test]
+fn what_cannot_be_computed_is_refused() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let spec = &setup.string[0];
+    let steel = StringParameters {
+        length: setup.neck.scale_length,
+        linear_density: 4e-4,
+        tension: 70.0,
+        tension_limit: 90.0,
+        youngs_modulus: 2e11,
+        core_radius: 1.2e-4,
+        loss_0: 1.0,
+        loss_1: 1e-4,
+        tension_modulation: true,
+    };
+    let solver = Quality::Live.settings(RATE).solver();
+    let model = |string, rate| Model::new(string, None, 1, solver, rate).map(|_| ());
+    assert!(model(steel, RATE).is_ok());
+    for wrong in [0.0, -48e3, 1e-300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let settings = Quality::Live.settings(wrong);
+        assert!(settings.ratio(&setup, spec).value() >= 1.0, "{wrong} Hz");
+        assert!(Instrument::new(&setup, &settings).is_err(), "{wrong} Hz");
+        let slow = wrong.is_nan() || wrong < 1.0;
+        assert!(!slow || model(steel, wrong).is_err(), "{wrong} Hz");
+        let _ends = model(steel, wrong);
+        for string in [
+            StringParameters { length: wrong, ..steel },
+            StringParameters { linear_density: wrong, ..steel },
+            StringParameters { tension: wrong, ..steel },
+            StringParameters { tension_limit: wrong, ..steel },
+            StringParameters { youngs_modulus: wrong, ..steel },
+            StringParameters { core_radius: wrong, ..steel },
+            StringParameters { loss_0: wrong, ..steel },
+            StringParameters { loss_1: wrong, ..steel },
+        ] {
+            let _ends = model(string, RATE);
+        }
+    }
 }
 
 #[test]
@@ -60,8 +105,8 @@ fn every_string_is_as_late_as_hosts_are_told() {
     for (string, (once, often)) in once.iter().zip(&often).enumerate() {
         let start = (FIRST + 100 * string as u64) as usize + Instrument::LATENCY as usize;
         // Nothing sounds before: a low-pass rings 100 dB below what comes, and a pluck comes slowly.
-        let before = often[..start].iter().fold(0.0_f32, |most, value| most.max(value.abs()));
-        let peak = often.iter().fold(0.0_f32, |most, value| most.max(value.abs()));
+        let before = peak(&often[..start]);
+        let peak = peak(often);
         assert!(before < 1e-4 * peak, "string {string}: {before:e} of {peak:e} too early");
         // The first 10 ms are the same at both multiples, nearest at no shift.
         let off = |shift: isize| {
@@ -120,10 +165,16 @@ fn one_multiple_takes_over_from_another() {
             instrument.process(&mut left, &mut right);
             left
         };
-        play(&mut instrument, 9600);
+        let mut whole = play(&mut instrument, 9600);
         play(&mut expected, 9600);
         assert!(instrument.hand_over(Box::new(build(to))).is_ok());
         let (found, expected) = (play(&mut instrument, 19_200), play(&mut expected, 19_200));
+        whole.extend(&found);
+        assert_eq!(click(&whole, 9600), None, "{from} to {to}");
+        // And one would be found.
+        let jump = smallest_jump(&whole, 9600);
+        println!("{from} to {to}: a jump of {:.1e} of the peak is a click", jump / peak(&whole));
+        assert!(click(&with_jump(&whole, 9600, jump), 9600).is_some(), "{from} to {to}: {jump:e}");
         // The sound of the other grid: the same for a while, then with its own errors, as loud.
         let difference = found.iter().zip(&expected).map(|(a, b)| f64::from(a - b));
         let size = |sound: &[f32]| rms(sound.iter().map(|value| f64::from(*value)));
@@ -135,7 +186,7 @@ fn one_multiple_takes_over_from_another() {
         for string in 0..instrument.string_count() {
             let ledger = instrument.ledger(string).expect("it is open");
             let worst = ledger.worst_residual;
-            assert!(worst <= 1e-13, "{from} to {to}, string {string}: {worst:e}");
+            assert!(worst <= 1e-14, "{from} to {to}, string {string}: {worst:e}");
             let (energy, put_in) = (ledger.energies().total(), ledger.put_in);
             assert!(energy <= put_in * (1.0 + 1e-9), "{from} to {to}, string {string}: {energy} of {put_in}");
         }

@@ -8,6 +8,7 @@ use low_action::engine::{Engine, EngineOptions, Quality};
 use low_action::performance::PlayerEvent;
 use low_action_dsp::setup::{Intonation, frequency};
 use low_action_dsp::{Gesture, Instrument, Setup, TimedGesture};
+use low_action_tests::numbers::largest;
 use low_action_tests::pitch::{cents, frequency_near};
 
 const RATE: f64 = 48_000.0;
@@ -63,11 +64,11 @@ fn all_errors(setup: &Setup) -> Vec<Vec<f64>> {
         println!("{} {}: {}", setup.name, string.name, cents.join(" "));
     }
     let fretted = || all.iter().flat_map(|errors| &errors[1..]).map(|error| error.abs());
-    let open = all.iter().map(|errors| errors[0].abs()).fold(0.0, f64::max);
+    let open = largest(all.iter().map(|errors| errors[0].abs()));
     println!(
         "{}: open at most {open:.2} cents off, fretted at most {:.2}, on average {:.2}",
         setup.name,
-        fretted().fold(0.0, f64::max),
+        largest(fretted()),
         fretted().sum::<f64>() / fretted().count() as f64,
     );
     all

@@ -2,6 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::numbers::largest;
+
 /// A power-law contact, Φ(η) = K/(α+1) \[η\]₊^(α+1).
 #[derive(Clone, Copy, Debug)]
 pub struct Law {
@@ -94,11 +96,11 @@ pub(super) fn solve(contacts: &[Contact], c: &DVector<f64>, m: &DMatrix<f64>) ->
         match better {
             Some((_, trial)) => r = trial,
             None => {
-                let scale = c.amax().max(r.amax());
+                let size = |vector: &DVector<f64>| largest(vector.iter().map(|value| value.abs()));
+                let (left, scale) = (size(&residual), largest([size(c), size(&r)]));
                 assert!(
-                    residual.amax() <= 1e-10 * scale,
-                    "the reference's contacts did not converge: {:e} of {scale:e} m left",
-                    residual.amax()
+                    left <= 1e-10 * scale,
+                    "the reference's contacts did not converge: {left:e} of {scale:e} m left"
                 );
                 // What is left of r is below its last digit; in f it need not be.
                 return map(&r, Contact::force) + slopes.component_mul(&step);

@@ -3,6 +3,8 @@
 use nalgebra::DVector;
 use std::f64::consts::PI;
 
+use crate::numbers::largest;
+
 /// Straight lines through (argument, value) pairs in ascending order, held constant outside them.
 pub type Table = Vec<[f64; 2]>;
 
@@ -79,6 +81,14 @@ pub struct Finger {
     pub force: Table,
 }
 
+impl Finger {
+    /// M̃, the mass that moves as this one does, brakes and all, in steps of k: what is left of a motion after one is exp(−R k/M).
+    pub fn mass_in_steps_of(&self, k: f64) -> f64 {
+        let left = (-self.hand_damping * k / self.mass).exp();
+        if left == 1.0 { self.mass } else { self.hand_damping * k / 2.0 * (1.0 + left) / (1.0 - left) }
+    }
+}
+
 /// Everything the reference needs to know, in SI units.
 #[derive(Clone, Debug)]
 pub struct Setup {
@@ -146,7 +156,7 @@ impl Setup {
     /// Whether `intervals` grid intervals keep the energy non-negative at the largest tension.
     fn is_stable(&self, intervals: usize) -> bool {
         let (h, k) = (self.length / intervals as f64, 1.0 / self.sample_rate);
-        let tension = self.tension.iter().map(|point| point[1]).fold(0.0, f64::max);
+        let tension = largest(self.tension.iter().map(|point| point[1]));
         let (kappa2, kappa6) = self.stencil_stiffness(h, tension);
         let courant_squared = tension / self.linear_density * k * k / (h * h);
         let sum = courant_squared

@@ -26,6 +26,13 @@ pub enum Action {
         /// MIDI key, 0 to 127.
         key: u8,
     },
+    /// A note is cut short.
+    Choke {
+        /// MIDI channel, 0 to 15.
+        channel: u8,
+        /// MIDI key, 0 to 127.
+        key: u8,
+    },
     /// Every note is cut short.
     ChokeAll,
     /// Three bytes of MIDI.
@@ -80,6 +87,7 @@ pub(super) fn events_between(score: &Score, start: u64, end: u64, clock: fn(u32)
             Action::NoteOff { channel, key } => {
                 events.push(&NoteOffEvent::new(time, note(channel, key), 0.0));
             }
+            Action::Choke { channel, key } => events.push(&NoteChokeEvent::new(time, note(channel, key))),
             Action::ChokeAll => events.push(&NoteChokeEvent::new(time, Pckn::match_all())),
             Action::Midi(bytes) => events.push(&MidiEvent::new(time, 0, bytes)),
             Action::Parameter(id, value) => {

@@ -1,0 +1,132 @@
+//! The promise: what begins and ends between samples is right to the second order. A pluck gives the string what its push adds
+//! up to, wherever samples fall; what is let go of moves from that moment on; a hand brakes a finger at any step as it would
+//! without steps.
+
+use low_action_dsp::gesture::pluck_push;
+use low_action_dsp::{Scene, Simulation};
+use std::f64::consts::PI;
+
+/// Low E of an electric guitar without stiffness or losses.
+fn string(sample_rate: f64, more: &str) -> Simulation {
+    let text = format!(
+        "sample_rate = {sample_rate:?}\nduration = 1.0\n[solver]\nstencil = \"wide\"\n\
+         [[string]]\nlength = 0.65\nlinear_density = 5.25e-3\ntension = 60.0\n{more}"
+    );
+    Simulation::new(&Scene::from_toml(&text).expect("the scene is valid")).expect("it can be built")
+}
+
+/// The pushes of all samples add up to the push itself, ∫ (1 − cos πt/t_p)/2 dt = t_p/2, however short it is and wherever it
+/// begins. Each is known to a few units in its last place.
+#[test]
+fn a_pluck_gives_what_its_push_adds_up_to() {
+    for step in [1.0 / 44_100.0, 1.0 / 48_000.0, 1e-3] {
+        for duration in [1e-9, 5e-6, 2e-5, 5e-4, 2e-3, 0.0371, 1.3] {
+            for start in [0.0, 0.3, 0.5, 0.999].map(|part| part * step) {
+                let count = (duration / step) as u64 + 3;
+                let pushes: f64 =
+                    (0..count).map(|n| pluck_push(n as f64 * step - start, step, duration)).sum::<f64>();
+                let off = pushes * step / (0.5 * duration) - 1.0;
+                // Each sample's part is a difference of times as large as duration and step, and known to their last digits.
+                let allowed = 4.0 * f64::EPSILON * (1.0 + step / duration + duration / step);
+                assert!(off.abs() < allowed, "{duration} s from {start} s on in steps of {step} s: {off:e}");
+            }
+        }
+    }
+    assert_eq!(pluck_push(0.0, 1e-5, 0.0), 0.0);
+    // One that lasts for years is at its beginning for long.
+    assert!(pluck_push(1.0, 1e-5, 1e9) < 1e-17);
+}
+
+/// The momentum of the string at the end of a push, from a scene: its force times half its duration.
+#[test]
+fn a_plucked_string_has_the_momentum_of_the_pluck() {
+    for (rate, start) in [(44_100.0, 0.001), (48_000.0, 0.009), (48_000.0, 0.011), (96_000.0, 0.001_003)] {
+        let duration = 5e-4;
+        let pluck =
+            format!("[[pluck]]\nposition = 0.3\nforce = 1.0\nstart = {start:?}\nduration = {duration:?}\n");
+        let mut simulation = string(rate, &pluck);
+        // No wave is at an end within 2 ms of the push.
+        for _ in 0..((start + duration) * rate) as usize + 2 {
+            simulation.step();
+        }
+        let model = &simulation.string(0).model;
+        let moving: f64 = simulation.string(0).state.motion().sum();
+        let momentum = model.string.linear_density * model.grid.spacing / model.grid.time_step * moving;
+        let off = momentum / (0.5 * duration) - 1.0;
+        assert!(off.abs() < 1e-12, "{rate} Hz, from {start} s on: off by {off:e}");
+    }
+}
+
+/// A shape that is let go of has its velocity at no time but a moment later: a partial goes as the cosine of the frequency that
+/// the grid gives it. Half a sample early it would be off by ωk/2, which is a sixteenth here.
+#[test]
+fn what_is_let_go_of_moves_from_then_on() {
+    let mode = 3.0 * PI / 0.65;
+    let flat = string(12_000.0, "");
+    let places: Vec<f64> = flat.string(0).places().collect();
+    let shape = |x: f64| 1e-3 * (mode * x).sin();
+    let inner = places.iter().map(|&x| [x, shape(x)]);
+    let points: Vec<_> = [[0.0, 0.0]].into_iter().chain(inner).chain([[0.65, 0.0]]).collect();
+    let mut simulation = string(12_000.0, &format!("shape = {points:?}\n"));
+    let amplitude = |simulation: &Simulation| {
+        let u = simulation.string(0).state.displacement();
+        u.zip(&places).map(|(u, &x)| u * (mode * x).sin()).sum::<f64>()
+    };
+    let first = amplitude(&simulation);
+    simulation.step();
+    // The scheme's own frequency: u⁺ + u⁻ = 2cos(ωk)u, and u⁻ = u⁺ for what has no velocity.
+    let turn = (amplitude(&simulation) / first).acos();
+    assert!(turn > 0.1, "{turn}");
+    for n in 2..2_000 {
+        simulation.step();
+        let found = amplitude(&simulation) / first;
+        let expected = (f64::from(n) * turn).cos();
+        // The frequency is as good as an arc cosine near its end tells.
+        assert!((found - expected).abs() < 1e-10, "{found} after {n} samples, not {expected}");
+    }
+}
+
+/// A finger that its hand pushes falls as ½(F/M)t² from where it is, and one that it brakes loses exp(−Rt/M) of its velocity,
+/// whatever the step; a steady push moves it at F/R.
+#[test]
+fn a_hand_brakes_and_pushes_a_finger_as_without_steps() {
+    let finger = |velocity: f64, force: f64, damping: f64| {
+        let text = format!(
+            "[[finger]]\nmass = 0.01\nstiffness = 1e5\nexponent = 2.3\nposition = 0.3\nheight = 0.05\n\
+             velocity = {velocity:?}\nforce = {force:?}\nhand_damping = {damping:?}\n"
+        );
+        string(10_000.0, &text)
+    };
+    let height =
+        |simulation: &Simulation| simulation.string(0).fingers().next().expect("there is a finger").height;
+    let mut falling = finger(0.5, 2.0, 0.0);
+    for n in 1..100 {
+        falling.step();
+        let t = f64::from(n) * 1e-4;
+        let expected = 0.05 + 0.5 * t - 0.5 * (2.0 / 0.01) * t * t;
+        assert!((height(&falling) - expected).abs() < 1e-14, "at {t} s");
+    }
+    // From slightly to far beyond R = 2M/k, where the trapezoidal rule would have it turn round in each step.
+    for damping in [0.1, 10.0, 200.0, 1e3, 1e5] {
+        let mut braked = finger(1.0, 0.0, damping);
+        let (mut before, mut motion) = (height(&braked), None::<f64>);
+        for _ in 0..5 {
+            braked.step();
+            let moved = height(&braked) - before;
+            before = height(&braked);
+            if let Some(last) = motion {
+                let left: f64 = f64::exp(-damping * 1e-4 / 0.01);
+                // Heights of 5 cm are rounded to 1e-17 m.
+                assert!((moved - left * last).abs() < 2e-17, "{damping} N s/m: {moved} m after {last} m");
+            }
+            assert!(moved >= 0.0, "{damping} N s/m: it turned round");
+            motion = Some(moved);
+        }
+    }
+    let mut pushed = finger(0.0, 1.0, 100.0);
+    (0..200).for_each(|_| _ = pushed.step());
+    let from = height(&pushed);
+    (0..100).for_each(|_| _ = pushed.step());
+    let velocity = (height(&pushed) - from) / 1e-2;
+    assert!((velocity + 0.01).abs() < 1e-12, "{velocity} m/s and not −F/R");
+}

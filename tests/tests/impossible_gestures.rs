@@ -1,0 +1,79 @@
+//! The promise: a gesture that no hand can make is left out, and the string goes on as if nobody had asked.
+
+use low_action_dsp::{Gesture, Instrument, Quality, Setup, TimedGesture, Touch};
+
+const RATE: f64 = 48_000.0;
+const FINGER: usize = 0;
+const NUMBERS: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+const PAD: Touch = Touch { mass: 5e-3, stiffness: 1e7, exponent: 2.0, damping: 1.0, hand_damping: 5.0 };
+
+/// A pressed string that is plucked, and what else is asked of it in the middle.
+fn play(more: &[Gesture]) -> Vec<f32> {
+    let mut setup = Setup::builtin("electric").expect("built in");
+    setup.string.truncate(1);
+    let mut instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).expect("it can be built");
+    let place = instrument.geometry(0).finger_position(5);
+    let mut at = |time, gesture| {
+        instrument.schedule(TimedGesture { time, string: 0, gesture }).expect("there is room");
+    };
+    at(0, Gesture::Place { finger: FINGER, touch: PAD, position: place, clearance: 1e-3 });
+    at(0, Gesture::Press { finger: FINGER, force: 5.0, duration: 0.002 });
+    at(4800, Gesture::Pluck { position: 0.5, force: 0.8, duration: 0.003 });
+    more.iter().for_each(|gesture| at(7200, *gesture));
+    let (mut left, mut right) = (vec![0.0; 14_400], vec![0.0; 14_400]);
+    instrument.process(&mut left, &mut right);
+    left
+}
+
+/// That the sound is the same with these gestures as without.
+fn assert_left_out(gesture: Gesture) {
+    let (alone, with) = (play(&[]), play(&[gesture]));
+    assert!(alone[7200..].iter().any(|sample| sample.abs() > 1e-3), "it rings");
+    let bits = |sound: &[f32]| sound.iter().map(|sample| sample.to_bits()).collect::<Vec<_>>();
+    assert!(bits(&alone) == bits(&with), "{gesture:?} is heard");
+}
+
+#[test]
+fn what_is_possible_is_heard() {
+    let lift = Gesture::Lift { finger: FINGER, force: 1.0, duration: 0.001 };
+    assert!(play(&[]) != play(&[lift]), "a lift opens the string");
+}
+
+#[test]
+fn forces_that_are_no_numbers() {
+    for force in NUMBERS {
+        assert_left_out(Gesture::Press { finger: FINGER, force, duration: 0.01 });
+        assert_left_out(Gesture::Lift { finger: FINGER, force, duration: 0.01 });
+        assert_left_out(Gesture::Pluck { position: 0.3, force, duration: 0.01 });
+        assert_left_out(Gesture::Pluck { position: 0.3, force: 1.0, duration: force });
+    }
+}
+
+#[test]
+fn fingers_that_cannot_be() {
+    let wrong = NUMBERS.into_iter().chain([0.0, -1.0]);
+    let masses = wrong.clone().map(|mass| Touch { mass, ..PAD });
+    let pads = wrong.map(|stiffness| Touch { stiffness, ..PAD });
+    let losses = NUMBERS.into_iter().chain([-1.0]);
+    let damped = losses.clone().map(|damping| Touch { damping, ..PAD });
+    let braked = losses.map(|hand_damping| Touch { hand_damping, ..PAD });
+    let bent = NUMBERS.into_iter().chain([0.5]).map(|exponent| Touch { exponent, ..PAD });
+    for touch in masses.chain(pads).chain(damped).chain(braked).chain(bent) {
+        for finger in [FINGER, 1] {
+            let held = Gesture::Place { finger, touch, position: 0.3, clearance: 0.0 };
+            let thrown = Gesture::Throw { finger, touch, position: 0.3, clearance: 1e-4, speed: 2.0 };
+            assert_left_out(held);
+            assert_left_out(thrown);
+        }
+    }
+}
+
+#[test]
+fn fingers_that_are_not_there() {
+    for finger in [1, 99, usize::MAX] {
+        assert_left_out(Gesture::Press { finger, force: 5.0, duration: 0.01 });
+        assert_left_out(Gesture::Lift { finger, force: 5.0, duration: 0.01 });
+        assert_left_out(Gesture::Slide { finger, position: 0.4, duration: 0.1 });
+    }
+    assert_left_out(Gesture::Place { finger: usize::MAX, touch: PAD, position: 0.3, clearance: 0.0 });
+}

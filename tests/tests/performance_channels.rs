@@ -1,0 +1,233 @@
+//! The promise: messages of one channel stand between notes of another without touching them. What a chord is to be does not
+//! depend on the order of events within a sample; in MPE the first channel speaks for all.
+
+use std::sync::LazyLock;
+
+use low_action::controls::Touching;
+use low_action::performance::{Expression, InputMode, PlayerEvent};
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::hands::{EXACT, Neck, play};
+use low_action_tests::stage::{cc, off, on};
+
+static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
+/// A barre at the sixth fret.
+const BARRE: [u8; 6] = [46, 53, 58, 61, 65, 70];
+
+fn note(channel: u8, key: u8) -> PlayerEvent {
+    PlayerEvent::NoteOn { channel, key, velocity: 0.8 }
+}
+
+fn control(channel: u8, number: u8, value: u8) -> PlayerEvent {
+    PlayerEvent::Controller { channel, number, value: f32::from(value) / 127.0 }
+}
+
+fn wheel(channel: u8, value: f32) -> PlayerEvent {
+    PlayerEvent::PitchBend { channel, value }
+}
+
+/// What hands make of events, each with its sample.
+fn hands(input: InputMode, touching: Touching, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
+    let mut player = GUITAR.player(EXACT);
+    player.set_input(input);
+    player.touch(0, &touching, &mut Vec::new());
+    play(&mut player, events)
+}
+
+fn mpe(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
+    hands(InputMode::Mpe, Touching::default(), events)
+}
+
+fn keyboard(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
+    hands(InputMode::Keyboard, Touching::default(), events)
+}
+
+/// (time, string, force) of the plucks.
+fn plucks(gestures: &[TimedGesture]) -> Vec<(u64, usize, f64)> {
+    let mut plucks: Vec<_> = gestures
+        .iter()
+        .filter_map(|g| match g.gesture {
+            Gesture::Pluck { force, .. } => Some((g.time, g.string, force)),
+            _ => None,
+        })
+        .collect();
+    plucks.sort_by_key(|pluck| pluck.1);
+    plucks
+}
+
+#[test]
+fn what_other_channels_say_between_its_notes_does_not_tear_a_chord_apart() {
+    let members = || BARRE.into_iter().zip(1_u8..);
+    let together: Vec<_> = members().map(|(key, channel)| (0, note(channel, key))).collect();
+    // As a clip of a host has it that was recorded from such a keyboard.
+    let apart: Vec<_> = members()
+        .flat_map(|(key, channel)| {
+            [
+                (0, control(channel, 74, 64)),
+                (0, wheel(channel, 0.0)),
+                (0, note(channel, key)),
+                (0, PlayerEvent::ChannelPressure { channel: channel + 7, pressure: 0.5 }),
+            ]
+        })
+        .collect();
+    let barre = mpe(&together);
+    assert_eq!(plucks(&barre).len(), 6);
+    assert_eq!(plucks(&mpe(&apart)), plucks(&barre));
+    // A strum goes over the whole of it.
+    let strum: Vec<_> = [(0, control(0, 21, 127))].into_iter().chain(apart).collect();
+    let mut times: Vec<u64> = plucks(&mpe(&strum)).iter().map(|pluck| pluck.0).collect();
+    times.dedup();
+    assert_eq!(times.len(), 6, "{times:?}");
+}
+
+#[test]
+fn keys_that_go_up_between_its_notes_do_not_tear_a_chord_apart() {
+    // Six tracks, one after another at each instant: what they begin begins together.
+    let open = [40, 45, 50, 55, 59, 64];
+    let first = open.map(|key| (0, on(key, 90)));
+    let mixed = open.into_iter().zip(BARRE).flat_map(|(key, next)| [off(key), on(next, 90)]);
+    let sorted = open.map(off).into_iter().chain(BARRE.map(|key| on(key, 90)));
+    let then = |events: &mut dyn Iterator<Item = PlayerEvent>| {
+        let all: Vec<_> = first.into_iter().chain(events.map(|event| (24_000, event))).collect();
+        plucks(&keyboard(&all))
+    };
+    assert_eq!(then(&mut mixed.into_iter()), then(&mut sorted.into_iter()));
+}
+
+#[test]
+fn the_first_channel_speaks_for_all_that_is_still_to_come() {
+    let force = |expression: u8| plucks(&mpe(&[(0, control(0, 11, expression)), (4800, note(3, 60))]))[0].2;
+    assert!((force(64) / force(127) - 64.0 / 127.0).abs() < 1e-6);
+    let bends = |depth: u8| {
+        let gestures = mpe(&[(0, control(0, 1, depth)), (4800, note(3, 60)), (24_000, control(3, 1, 0))]);
+        gestures.iter().filter(|g| g.time > 9600 && matches!(g.gesture, Gesture::Bend { .. })).count()
+    };
+    assert_eq!(bends(0), 0);
+    assert!(bends(127) > 20, "it swings");
+}
+
+#[test]
+fn the_reach_that_one_member_announces_is_that_of_all() {
+    let slides = |events: &[(u64, PlayerEvent)]| {
+        let bent = [(0, note(2, 60)), (4800, wheel(2, 0.25))];
+        let gestures = mpe(&events.iter().chain(&bent).copied().collect::<Vec<_>>());
+        let (string, to) = gestures
+            .iter()
+            .filter_map(|g| match g.gesture {
+                Gesture::Slide { position, .. } => Some((g.string, position)),
+                _ => None,
+            })
+            .next_back()
+            .expect("it is too far to pull");
+        let geometry = &GUITAR.strings[string].geometry;
+        let nearest = (1..=geometry.frets.len())
+            .min_by(|&a, &b| {
+                let off = |fret| (geometry.finger_position(fret) - to).abs();
+                off(a).total_cmp(&off(b))
+            })
+            .expect("there are frets");
+        geometry.open_pitch + nearest as f64
+    };
+    assert_eq!(slides(&[]), 72.0);
+    let announced = [(101, 0), (100, 0), (6, 24)].map(|(number, value)| (0, control(1, number, value)));
+    assert_eq!(slides(&announced), 66.0);
+}
+
+#[test]
+fn a_keyswitch_counts_for_the_notes_of_its_sample_whichever_comes_first() {
+    let touching = Touching { keyswitches: Some(12), ..Touching::default() };
+    let hands = |events: &[PlayerEvent]| {
+        let events: Vec<_> = events.iter().map(|&event| (0, event)).collect();
+        hands(InputMode::Keyboard, touching, &events)
+    };
+    // A harmonic, back to plain, and a string.
+    let [harmonic, plain, third] = [on(20, 90), on(12, 90), on(26, 90)];
+    assert_eq!(hands(&[on(64, 90), harmonic]), hands(&[harmonic, on(64, 90)]));
+    assert_eq!(hands(&[harmonic, on(76, 90), plain]), hands(&[on(76, 90)]));
+    assert_eq!(hands(&[on(64, 90), third]), hands(&[third, on(64, 90)]));
+    assert_eq!(plucks(&hands(&[on(64, 90), third]))[0].1, 2);
+}
+
+#[test]
+fn a_note_that_was_down_before_its_key_became_a_keyswitch_ends_with_it() {
+    let mut player = GUITAR.player(EXACT);
+    play(&mut player, &[(0, on(40, 90)), (4800, cc(27, 28)), (9600, off(40))]);
+    assert!(!player.sounds(0, 40));
+}
+
+#[test]
+fn a_string_asked_for_by_a_key_is_not_asked_for_after_everything_has_stopped() {
+    let touching = Touching { keyswitches: Some(12), ..Touching::default() };
+    let stopped = [(0, on(26, 90)), (4800, PlayerEvent::AllNotesOff)];
+    let chord = [57, 60, 64].map(|key| (48_000, on(key, 90)));
+    let after: Vec<_> = stopped.into_iter().chain(chord).collect();
+    let strings = |events: &[(u64, PlayerEvent)]| {
+        plucks(&hands(InputMode::Keyboard, touching, events)).iter().map(|pluck| pluck.1).collect::<Vec<_>>()
+    };
+    assert_eq!(strings(&after), strings(&chord));
+}
+
+/// Samples and tension ratios of the bends.
+fn bends(gestures: &[TimedGesture]) -> Vec<(u64, f64)> {
+    let ratio = |g: &TimedGesture| match g.gesture {
+        Gesture::Bend { tension_ratio, .. } => Some((g.time, tension_ratio)),
+        _ => None,
+    };
+    gestures.iter().filter_map(ratio).collect()
+}
+
+#[test]
+fn a_note_that_comes_back_is_as_its_own_channel_has_it() {
+    let connected = Touching { legato: true, ..Touching::default() };
+    // The wheel of vibrato is still up.
+    let events = [(0, cc(1, 127)), (0, on(55, 90)), (24_000, on(57, 90)), (48_000, off(57))];
+    let swings = bends(&hands(InputMode::Keyboard, connected, &events));
+    assert!(swings.iter().filter(|bend| bend.0 > 60_000).count() > 20, "it swings on");
+    // The wheel that was turned was the other note's.
+    let turned = 1.0 / 48.0;
+    let events = [
+        (0, note(1, 55)),
+        (24_000, note(2, 57)),
+        (30_000, wheel(2, turned)),
+        (48_000, PlayerEvent::NoteOff { channel: 2, key: 57 }),
+    ];
+    let last = *bends(&hands(InputMode::Mpe, connected, &events)).last().expect("it was bent");
+    assert!(last.0 >= 48_000 && (last.1 - 1.0).abs() < 1e-9, "{last:?}");
+    // A note has its own tuning back.
+    let tuned = PlayerEvent::Note { channel: 0, key: 55, expression: Expression::Tuning(0.5) };
+    let events = [(0, on(55, 90)), (4800, tuned), (24_000, on(57, 90)), (48_000, off(57))];
+    let tunings = bends(&hands(InputMode::Keyboard, connected, &events));
+    let [first, straight, back] = tunings[..] else { panic!("{tunings:?}") };
+    assert!(first.1 > 1.0 && (straight.1 - 1.0).abs() < 1e-9 && back.0 >= 48_000, "{tunings:?}");
+}
+
+#[test]
+fn a_key_of_a_channel_that_let_go_of_all_does_not_come_back() {
+    let connected = Touching { legato: true, ..Touching::default() };
+    let mut player = GUITAR.player(EXACT);
+    player.set_input(InputMode::Mpe);
+    player.touch(0, &connected, &mut Vec::new());
+    let released = [
+        (0, note(1, 55)),
+        (24_000, note(2, 57)),
+        (30_000, control(1, 123, 0)),
+        (48_000, PlayerEvent::NoteOff { channel: 2, key: 57 }),
+    ];
+    play(&mut player, &released);
+    assert!(!player.sounds(1, 55) && !player.sounds(2, 57));
+    // The key that is still down comes back where the other channel lets go of all.
+    player.reset();
+    play(&mut player, &[(0, note(1, 55)), (24_000, note(2, 57)), (30_000, control(2, 123, 0))]);
+    assert!(player.sounds(1, 55) && !player.sounds(2, 57));
+}
+
+#[test]
+fn a_strum_goes_no_farther_than_silence() {
+    let chord = [40, 47, 52, 56, 59, 64].map(|key| (0, on(key, 90)));
+    for silence in [PlayerEvent::AllNotesOff, cc(120, 0)] {
+        let events: Vec<_> = [(0, cc(21, 127))].into_iter().chain(chord).chain([(2400, silence)]).collect();
+        let gestures = keyboard(&events);
+        let late = plucks(&gestures).into_iter().filter(|pluck| pluck.0 > 2400).count();
+        assert_eq!(late, 0, "{silence:?}");
+        assert_eq!(plucks(&gestures).len(), 1, "the first string has been struck");
+    }
+}

@@ -1,0 +1,95 @@
+//! The promise: a finger that slides goes on from where it is. The next note counts from there, and a wheel or a vibrato on
+//! the way does not hurry it.
+
+use low_action::performance::PlayerEvent;
+use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{LOOK, Stage, cc, decibels, hertz, off, on, peak};
+
+const RATE: f64 = 48_000.0;
+
+fn at(seconds: f64) -> usize {
+    (seconds * RATE) as usize
+}
+
+fn wheel(value: f32) -> PlayerEvent {
+    PlayerEvent::PitchBend { channel: 0, value }
+}
+
+/// How far a sound is off a key, cents.
+fn off_pitch(sound: &[f32], key: f64) -> f64 {
+    cents(frequency_near(sound, RATE, hertz(key)), hertz(key))
+}
+
+/// The wheel has slid the finger to the very fret of the next note, which is then that note's own.
+#[test]
+fn a_note_where_the_wheel_has_slid_the_finger_counts_from_there() {
+    let octave = [(0.0, cc(101, 0)), (0.0, cc(100, 0)), (0.0, cc(6, 12)), (0.0, cc(68, 127))];
+    let slid = [(0.0, on(60, 110)), (0.3, wheel(5.0 / 12.0)), (0.8, on(65, 110))];
+    let back = [(1.3, wheel(0.0)), (1.8, off(65))];
+    let mut stage = Stage::alone("electric", 1);
+    let sound = &stage.play(&[&octave[..], &slid, &back].concat(), 2.4).strings[0];
+    for (from, to, key) in [(0.5, 0.8, 65.0), (1.0, 1.3, 70.0), (1.5, 1.8, 65.0), (2.0, 2.4, 60.0)] {
+        let off = off_pitch(&sound[at(from)..at(to)], key);
+        assert!(off.abs() < 8.0, "from {from} s: {off} cents off {key}");
+    }
+}
+
+/// The open string after a muted note: the finger that rests on it leaves, and it sounds.
+#[test]
+fn an_open_string_sounds_after_a_muted_note() {
+    for (fret, capo) in [(1, 0), (5, 3)] {
+        let events = [
+            (0.0, cc(26, capo)),
+            (0.0, cc(23, 2)),
+            (0.0, on(59 + fret, 100)),
+            (0.3, cc(23, 0)),
+            (0.3, cc(68, 127)),
+            (0.4, on(59 + capo, 100)),
+        ];
+        let sound = &Stage::alone("electric", 1).play(&events, 1.2).strings[0];
+        let heard = &sound[at(0.6)..];
+        let level = decibels(peak(heard));
+        assert!(level > -30.0, "capo {capo}: {level} dB");
+        let off = off_pitch(heard, f64::from(59 + capo));
+        assert!(off.abs() < 8.0, "capo {capo}: {off} cents");
+    }
+}
+
+/// Where a finger is half way through a slide of half a second, as a part of its way, and where it has come to.
+fn on_the_way(setup: &str, string: usize, events: &[(f64, PlayerEvent)]) -> [f64; 2] {
+    let mut places = Vec::new();
+    let events = [&[(0.0, cc(5, 86)), (0.0, cc(68, 127))], events].concat();
+    Stage::alone(setup, string).watch(&events, 1.6, |_, instrument| {
+        places
+            .push(instrument.state(0).fingers().iter().take(2).flatten().next().map_or(0.0, |f| f.position));
+    });
+    let place = |seconds: f64| places[(seconds * RATE / LOOK as f64) as usize];
+    let [from, half, to] = [0.49, 0.75, 1.1].map(place);
+    [(half - from) / (to - from), to]
+}
+
+#[test]
+fn neither_wheel_nor_vibrato_hurries_a_slide() {
+    let bar = [(0.0, cc(23, 3)), (0.0, on(58, 90)), (0.5, on(63, 90))];
+    let bare = [(0.0, cc(65, 127)), (0.0, on(36, 90)), (0.5, on(41, 90))];
+    for (setup, string, notes) in [("electric", 2, &bar), ("fretless-bass", 2, &bare)] {
+        let [_, plain] = on_the_way(setup, string, notes);
+        for (what, asked) in [("vibrato", cc(1, 64)), ("wheel", wheel(0.15)), ("straight", wheel(0.0))] {
+            let [part, to] = on_the_way(setup, string, &[&[(0.0, asked)], &notes[..]].concat());
+            assert!((0.45..0.6).contains(&part), "{setup}, {what}: {part} of the way at half time");
+            assert!((to - plain).abs() < 0.02, "{setup}, {what}: it comes {} m from there", to - plain);
+            // A wheel that is turned on the way.
+            let [part, _] = on_the_way(setup, string, &[&notes[..], &[(0.55, asked)]].concat());
+            assert!((0.45..0.6).contains(&part), "{setup}, {what} on the way: {part} at half time");
+        }
+    }
+}
+
+/// Nor one over frets that a wheel is to carry on, past the reach of pulling.
+#[test]
+fn a_wheel_that_slides_waits_for_the_note() {
+    let octave = [(0.0, cc(101, 0)), (0.0, cc(100, 0)), (0.0, cc(6, 12)), (0.0, cc(65, 127))];
+    let notes = [(0.0, wheel(-5.0 / 12.0)), (0.0, on(62, 90)), (0.5, on(69, 90))];
+    let [part, _] = on_the_way("electric", 2, &[&octave[..], &notes].concat());
+    assert!((0.4..0.6).contains(&part), "{part} of the way at half time");
+}

@@ -1,0 +1,70 @@
+//! The promise: a tremolo is strokes at its rate while the key is down, no more and no others, and each stroke sounds the
+//! note as the first did.
+
+use low_action::performance::PlayerEvent;
+use low_action_dsp::Gesture;
+use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{Stage, amplitude, cc, decibels, hertz, off, on};
+
+/// Times of the plucks of a string, s.
+fn plucks(string: usize, events: &[(f64, PlayerEvent)], seconds: f64) -> Vec<f64> {
+    let mut stage = Stage::alone("electric", string);
+    let played = stage.play(events, seconds);
+    let plucks = played.gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. }));
+    plucks.map(|g| g.time as f64 / stage.rate).collect()
+}
+
+#[test]
+fn a_tremolo_told_to_stop_and_go_on_has_one_rate() {
+    let again = [(0.02, cc(25, 0)), (0.04, cc(25, 64))];
+    let events = [&[(0.0, cc(25, 64)), (0.0, on(55, 90))], &again[..]].concat();
+    let plucks = plucks(2, &events, 1.0);
+    let rate = 3.0 + 17.0 * 64.0 / 127.0;
+    assert!(plucks.len() > 10, "{plucks:?}");
+    for pair in plucks[1..].windows(2) {
+        let apart = (pair[1] - pair[0]) * rate;
+        assert!((apart - 1.0).abs() < 0.01, "{apart} of a turn: {plucks:?}");
+    }
+}
+
+#[test]
+fn a_tremolo_ends_with_its_key_under_the_pedal() {
+    let events = [(0.0, cc(25, 64)), (0.0, cc(64, 127)), (0.0, on(55, 90)), (0.4, off(55))];
+    let plucks = plucks(2, &events, 1.0);
+    assert!(plucks.len() > 3 && plucks.iter().all(|&time| time < 0.4), "{plucks:?}");
+}
+
+/// A light finger is back at its node for every stroke, whether it has left meanwhile or not.
+#[test]
+fn each_stroke_of_a_tremolo_is_a_harmonic() {
+    // A natural one and one of a stopped note, slow and fast.
+    for (key, rate) in [(76, 10), (76, 64), (76, 127), (81, 10), (81, 64)] {
+        let mut stage = Stage::alone("electric", 0);
+        let events = [(0.0, cc(23, 1)), (0.0, cc(25, rate)), (0.0, on(key, 90))];
+        let sound = &stage.play(&events, 1.6).strings[0][48_000..];
+        let pitch = hertz(f64::from(key));
+        let off = cents(frequency_near(sound, stage.rate, pitch), pitch);
+        assert!(off.abs() < 10.0, "key {key} at {rate}: {off} cents");
+        let [asked, below] = [pitch, 0.5 * pitch].map(|pitch| amplitude(sound, stage.rate, pitch));
+        // Each pluck has some of it until the finger has taken it up.
+        let down = decibels(below / asked);
+        assert!(down < -6.0, "key {key} at {rate}: an octave below at {down} dB");
+    }
+}
+
+/// No finger taps where none presses: a harmonic that is to be tapped is plucked, and sounds at its key.
+#[test]
+fn only_what_is_pressed_is_tapped() {
+    for (stop, key) in [(1, 77), (3, 69)] {
+        let mut stage = Stage::alone("electric", 0);
+        let played = stage.play(&[(0.0, cc(22, 7)), (0.0, cc(23, stop)), (0.0, on(key, 100))], 1.2);
+        let sound = &played.strings[0][14_400..];
+        let pitch = hertz(f64::from(key));
+        let [asked, below] = [pitch, 0.5 * pitch].map(|pitch| amplitude(sound, stage.rate, pitch));
+        let off = cents(frequency_near(sound, stage.rate, pitch), pitch);
+        assert!(off.abs() < 10.0, "left hand {stop}: {off} cents");
+        assert!(decibels(below / asked) < -20.0, "left hand {stop}: {} dB", decibels(below / asked));
+        let plucks = played.gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).count();
+        assert_eq!(plucks, 1, "left hand {stop}");
+    }
+}
