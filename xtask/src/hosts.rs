@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
+use xtask::repository::root;
 
 use compare::{Comparison, Sound};
 
@@ -36,7 +37,7 @@ pub fn run(arguments: &[String]) -> Result<()> {
         [] => HOSTS.to_vec(),
         named => named.iter().map(|name| known(name)).collect::<Result<_>>()?,
     };
-    let folder = repository().join("target/hosts");
+    let folder = root().join("target/hosts");
     fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
     let python = match python::environment(&folder) {
         Ok(python) => python,
@@ -75,23 +76,18 @@ fn known(name: &str) -> Result<&'static str> {
     found.with_context(|| format!("unknown host {name:?}: there are {}", HOSTS.join(" and ")))
 }
 
-/// The root of the repository.
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the chores are a folder of the repository").into()
-}
-
 /// Builds the VST3 bundle.
 fn bundle() -> Result<PathBuf> {
     let words = ["bundle", "low-action", "--release"].map(str::to_owned);
     nice_plug_xtask::main_with_args("cargo xtask", words)?;
-    Ok(repository().join("target/bundled/Low Action.vst3"))
+    Ok(root().join("target/bundled/Low Action.vst3"))
 }
 
 /// Renders a clip with the command line.
 fn render(folder: &Path, clip: &str, quality: &str) -> Result<Sound> {
     let (song, sound) = (folder.join(clip).with_extension("mid"), folder.join("rendered.wav"));
     let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .current_dir(repository())
+        .current_dir(root())
         .args(["run", "--release", "--quiet", "-p", "low-action", "--", "render"])
         .arg(&song)
         .arg("--output")

@@ -1,3 +1,4 @@
-//! The measurements of the repository, apart from the program that runs them so that tests can use them.
+//! The measurements of the repository and where it is, apart from the program that runs them so that tests can use them.
 
 pub mod measure;
+pub mod repository;

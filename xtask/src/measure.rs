@@ -8,8 +8,6 @@ mod page;
 pub mod speed;
 pub mod trade;
 
-use std::path::{Path, PathBuf};
-
 use anyhow::{Result, bail};
 use clap::Parser;
 
@@ -46,11 +44,6 @@ const MEASUREMENTS: &[Measurement] = &[
         run: trade::run,
     },
 ];
-
-/// The folder of the repository.
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 /// Reads a measurement's arguments; nothing where they ask for help, which is then given.
 fn parse<T: Parser>(arguments: Vec<String>) -> Result<Option<T>> {

@@ -244,8 +244,8 @@ fn section(measured: &Measured) -> Section {
             "Scenes: the string of [`figure_2.toml`](../{STRING}) alone, and [`barrier.toml`](../{BARRIER}). A scheme \
              that conserves energy need not be accurate; where there are exact solutions the error can be measured. \
              Orders are powers of the grid spacing. The better stencils ([physics.md](physics.md#5-three-stencils)) make \
-             partials right, not bounces: a contact comes up to a sample late with any of them. (A stiff string’s spacing \
-             goes with the root of the time step, so twice the rate is far from half the spacing.)",
+             partials right, not bounces: one takes up to two samples longer than no time with any of them. (A stiff string’s \
+             spacing goes with the root of the time step, so twice the rate is far from half the spacing.)",
         ))
         .picture("Error of a partial for an ideal and a stiff string, and of a bouncing string, over the grid, for three stencils")
         .claims(claims)

@@ -1,9 +1,10 @@
 //! Where things are in the repository, and how scenes are read and run.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use low_action_dsp::{Entry, Scene, Simulation};
+use xtask::repository::root;
 
 use super::sound::Sound;
 
@@ -15,9 +16,7 @@ pub struct Repository {
 impl Repository {
     /// `cargo xtask` may be called from anywhere within it.
     pub fn find() -> Repository {
-        let package =
-            std::env::var_os("CARGO_MANIFEST_DIR").map_or_else(|| PathBuf::from("xtask"), PathBuf::from);
-        Repository { root: package.parent().unwrap_or(Path::new("")).to_owned() }
+        Repository { root: root() }
     }
 
     /// Where pages and pictures are.

@@ -13,11 +13,13 @@ mod stream;
 mod tally;
 mod trial;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::Parser;
 
+use super::page;
+use crate::repository::root;
 use campaign::Campaign;
 pub use trial::{Fault, Outcome, Record, TOLERANCE, Trial};
 
@@ -62,6 +64,8 @@ struct Arguments {
     replay: Option<PathBuf>,
 }
 
+/// Where the tables stand.
+const PAGE: &str = "docs/stability.md";
 /// Trials and seconds of playing of `--quick`.
 const QUICK: (u64, f64) = (1000, 8.0);
 
@@ -76,7 +80,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
         println!("{:#?}", Trial::from_toml(&text)?.run());
         return Ok(());
     }
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = root();
     let (trials, playing) = if arguments.quick { QUICK } else { (arguments.trials, arguments.playing) };
     let seed = if arguments.quick { 1 } else { arguments.seed };
     let threads = arguments.threads.or_else(|| std::thread::available_parallelism().ok().map(Into::into));
@@ -97,12 +101,11 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     println!("{tables}");
     playing::play_all(seed, playing, campaign.threads)?;
     let section = if arguments.quick { "quick" } else { "full" };
-    let page = root.join("docs/stability.md");
     if arguments.write {
-        write_section(&page, section, &tables)?;
+        write_section(PAGE, section, &tables)?;
     } else if arguments.quick {
         // Faults the page knows of are in the counts.
-        return compare_section(&page, section, &tables);
+        return compare_section(PAGE, section, &tables);
     }
     if !tally.faults.is_empty() {
         bail!("{} trials broke a promise; they are in tests/regressions/extremes/open", tally.faults.len());
@@ -112,34 +115,18 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
 
 /// The lines between which a section's tables stand on the page.
 fn marks(section: &str) -> [String; 2] {
-    [format!("<!-- extremes {section} -->\n"), format!("<!-- end of extremes {section} -->\n")]
+    [format!("<!-- extremes {section} -->"), format!("<!-- end of extremes {section} -->")]
 }
 
-/// What stands before, in and after a section.
-fn split_page<'a>(page: &'a str, section: &str) -> Result<[&'a str; 3]> {
-    let [begin, end] = marks(section);
-    let parts = page.split_once(&begin).and_then(|(before, rest)| {
-        let (inside, after) = rest.split_once(&end)?;
-        Some([before, inside, after])
-    });
-    parts.with_context(|| format!("docs/stability.md has no place for the {section} tables"))
+fn write_section(page: &str, section: &str, tables: &str) -> Result<()> {
+    page::write(page, &marks(section), &format!("\n{tables}\n"))
 }
 
-fn write_section(file: &Path, section: &str, tables: &str) -> Result<()> {
-    let page = std::fs::read_to_string(file).with_context(|| format!("{}", file.display()))?;
-    let [before, _, after] = split_page(&page, section)?;
-    let [begin, end] = marks(section);
-    std::fs::write(file, format!("{before}{begin}\n{tables}\n{end}{after}"))?;
-    Ok(())
-}
-
-fn compare_section(file: &Path, section: &str, tables: &str) -> Result<()> {
-    let page = std::fs::read_to_string(file).with_context(|| format!("{}", file.display()))?;
-    let [_, inside, _] = split_page(&page, section)?;
-    if inside.trim() != tables.trim() {
-        bail!("the tables differ from those in docs/stability.md; --write puts them there");
+fn compare_section(page: &str, section: &str, tables: &str) -> Result<()> {
+    if page::read(page, &marks(section))?.trim() != tables.trim() {
+        bail!("the tables differ from those in {page}; --write puts them there");
     }
-    println!("as in docs/stability.md");
+    println!("as in {page}");
     Ok(())
 }
 
@@ -157,12 +144,13 @@ mod tests {
     #[test]
     fn tables_are_written_and_compared_between_their_marks() {
         let file = std::env::temp_dir().join(format!("low-action-page-{}.md", std::process::id()));
+        let place = file.to_str().expect("it is text");
         let page = "a\n<!-- extremes quick -->\nold\n<!-- end of extremes quick -->\nb\n";
         std::fs::write(&file, page).expect("it can be written");
-        assert!(compare_section(&file, "quick", "new").is_err());
-        write_section(&file, "quick", "new\n").expect("it has a place");
-        compare_section(&file, "quick", "new").expect("it is there");
-        assert!(write_section(&file, "full", "new").is_err());
+        assert!(compare_section(place, "quick", "new").is_err());
+        write_section(place, "quick", "new\n").expect("it has a place");
+        compare_section(place, "quick", "new").expect("it is there");
+        assert!(write_section(place, "full", "new").is_err());
         let text = std::fs::read_to_string(&file).expect("it is there");
         assert!(text.starts_with("a\n") && text.ends_with("\nb\n"), "{text}");
         std::fs::remove_file(&file).expect("it is there");

@@ -79,7 +79,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
         baseline::compare(&rows, version)?;
     }
     if arguments.write {
-        page::write(PAGE, "features", &table)?;
+        page::write(PAGE, &page::marks("features"), &table)?;
     }
     Ok(())
 }
@@ -140,7 +140,7 @@ fn check_promises(rows: &[Row]) -> Result<()> {
 
 /// The counts in the table of the documentation: name and instructions.
 fn committed() -> Result<Vec<(String, f64)>> {
-    let table = page::read(PAGE, "features")?;
+    let table = page::read(PAGE, &page::marks("features"))?;
     let rows = table.lines().filter_map(|line| {
         let mut cells = line.split('|').map(str::trim);
         let (name, count) = (cells.nth(1)?, cells.next()?);

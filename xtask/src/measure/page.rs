@@ -1,30 +1,36 @@
-//! Pages of the documentation that hold a table a command writes.
+//! Pages of the documentation that hold tables a command writes, each between two marks.
 
 use std::fs;
 
 use anyhow::{Context, Result};
 
+use crate::repository::root;
+
 /// The lines between which a measurement's table stands.
-fn marks(measurement: &str) -> [String; 2] {
+pub fn marks(measurement: &str) -> [String; 2] {
     [format!("<!-- begin: cargo xtask measure {measurement} -->"), "<!-- end -->".into()]
 }
 
-/// The table on a page.
-pub fn read(page: &str, measurement: &str) -> Result<String> {
-    let text = fs::read_to_string(super::root().join(page)).with_context(|| format!("cannot read {page}"))?;
-    let [begin, end] = marks(measurement);
-    let inside = text.split_once(&begin).and_then(|(_, rest)| rest.split_once(&end));
-    let (table, _) = inside.with_context(|| format!("{page} has no table between its marks"))?;
+/// The table on a page, from the root of the repository, between two marks.
+pub fn read(page: &str, marks: &[String; 2]) -> Result<String> {
+    let text = fs::read_to_string(root().join(page)).with_context(|| format!("cannot read {page}"))?;
+    let [_, table, _] = split(page, &text, marks)?;
     Ok(table.to_owned())
 }
 
 /// Puts a table into a page.
-pub fn write(page: &str, measurement: &str, table: &str) -> Result<()> {
-    let path = super::root().join(page);
+pub fn write(page: &str, marks: &[String; 2], table: &str) -> Result<()> {
+    let path = root().join(page);
     let old = fs::read_to_string(&path).with_context(|| format!("cannot read {page}"))?;
-    let [begin, end] = marks(measurement);
-    let (before, rest) = old.split_once(&begin).with_context(|| format!("{page} lacks `{begin}`"))?;
-    let (_, after) = rest.split_once(&end).with_context(|| format!("{page} lacks `{end}`"))?;
+    let [before, _, after] = split(page, &old, marks)?;
+    let [begin, end] = marks;
     let new = format!("{before}{begin}\n{table}{end}{after}");
     fs::write(path, new).with_context(|| format!("cannot write {page}"))
+}
+
+/// What stands before, between and after two marks in the text of a page.
+fn split<'a>(page: &str, text: &'a str, [begin, end]: &[String; 2]) -> Result<[&'a str; 3]> {
+    let (before, rest) = text.split_once(begin).with_context(|| format!("{page} lacks `{begin}`"))?;
+    let (inside, after) = rest.split_once(end).with_context(|| format!("{page} lacks `{end}`"))?;
+    Ok([before, inside, after])
 }

@@ -10,6 +10,7 @@ use clap::Parser;
 
 use super::features::callgrind_is_there;
 use super::page;
+use crate::repository::root;
 
 /// Where the table stands.
 const PAGE: &str = "docs/speed.md";
@@ -43,7 +44,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     if !arguments.last {
         let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
             .args(["bench", "--package", "low-action-dsp"])
-            .current_dir(super::root())
+            .current_dir(root())
             .status()
             .context("cargo cannot be run")?;
         ensure!(status.success(), "the benchmarks failed");
@@ -51,7 +52,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     let table = table()?;
     println!("{table}");
     if arguments.write {
-        page::write(PAGE, "speed", &table)?;
+        page::write(PAGE, &page::marks("speed"), &table)?;
     }
     Ok(())
 }
@@ -69,7 +70,7 @@ fn median(group: &str, name: &str) -> Result<f64> {
 fn criterion_folder() -> PathBuf {
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| Path::new("target").into(), PathBuf::from);
-    super::root().join(target).join("criterion")
+    root().join(target).join("criterion")
 }
 
 /// Samples of one iteration.

@@ -25,6 +25,7 @@ use anyhow::{Context, Result};
 use clap::Parser;
 
 use super::page;
+use crate::repository::root;
 use errors::{Errors, Reference};
 use filter::LowPass;
 use scenes::{Kind, Playing, SCENES};
@@ -93,7 +94,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
         return worst::child(place);
     }
     if arguments.quick {
-        let committed = page::read(PAGE, "trade")?;
+        let committed = page::read(PAGE, &page::marks("trade"))?;
         for axis in [Axis::Quality, Axis::Grid] {
             let settings = settings::quick(axis);
             let outcomes = measure(&settings, Kind::is_main)?;
@@ -117,9 +118,9 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     println!("{tables}");
     if arguments.write {
         let picture = picture::draw(&outcomes)?;
-        let path = super::root().join(PICTURE);
+        let path = root().join(PICTURE);
         std::fs::write(&path, picture).with_context(|| format!("cannot write {PICTURE}"))?;
-        page::write(PAGE, "trade", &tables)?;
+        page::write(PAGE, &page::marks("trade"), &tables)?;
     }
     Ok(())
 }

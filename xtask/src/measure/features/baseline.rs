@@ -1,13 +1,16 @@
 //! The same cases as an earlier version computes them: built beside this one, counted in the same run by the same
 //! compiler on the same machine, so that a difference is one of the code.
 
+use std::env::consts::EXE_SUFFIX;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail, ensure};
 
 use super::Row;
+use super::cases::{self, Case};
 use super::count;
+use crate::repository::root;
 
 /// How many more instructions than before a case may take.
 const WORSE: f64 = 0.05;
@@ -24,11 +27,6 @@ fn version(named: &str) -> Result<String> {
         return git(&["rev-parse", &format!("{tag}^{{commit}}")]);
     }
     git(&["rev-parse", "--verify", "HEAD^"])
-}
-
-/// The root of the repository.
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 fn git(arguments: &[&str]) -> Result<String> {
@@ -61,7 +59,23 @@ fn build(version: &str) -> Result<PathBuf> {
         .context("cargo cannot be run");
     git(&["worktree", "remove", "--force", &tree_name])?;
     ensure!(built?.success(), "version {version} cannot be built");
-    Ok(target.join("release/xtask"))
+    Ok(target.join(format!("release/xtask{EXE_SUFFIX}")))
+}
+
+/// What an earlier version takes for the cases that it knows; `count` is how it counts one.
+fn earlier(rows: &[Row], count: impl Fn(&Case) -> Result<f64>) -> Result<Vec<(&Row, f64)>> {
+    let mut counted = Vec::new();
+    for row in rows {
+        let name = row.case.name;
+        match count(row.case) {
+            Ok(before) => counted.push((row, before)),
+            // It is new.
+            Err(error) if format!("{error:#}").contains(&cases::unknown(name)) => (),
+            Err(error) => return Err(error.context(format!("the earlier version cannot run `{name}`"))),
+        }
+    }
+    ensure!(!counted.is_empty(), "the earlier version knows none of the cases");
+    Ok(counted)
 }
 
 /// Counts the cases as an earlier version runs them, prints the difference, and refuses what takes more than
@@ -78,11 +92,10 @@ pub fn compare(rows: &[Row], named: &str) -> Result<()> {
     let short = &version[..version.len().min(9)];
     eprintln!("building version {short} to compare with");
     let program = build(&version)?;
+    let counted = earlier(rows, |case| count::instructions_of(&program, case))?;
     let mut worse = Vec::new();
     println!("| | {short} | now | change |\n|---|--:|--:|--:|");
-    for row in rows {
-        // A case that the earlier version does not know is new.
-        let Ok(before) = count::instructions_of(&program, row.case) else { continue };
+    for (row, before) in counted {
         let change = row.instructions / before - 1.0;
         println!("| {} | {before:.0} | {:.0} | {:+.1} % |", row.case.name, row.instructions, 100.0 * change);
         if change > WORSE {
@@ -93,4 +106,25 @@ pub fn compare(rows: &[Row], named: &str) -> Result<()> {
         bail!("more instructions than {short}, over 5 %: {}", worse.join(", "));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use anyhow::bail;
+
+    use super::super::cases::CASES;
+    use super::*;
+
+    #[test]
+    fn only_cases_that_are_new_are_passed_over() {
+        let rows: Vec<Row> = CASES.iter().map(|case| Row { case, instructions: 1.0, time: None }).collect();
+        let new = CASES[1].name;
+        let known = |case: &Case| if case.name == new { bail!("{}", cases::unknown(new)) } else { Ok(1.0) };
+        let counted = earlier(&rows, known).expect("all others can be counted");
+        assert_eq!(counted.len(), rows.len() - 1);
+        assert!(counted.iter().all(|(row, _)| row.case.name != new));
+        let message = earlier(&rows, |_| bail!("callgrind failed")).err().map(|error| format!("{error:#}"));
+        assert!(message.is_some_and(|message| message.contains("callgrind failed")));
+        assert!(earlier(&rows, |case| bail!("{}", cases::unknown(case.name))).is_err());
+    }
 }

@@ -112,10 +112,15 @@ pub const CASES: &[Case] = &[
     },
 ];
 
+/// What is said of a name that no case has, in this and in all earlier versions.
+pub fn unknown(name: &str) -> String {
+    format!("no case is called `{name}`")
+}
+
 impl Case {
     /// The case of a name.
     pub fn find(name: &str) -> Result<&'static Case> {
-        CASES.iter().find(|case| case.name == name).with_context(|| format!("no case is called `{name}`"))
+        CASES.iter().find(|case| case.name == name).with_context(|| unknown(name))
     }
 
     /// Builds the case and returns what computes so many of its samples.

@@ -12,7 +12,7 @@ mod contacts;
 use anyhow::{Context, Result, ensure};
 use low_action_dsp::contact::ContactLaw;
 use low_action_dsp::curve::Curve;
-use low_action_dsp::gesture::raised_cosine;
+use low_action_dsp::gesture::pluck_push;
 use low_action_dsp::grid::Reading;
 use low_action_dsp::model::{ContactKind, Stiffness};
 use low_action_dsp::scene::PluckSpec;
@@ -197,9 +197,8 @@ impl Rival {
             square += second[i] * second[i];
         }
         for (pluck, reading) in &self.plucks {
-            let since = time - pluck.start;
-            if since >= 0.0 && since <= pluck.duration {
-                let force = pluck.force * raised_cosine(since, pluck.duration);
+            let force = pluck.force * pluck_push(time - pluck.start, k, pluck.duration);
+            if force != 0.0 {
                 spread(reading, next, k2 / (string.linear_density * h) * force);
             }
         }
@@ -226,9 +225,14 @@ impl Rival {
         } else {
             0.0
         };
-        let slope = (u[last] - u[last - 1]) / h;
-        self.heard = -(stiffness.tension + stretched) * slope
-            - string.linear_density * stiffness.kappa_2 * second[last - 1] / (h * h * h);
+        // By four points and their mirror images beyond the bridge, as the engine has it.
+        let across = |away: usize| -2.0 * u[last - away];
+        let slope = (0.8 * across(1) - 0.2 * across(2) + 4.0 / 105.0 * across(3) - across(4) / 280.0) / h;
+        let third = (-61.0 / 30.0 * across(1) + 169.0 / 120.0 * across(2) - 0.3 * across(3)
+            + 7.0 / 240.0 * across(4))
+            / (h * h * h);
+        self.heard =
+            -(stiffness.tension + stretched) * slope + string.linear_density * stiffness.kappa_2 * third;
     }
 
     /// Moves string and finger on.
