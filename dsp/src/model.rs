@@ -132,7 +132,8 @@ impl Model {
         }
         if low < LEAST_INTERVALS {
             // The spacing that just fits in so few intervals, from below and above.
-            let (mut short, mut long) = (string.length, string.length);
+            let mut long = string.length.max(SHORTEST);
+            let mut short = long;
             while !fits(long, LEAST_INTERVALS) && long < LONGEST {
                 (short, long) = (long, 2.0 * long);
             }
@@ -198,7 +199,8 @@ impl Model {
 /// The fewest intervals of a grid: room for one cubic interpolation.
 const LEAST_INTERVALS: usize = 4;
 
-/// Nobody is told that a string must be longer than this, m, whatever numbers there are to begin with.
+/// Between these the length is looked for that a string must have, m, whatever numbers there are to begin with.
+const SHORTEST: f64 = 1e-9;
 const LONGEST: f64 = 1e9;
 
 /// The most intervals of a grid, a limit against descriptions that would fill the memory.

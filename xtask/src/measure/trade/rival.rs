@@ -232,7 +232,7 @@ impl Rival {
             + 7.0 / 240.0 * across(4))
             / (h * h * h);
         self.heard =
-            -(stiffness.tension + stretched) * slope + string.linear_density * stiffness.kappa_2 * third;
+            -(stiffness.tension + stretched) * slope + string.linear_density * string.kappa_squared() * third;
     }
 
     /// Moves string and finger on.
