@@ -1,6 +1,6 @@
 //! What a player chooses between: the qualities, what they aim at, and the rates of single strings.
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use low_action_dsp::Quality;
 
 use super::scenes::{Kind, SCENES};
@@ -14,10 +14,7 @@ pub fn tables(outcomes: &[Outcome], chords: &[(Setting, f64)]) -> Result<String>
     let errors = accuracy(axis, &settings(axis), outcomes);
     let mut text = format!("\n### What qualities reach\n\n{}", aims(outcomes));
     text += &format!("\n### Qualities\n\nErrors:\n\n{errors}\nCost and energy:\n\n{}", cost(axis, outcomes));
-    text += &format!(
-        "\nSix strings fretted and ringing, with all that an instrument does:\n\n{}",
-        speeds(chords)
-    );
+    text += &format!("\n{SPEEDS}\n\n{}", speeds(chords));
     text += &format!("\n### Single strings\n\nBuzz, and the spacing of the grid:\n\n{}", buzz(outcomes)?);
     text += &format!(
         "\nBuzz under frets of other damping, at 48 kHz against a reference with the same; then how far damping alone \
@@ -68,8 +65,19 @@ fn aims(outcomes: &[Outcome]) -> String {
     text
 }
 
+/// What stands above the table of the chord.
+const SPEEDS: &str = "Six strings fretted and ringing, with all that an instrument does:";
+
+/// The tables of a page with another one of the chord.
+pub fn exchange_speeds(tables: &str, speeds: &str) -> Result<String> {
+    let (before, rest) = tables.split_once(SPEEDS).context("the page has no table of the chord")?;
+    let rest = rest.trim_start();
+    let after = rest.find("\n\n").map_or("", |end| &rest[end + 1..]);
+    Ok(format!("{}{SPEEDS}\n\n{speeds}{after}", before.strip_prefix('\n').unwrap_or(before)))
+}
+
 /// How many times faster than real time the chord is.
-fn speeds(chords: &[(Setting, f64)]) -> String {
+pub fn speeds(chords: &[(Setting, f64)]) -> String {
     let mut text = head(["× real time".into()]);
     for (setting, speed) in chords {
         text += &format!("| {} | {speed:.1} |\n", setting.name(Axis::Quality));
