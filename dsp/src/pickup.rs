@@ -16,11 +16,15 @@ pub fn bridge_force(model: &Model, scratch: &Scratch) -> f64 {
     let h = model.grid.spacing;
     // After a step the scratch holds uⁿ. The shortest string has its nut for the fourth point.
     let point = |away: usize| scratch.displacement[model.grid.cell(model.grid.intervals - away)];
-    let near = [point(1), point(2), point(3), point(4)];
-    let of = |[a, b, c, d]: [f64; 4]| (a * near[0] + b * near[1]) + (c * near[2] + d * near[3]);
+    let [slope, bend] = end_shape([point(1), point(2), point(3), point(4)]);
     let tension = scratch.stiffness().tension + stretch_tension(model, scratch);
     let bending = model.string.linear_density * model.string.kappa_squared();
-    tension * of(SLOPE) / h + bending * of(BEND) / (h * h * h)
+    tension * slope / h + bending * bend / (h * h * h)
+}
+
+/// −h ∂ₓu and h³ ∂ₓₓₓu of a string at its end x = L, m, from the displacements h, 2h, 3h and 4h before it, m.
+pub fn end_shape(near: [f64; 4]) -> [f64; 2] {
+    [SLOPE, BEND].map(|[a, b, c, d]| (a * near[0] + b * near[1]) + (c * near[2] + d * near[3]))
 }
 
 /// h ∂ₓu of an odd function at 0 by its values at h, 2h, 3h and 4h.

@@ -8,14 +8,14 @@
 //! replaces it.
 
 mod early_stop;
-
-use pulp::{Simd, WithSimd};
+mod many;
 
 use crate::active::Active;
 use crate::instructions::Instructions;
 use crate::response::{Few, Response};
 use crate::scene::SolverSettings;
 use early_stop::{bounded, stop_early};
+use many::Many;
 
 /// How a sample's contacts were solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -138,51 +138,6 @@ impl Solver {
             _ => Many { solver: self, rows, pull_factor, demands, convergence }.solve(instructions),
         }
     }
-}
-
-/// More contacts than the step itself has code for: rare, and apart from it, as the code of all sizes in one place slows
-/// down the few. Compiled for each instruction set, as a step is.
-struct Many<'a> {
-    solver: &'a mut Solver,
-    rows: &'a mut [Active],
-    pull_factor: f64,
-    demands: Demands<'a>,
-    convergence: &'a mut Convergence,
-}
-
-impl Many<'_> {
-    #[inline(never)]
-    fn solve(self, instructions: Instructions) -> f64 {
-        instructions.run(self)
-    }
-}
-
-impl WithSimd for Many<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
-        let Many { solver, rows, pull_factor, demands, convergence } = self;
-        match rows.len() {
-            7 => solve_few::<7>(rows, pull_factor, demands, convergence),
-            8 => solve_few::<8>(rows, pull_factor, demands, convergence),
-            9 => solve_few::<9>(rows, pull_factor, demands, convergence),
-            10 => solve_few::<10>(rows, pull_factor, demands, convergence),
-            count => {
-                in_order(rows);
-                solver.response.gather(rows, pull_factor);
-                solver.room.clear();
-                solver.room.resize(ARRAYS * count, 0.0);
-                let room = Room::new(&mut solver.room, count);
-                solve(rows, &mut solver.response, room, demands, convergence)
-            }
-        }
-    }
-}
-
-/// Puts contacts in order of place, where the response of many wants them.
-fn in_order(rows: &mut [Active]) {
-    rows.sort_unstable_by(|a, b| a.reading.centre().total_cmp(&b.reading.centre()).then(a.slot.cmp(&b.slot)));
 }
 
 #[inline(always)]

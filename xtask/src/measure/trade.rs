@@ -112,8 +112,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
         let table = qualities::speeds(&chords()?);
         println!("{table}");
         if arguments.write {
-            let old = page::read(PAGE, &page::marks("trade"))?;
-            page::write(PAGE, &page::marks("trade"), &qualities::exchange_speeds(&old, &table)?)?;
+            page::write(PAGE, &qualities::chord_marks(), &table)?;
         }
         return Ok(());
     }

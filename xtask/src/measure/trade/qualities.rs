@@ -1,6 +1,6 @@
 //! What a player chooses between: the qualities, what they aim at, and the rates of single strings.
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use low_action_dsp::Quality;
 
 use super::scenes::{Kind, SCENES};
@@ -14,7 +14,9 @@ pub fn tables(outcomes: &[Outcome], chords: &[(Setting, f64)]) -> Result<String>
     let errors = accuracy(axis, &settings(axis), outcomes);
     let mut text = format!("\n### What qualities reach\n\n{}", aims(outcomes));
     text += &format!("\n### Qualities\n\nErrors:\n\n{errors}\nCost and energy:\n\n{}", cost(axis, outcomes));
-    text += &format!("\n{SPEEDS}\n\n{}", speeds(chords));
+    let [begin, end] = chord_marks();
+    text += "\nSix strings fretted and ringing, with all that an instrument does:\n\n";
+    text += &format!("{begin}\n{}{end}\n", speeds(chords));
     text += &format!("\n### Single strings\n\nBuzz, and the spacing of the grid:\n\n{}", buzz(outcomes)?);
     text += &format!(
         "\nBuzz under frets of other damping, at 48 kHz against a reference with the same; then how far damping alone \
@@ -65,24 +67,18 @@ fn aims(outcomes: &[Outcome]) -> String {
     text
 }
 
-/// What stands above the table of the chord.
-const SPEEDS: &str = "Six strings fretted and ringing, with all that an instrument does:";
-
-/// The tables of a page with another one of the chord.
-pub fn exchange_speeds(tables: &str, speeds: &str) -> Result<String> {
-    let (before, rest) = tables.split_once(SPEEDS).context("the page has no table of the chord")?;
-    let rest = rest.trim_start();
-    let after = rest.find("\n\n").map_or("", |end| &rest[end + 1..]);
-    Ok(format!("{}{SPEEDS}\n\n{speeds}{after}", before.strip_prefix('\n').unwrap_or(before)))
+/// The lines between which the table of the chord stands.
+pub fn chord_marks() -> [String; 2] {
+    ["<!-- chord -->".into(), "<!-- end of chord -->".into()]
 }
 
-/// How many times faster than real time the chord is.
+/// How many times faster than real time the chord is, between two blank lines.
 pub fn speeds(chords: &[(Setting, f64)]) -> String {
-    let mut text = head(["× real time".into()]);
+    let mut text = format!("\n{}", head(["× real time".into()]));
     for (setting, speed) in chords {
         text += &format!("| {} | {speed:.1} |\n", setting.name(Axis::Quality));
     }
-    text
+    text + "\n"
 }
 
 /// The columns of single strings: all strings at a rate, then qualities at 48 kHz.

@@ -15,6 +15,7 @@ use low_action_dsp::curve::Curve;
 use low_action_dsp::gesture::pluck_push;
 use low_action_dsp::grid::Reading;
 use low_action_dsp::model::{ContactKind, Stiffness};
+use low_action_dsp::pickup::end_shape;
 use low_action_dsp::scene::PluckSpec;
 use low_action_dsp::{Barrier, Model, Scene, StringParameters};
 
@@ -225,14 +226,9 @@ impl Rival {
         } else {
             0.0
         };
-        // By four points and their mirror images beyond the bridge, as the engine has it.
-        let across = |away: usize| -2.0 * u[last - away];
-        let slope = (0.8 * across(1) - 0.2 * across(2) + 4.0 / 105.0 * across(3) - across(4) / 280.0) / h;
-        let third = (-61.0 / 30.0 * across(1) + 169.0 / 120.0 * across(2) - 0.3 * across(3)
-            + 7.0 / 240.0 * across(4))
-            / (h * h * h);
-        self.heard =
-            -(stiffness.tension + stretched) * slope + string.linear_density * string.kappa_squared() * third;
+        let [slope, bend] = end_shape([1, 2, 3, 4].map(|away| u[last - away]));
+        self.heard = (stiffness.tension + stretched) * slope / h
+            + string.linear_density * string.kappa_squared() * bend / (h * h * h);
     }
 
     /// Moves string and finger on.
