@@ -50,7 +50,7 @@ impl Curve {
             Curve::Points(points) => points,
         };
         if points.is_empty() {
-            return Err(Error::range(name, "[]", "it must be a number or have at least one point"));
+            return Err(Error::range(name, "[]", "a list of points must have at least one"));
         }
         let mut before = f64::NEG_INFINITY;
         for (i, &[place, value]) in points.iter().enumerate() {

@@ -2,6 +2,7 @@
 
 use crate::grid::Reading;
 use crate::model::Model;
+use crate::roomy::Roomy;
 
 /// How many pushes may act on a string of an instrument at once.
 pub const PUSHES: usize = 8;
@@ -30,11 +31,11 @@ pub struct Drive {
     /// Tension at n, N.
     pub tension: f64,
     /// Forces on points of the string.
-    pub pushes: Vec<Push>,
+    pub pushes: Roomy<Push>,
     /// What the hand does to the finger in each slot; ignored where there is no finger.
     pub hands: Vec<Hand>,
     /// Heights of the fixed contacts at n + 1, m, in the model's order; empty while they rest.
-    pub heights: Vec<f64>,
+    pub heights: Roomy<f64>,
 }
 
 impl Drive {
@@ -42,9 +43,9 @@ impl Drive {
     pub fn new(model: &Model) -> Drive {
         Drive {
             tension: model.string.tension,
-            pushes: Vec::with_capacity(PUSHES),
+            pushes: Roomy::with_capacity(PUSHES),
             hands: vec![Hand::default(); model.finger_slots],
-            heights: Vec::with_capacity(model.contacts.len()),
+            heights: Roomy::with_capacity(model.contacts.len()),
         }
     }
 }

@@ -54,16 +54,14 @@ impl Instrument {
     }
 
     /// Whether the strings of another instrument can take over the motion of this one's: as many of them,
-    /// nearly as long and as heavy, that bear the tension. The same motion of another string would be
-    /// another sound, beginning with a blow.
+    /// nearly as long and as heavy. The same motion of another string would be another sound, beginning with a blow. (A
+    /// string tuned so far down that its grid does not bear the old tension begins with as much as it bears.)
     pub fn continues_in(&self, other: &Instrument) -> bool {
         let near = |new: f64, old: f64| (0.8..=1.25).contains(&(new / old));
         self.voices.len() == other.voices.len()
             && self.voices.iter().zip(&other.voices).all(|(old, new)| {
                 let (old, new) = (&old.model.string, &new.model.string);
-                near(new.linear_density, old.linear_density)
-                    && near(new.length, old.length)
-                    && old.tension <= new.tension_limit
+                near(new.linear_density, old.linear_density) && near(new.length, old.length)
             })
     }
 

@@ -5,6 +5,7 @@ use crate::gesture::{FINGERS_PER_STRING, Gesture, Touch, pluck_push};
 use crate::grid::Reading;
 use crate::model::Model;
 use crate::ramp::Ramp;
+use crate::roomy::Roomy;
 use crate::state::State;
 
 /// How far from the string a lifted finger must be before it is taken away, m.
@@ -60,7 +61,7 @@ impl Held {
 pub(crate) struct Hands {
     /// Of the string, Hz.
     pub sample_rate: f64,
-    pub plucks: Vec<Pluck>,
+    pub plucks: Roomy<Pluck>,
     pub fingers: [Option<Held>; FINGERS_PER_STRING],
     pub tension: Ramp,
 }
@@ -70,7 +71,7 @@ impl Hands {
     pub fn new(model: &Model, sample_rate: f64) -> Self {
         Hands {
             sample_rate,
-            plucks: Vec::with_capacity(PUSHES),
+            plucks: Roomy::with_capacity(PUSHES),
             fingers: [None; FINGERS_PER_STRING],
             tension: Ramp::at(model.string.tension),
         }

@@ -69,6 +69,7 @@
 
 mod active;
 mod band;
+mod choice;
 pub mod contact;
 mod contact_step;
 pub mod curve;
@@ -100,6 +101,7 @@ mod ramp;
 pub mod ratio;
 mod release;
 mod response;
+pub mod roomy;
 pub mod scene;
 pub mod settings;
 pub mod setup;

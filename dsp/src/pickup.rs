@@ -61,8 +61,8 @@ impl PickupMix {
         let (place, aperture, resonance, quality) = COIL;
         let position = place * setup.neck.scale_length;
         let (other, scale) = match setup.pickup {
-            Pickup::Magnetic { .. } => (Pickup::Bridge, 1.0 / impedance),
-            Pickup::Bridge => (Pickup::Magnetic { position, aperture, resonance, quality }, impedance),
+            Pickup::Magnetic { .. } => (Pickup::Bridge {}, 1.0 / impedance),
+            Pickup::Bridge {} => (Pickup::Magnetic { position, aperture, resonance, quality }, impedance),
         };
         PickupMix { parts: [(setup.pickup, 1.0 - setup.blend), (other, setup.blend * scale)] }
     }
@@ -152,7 +152,7 @@ impl Ear {
     fn new(pickup: &Pickup, share: f64, model: &Model, sample_rate: f64) -> Self {
         let block = Biquad::high_pass(LOWEST, sample_rate);
         match *pickup {
-            Pickup::Bridge => Ear { source: Source::Bridge, share, coil: Biquad::through(), block },
+            Pickup::Bridge {} => Ear { source: Source::Bridge, share, coil: Biquad::through(), block },
             Pickup::Magnetic { position, aperture, resonance, quality } => {
                 let end = model.grid.length;
                 let middle = end - position;

@@ -1,6 +1,7 @@
 //! Gestures waiting for their sample.
 
 use crate::gesture::TimedGesture;
+use crate::roomy::Roomy;
 
 /// No room for another gesture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -14,13 +15,13 @@ const CAPACITY: usize = 4096;
 #[derive(Debug, Clone)]
 pub(crate) struct Queue {
     /// Latest first, so that the next one is at the end.
-    waiting: Vec<TimedGesture>,
+    waiting: Roomy<TimedGesture>,
 }
 
 impl Queue {
     /// Empty, with all the room it will ever need.
     pub fn new() -> Self {
-        Queue { waiting: Vec::with_capacity(CAPACITY) }
+        Queue { waiting: Roomy::with_capacity(CAPACITY) }
     }
 
     /// Adds a gesture.

@@ -8,6 +8,7 @@
 mod elimination;
 mod few;
 
+use crate::roomy::Roomy;
 use crate::solver::Answer;
 use elimination::{springs_of_any, springs_of_few};
 pub(crate) use few::Few;
@@ -25,19 +26,19 @@ struct Block {
 }
 
 /// The answer matrix M of many contacts, and room to solve with it.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Response {
-    blocks: Vec<Block>,
+    blocks: Roomy<Block>,
     /// Room to find the blocks.
-    starts: Vec<usize>,
-    entries: Vec<f64>,
+    starts: Roomy<usize>,
+    entries: Roomy<f64>,
     /// z and its factor ω ≥ 0.
-    pull: Vec<f64>,
+    pull: Roomy<f64>,
     pull_factor: f64,
     /// Room for one block's matrix and roots, and for what springs make of z.
-    matrix: Vec<f64>,
-    roots: Vec<f64>,
-    pulled: Vec<f64>,
+    matrix: Roomy<f64>,
+    roots: Roomy<f64>,
+    pulled: Roomy<f64>,
 }
 
 /// Splits contacts in order of place into the shortest runs that share no grid points. A wide contact may
@@ -130,14 +131,14 @@ impl Response {
         let all = spans.len() + fingers;
         let Needs { entries, largest } = Needs::of(spans, fingers);
         Response {
-            blocks: Vec::with_capacity(all),
-            starts: Vec::with_capacity(all),
-            entries: Vec::with_capacity(entries),
-            pull: Vec::with_capacity(all),
+            blocks: Roomy::with_capacity(all),
+            starts: Roomy::with_capacity(all),
+            entries: Roomy::with_capacity(entries),
+            pull: Roomy::with_capacity(all),
             pull_factor: 0.0,
-            matrix: Vec::with_capacity(largest * largest),
-            roots: Vec::with_capacity(largest),
-            pulled: Vec::with_capacity(all),
+            matrix: Roomy::with_capacity(largest * largest),
+            roots: Roomy::with_capacity(largest),
+            pulled: Roomy::with_capacity(all),
         }
     }
 
@@ -186,7 +187,7 @@ impl Answer for Response {
         }
         if self.pull_factor > 0.0 {
             // Sherman–Morrison on 1 + D(S + own) − ω D z zᵀ.
-            let mut pulled = std::mem::take(&mut self.pulled);
+            let mut pulled = std::mem::take(&mut *self.pulled);
             pulled.clone_from(&self.pull);
             let along = dot(&self.pull, x);
             for index in 0..self.blocks.len() {
@@ -196,7 +197,7 @@ impl Answer for Response {
             for (x, pulled) in x.iter_mut().zip(&pulled) {
                 *x += factor * pulled;
             }
-            self.pulled = pulled;
+            *self.pulled = pulled;
         }
     }
 }

@@ -4,6 +4,7 @@ mod check;
 
 use serde::Deserialize;
 
+use crate::choice::choice;
 use crate::curve::{CountOrList, Curve, OneOrEach};
 use crate::error::Error;
 use crate::gesture::Touch;
@@ -72,8 +73,7 @@ impl Default for SolverSettings {
 }
 
 /// Difference operators of the string; the same energy argument holds for all.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Stencil {
     /// Five points, as published: second-order accurate.
     Paper,
@@ -81,6 +81,13 @@ pub enum Stencil {
     Corrected,
     /// Seven points with the two leading dispersion errors taken out.
     Wide,
+}
+
+impl<'de> Deserialize<'de> for Stencil {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        use Stencil::{Corrected, Paper, Wide};
+        choice(deserializer, &[("paper", Paper), ("corrected", Corrected), ("wide", Wide)])
+    }
 }
 
 /// One string.
@@ -144,8 +151,7 @@ fn no_frets() -> CountOrList {
 }
 
 /// Where frets act on the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FretPlacement {
     /// At their places, by interpolation.
     #[default]
@@ -155,6 +161,13 @@ pub enum FretPlacement {
     /// At their places, and the string bends round them as it would if the grid had room for a kink: as exact on coarse
     /// grids as the others are on fine ones.
     Kinked,
+}
+
+impl<'de> Deserialize<'de> for FretPlacement {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        use FretPlacement::{Exact, Kinked, Nearest};
+        choice(deserializer, &[("exact", Exact), ("nearest", Nearest), ("kinked", Kinked)])
+    }
 }
 
 /// A raised-cosine push, equation \[4\] of the paper.

@@ -7,6 +7,7 @@ mod player;
 
 use serde::{Deserialize, Serialize};
 
+use crate::choice::choice;
 use crate::curve::Curve;
 use crate::error::{Error, within};
 use crate::intonation::Behind;
@@ -65,7 +66,7 @@ pub struct Bridge {
 }
 
 /// Whether an instrument is made to play in tune.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Intonation {
     /// Tension and fret places are solved so that open and fretted strings are in tune.
@@ -74,6 +75,13 @@ pub enum Intonation {
     /// Frets stand in equal temperament and only the open string is tuned: stopped notes are as sharp
     /// as pressing makes them.
     Physical,
+}
+
+impl<'de> Deserialize<'de> for Intonation {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        use Intonation::{Compensated, Physical};
+        choice(deserializer, &[("compensated", Compensated), ("physical", Physical)])
+    }
 }
 
 /// One string of an instrument.
@@ -126,8 +134,9 @@ pub enum Pickup {
         /// Height of that resonance over low frequencies, as a factor.
         quality: f64,
     },
-    /// The force of the strings on the bridge.
-    Bridge,
+    /// The force of the strings on the bridge. (With braces, since
+    /// keys that do not belong there are only looked for where there could be some.)
+    Bridge {},
 }
 
 /// The built-in set-ups: name and file.
@@ -279,7 +288,7 @@ impl SetupString {
 impl Pickup {
     fn check(&self, scale: f64) -> Result<(), Error> {
         match *self {
-            Pickup::Bridge => Ok(()),
+            Pickup::Bridge {} => Ok(()),
             Pickup::Magnetic { position, aperture, resonance, quality } => {
                 within("pickup.resonance", resonance, 100.0, 1e6, "Hz")?;
                 within("pickup.quality", quality, 0.1, 100.0, "")?;

@@ -13,6 +13,7 @@ mod many;
 use crate::active::Active;
 use crate::instructions::Instructions;
 use crate::response::{Few, Response};
+use crate::roomy::Roomy;
 use crate::scene::SolverSettings;
 use early_stop::{bounded, stop_early};
 use many::Many;
@@ -40,13 +41,13 @@ pub(crate) struct EnergyScale {
 }
 
 /// Room to solve the contacts of a sample.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Solver {
     response: Response,
     /// One array after another of as many numbers as there are contacts.
-    room: Vec<f64>,
+    room: Roomy<f64>,
     /// Fingers near the string that no contact is predicted for.
-    pub aside: Vec<Active>,
+    pub aside: Roomy<Active>,
 }
 
 /// How a set of contacts answers forces.
@@ -109,8 +110,8 @@ impl Solver {
         let contacts = spans.len() + fingers;
         Solver {
             response: Response::with_capacity(spans, fingers),
-            room: Vec::with_capacity(ARRAYS * contacts),
-            aside: Vec::with_capacity(contacts),
+            room: Roomy::with_capacity(ARRAYS * contacts),
+            aside: Roomy::with_capacity(contacts),
         }
     }
 

@@ -7,6 +7,7 @@ use crate::finger::{Finger, Inertia};
 use crate::gesture::Touch;
 use crate::grid::Reading;
 use crate::model::Model;
+use crate::roomy::Roomy;
 use crate::skyline::draw;
 
 /// A fixed contact that the string may touch soon.
@@ -46,7 +47,7 @@ pub struct State {
     /// The highest of the fixed contacts beside each grid point, m, by `heights_next`.
     pub(crate) skyline: Field,
     /// Fixed contacts that are touched or near, in order.
-    pub(crate) close: Vec<Close>,
+    pub(crate) close: Roomy<Close>,
     /// The first step in which nothing is left of the waves that each contact sent off when it was made.
     pub(crate) calm: Vec<u64>,
     /// By how much the string may still come nearer to a contact before those that are close are looked for anew, m.
@@ -80,7 +81,7 @@ impl State {
             settling: 0,
             finger_changes: 0,
             skyline: Field::new(&model.grid),
-            close: Vec::with_capacity(contacts),
+            close: Roomy::with_capacity(contacts),
             calm: vec![0; contacts],
             sure: 0.0,
             nearer: 0.0,

@@ -9,6 +9,7 @@ use crate::finger::FingerBefore;
 use crate::instructions::Instructions;
 use crate::kernel::{Advance, Kernel, Products, Weights};
 use crate::model::{Model, Stiffness};
+use crate::roomy::Roomy;
 use crate::skyline::{Clearance, SAG, groups};
 use crate::solver::{Convergence, Solver};
 use crate::state::State;
@@ -35,7 +36,7 @@ pub struct Scratch {
     /// The contacts active in the last step, with their forces.
     pub(crate) active: Rows,
     /// Where in [`State::close`] those stand that are near but not yet active.
-    pub(crate) near: Vec<usize>,
+    pub(crate) near: Roomy<usize>,
     /// The step in which each contact was last solved for, one more than its index.
     pub(crate) held: Vec<u64>,
     /// How far groups of grid points were over the skyline when contacts were last looked for.
@@ -68,7 +69,7 @@ impl Scratch {
             displacement: grid(),
             solver: Solver::with_capacity(&model.spans(), model.finger_slots),
             active: Rows::with_capacity(contacts),
-            near: Vec::with_capacity(model.contacts.len()),
+            near: Roomy::with_capacity(model.contacts.len()),
             held: vec![0; model.contacts.len()],
             clearances: vec![Clearance::default(); groups(&model.grid)],
             tried: 0.0,

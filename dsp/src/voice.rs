@@ -13,6 +13,7 @@ use crate::observed::Observed;
 use crate::pickup::{Listener, PickupMix};
 use crate::ramp::Ramp;
 use crate::ratio::Ratio;
+use crate::roomy::Roomy;
 use crate::settings::EngineSettings;
 use crate::setup::Setup;
 use crate::state::State;
@@ -47,7 +48,7 @@ pub(crate) struct Voice {
 #[derive(Debug, Clone)]
 struct Settling {
     /// Heights from which they started, m, in the model's order.
-    from: Vec<f64>,
+    from: Roomy<f64>,
     /// How far they have come, 0 to 1.
     part: Ramp,
 }
@@ -101,7 +102,7 @@ impl Voice {
             asleep: true,
             run: [0.0; RUN],
             silent: true,
-            settling: Settling { from: Vec::with_capacity(model.contacts.len()), part: Ramp::at(1.0) },
+            settling: Settling { from: Roomy::with_capacity(model.contacts.len()), part: Ramp::at(1.0) },
             ledger: None,
             observed: Observed::new(&model),
             model,

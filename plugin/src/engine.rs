@@ -111,7 +111,7 @@ struct Waiting {
 }
 
 /// A player and an instrument.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Engine {
     performance: Performance,
     instrument: Instrument,

@@ -101,6 +101,13 @@ pub struct Checked {
     text: String,
 }
 
+impl Checked {
+    /// What it will be called.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+}
+
 /// Writes set-up files into a folder, which is made if need be, in place of those of the same name.
 ///
 /// # Errors

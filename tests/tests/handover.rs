@@ -94,6 +94,7 @@ fn there_is_no_click() {
         ("more loss", changed(&electric, 1.0, 4.0, 0.0, 0.0)),
         ("pickup moved", changed(&electric, 1.0, 1.0, 0.08, 0.0)),
         ("a tone down", changed(&electric, 1.0, 1.0, 0.0, -2.0)),
+        ("a fifth down", changed(&electric, 1.0, 1.0, 0.0, -7.0)),
         ("other strings", Setup::builtin("classical").expect("it is built in")),
         ("another number of strings", Setup::builtin("bass").expect("it is built in")),
     ];
@@ -112,6 +113,36 @@ fn assert_no_click(what: &str, old: &Setup, new: &Setup) {
     let jump = smallest_jump(&sound, 12_000);
     println!("{what}: a jump of {:.1e} of the peak is a click", jump / peak(&sound));
     assert!(click(&with_jump(&sound, 12_300, jump), 12_000).is_some(), "{what}: {jump:e}");
+}
+
+/// Strings ring on however far they are tuned: a grid made for the new tension would not bear the old one from some
+/// semitones down, which is no reason for silence.
+#[test]
+fn strings_that_are_tuned_ring_on() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    for semitones in [-12.0, -7.0, -4.0, -3.0, 5.0, 12.0] {
+        let mut instrument = build(&setup);
+        instrument.open_ledgers();
+        strike(&mut instrument, &setup);
+        let mut before = Vec::new();
+        play(&mut instrument, 12_000, &mut before);
+        let tuned = changed(&setup, 1.0, 1.0, 0.0, semitones);
+        assert!(instrument.hand_over(Box::new(build(&tuned))).is_ok());
+        let (mut change, mut after) = (Vec::new(), Vec::new());
+        play(&mut instrument, 4800, &mut change);
+        play(&mut instrument, 4800, &mut after);
+        let part = peak(&after) / peak(&before[7200..]);
+        println!("{semitones} semitones: {part:.2} of the peak");
+        assert!((0.1..10.0).contains(&part), "{semitones} semitones: {part} of the peak");
+        for string in 0..instrument.string_count() {
+            let ledger = instrument.ledger(string).expect("it is open");
+            assert!(
+                ledger.worst_residual <= 1e-14,
+                "{semitones}, string {string}: {:e}",
+                ledger.worst_residual
+            );
+        }
+    }
 }
 
 #[test]

@@ -108,6 +108,24 @@ fn names_with_dots_are_whole_names() {
     assert_eq!(done.code, 0, "{}", done.error);
 }
 
+/// A folder of the same name is none.
+#[test]
+fn an_installed_name_is_found_beside_a_folder() {
+    let place = workplace();
+    place.write("lower.toml", LOWER);
+    assert_eq!(place.run(&["instruments", "--install", "lower.toml"]).code, 0);
+    for folder in ["lower", "higher"] {
+        std::fs::create_dir_all(place.path(folder)).expect("there is room");
+    }
+    let render =
+        |name| place.run(&["render", "-o", "a.wav", "-i", name, "--quality", "draft", "--tail", "none"]);
+    let done = render("lower");
+    assert_eq!(done.code, 0, "{}", done.error);
+    let done = render("higher");
+    assert_eq!(done.code, 2, "{}", done.error);
+    assert!(done.error.contains("unknown instrument \"higher\""), "{}", done.error);
+}
+
 #[test]
 fn what_is_played_is_not_written_over() {
     let place = workplace();
@@ -145,6 +163,17 @@ fn what_is_no_set_up_is_refused_in_one_line() {
     // One that is refused keeps the others out.
     place.write("lower.toml", LOWER);
     assert_eq!(place.run(&["instruments", "--install", "lower.toml", "broken.toml"]).code, 1);
+    assert!(installed(&place).is_empty());
+    // So are two of one name, of which one would be lost.
+    std::fs::create_dir_all(place.path("other")).expect("there is room");
+    place.write("other/lower.toml", LOWER);
+    let done = place.run(&["instruments", "--install", "lower.toml", "other/lower.toml"]);
+    assert_eq!(done.code, 2, "{}", done.error);
+    assert!(
+        done.error.contains("lower.toml and other/lower.toml would both be installed as lower"),
+        "{}",
+        done.error
+    );
     assert!(installed(&place).is_empty());
     // One that was put there by hand is listed with what is wrong with it.
     std::fs::create_dir_all(place.path("instruments")).expect("there is room");

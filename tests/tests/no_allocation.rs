@@ -1,5 +1,5 @@
-//! Promise: nothing is allocated once an instrument or a string is built. The allocator of the tests
-//! aborts the program when memory is asked for or given back inside `assert_no_alloc`.
+//! Promise: nothing is allocated once an instrument or a string is built, nor once it is cloned. The allocator of the
+//! tests aborts the program when memory is asked for or given back inside `assert_no_alloc`.
 
 // The allocator that keeps watch comes with the plugin.
 use low_action as _;
@@ -22,42 +22,48 @@ fn playing_an_instrument() {
     for name in Setup::BUILTIN {
         let setup = Setup::builtin(name).expect("it is built in");
         let settings = Quality::Live.settings(48e3);
-        let mut instrument = Instrument::new(&setup, &settings).expect("it can be built");
-        let geometry: Vec<_> =
-            (0..instrument.string_count()).map(|string| instrument.geometry(string).clone()).collect();
-        let (mut left, mut right) = (vec![0.0; 512], vec![0.0; 512]);
-        let touch = setup.player.fretting.touch;
-        // How many gestures of each kind were taken, and how loud it was.
-        let (mut taken, mut loudest) = ([0; 6], 0.0);
-        assert_no_alloc(|| {
-            for block in 0..100u64 {
-                for (string, geometry) in geometry.iter().enumerate() {
-                    let finger = (block % 4) as usize;
-                    let position = geometry.finger_position(1 + (block as usize + string) % 12);
-                    let away = geometry.length - 0.1;
-                    let gestures = [
-                        Gesture::Place { finger, touch, position, clearance: 1e-4 },
-                        Gesture::Press { finger, force: 6.0, duration: 0.004 },
-                        Gesture::Pluck { position: away, force: 2.0, duration: 0.001 },
-                        Gesture::Slide { finger, position: position + 0.01, duration: 0.01 },
-                        Gesture::Bend { tension_ratio: 1.1, duration: 0.01 },
-                        Gesture::Lift { finger, force: 3.0, duration: 0.002 },
-                    ];
-                    for (index, gesture) in gestures.into_iter().enumerate() {
-                        let time = instrument.now() + 80 * index as u64;
-                        // A full queue leaves a gesture out, which is no concern here.
-                        let scheduled = instrument.schedule(TimedGesture { time, string, gesture });
-                        taken[index] += u32::from(scheduled.is_ok());
-                    }
-                }
-                instrument.process(&mut left, &mut right);
-                loudest = largest([loudest, peak(&left)]);
-            }
-            instrument.reset();
-        });
-        assert!(taken.iter().all(|taken| *taken > 0), "{name}: {taken:?} gestures were taken");
-        assert!(loudest > 1e-3 && loudest.is_finite(), "{name}: nothing was played");
+        let instrument = Instrument::new(&setup, &settings).expect("it can be built");
+        play(name, &setup, instrument.clone());
+        play(name, &setup, instrument);
     }
+}
+
+/// Every gesture on every string, over and over.
+fn play(name: &str, setup: &Setup, mut instrument: Instrument) {
+    let geometry: Vec<_> =
+        (0..instrument.string_count()).map(|string| instrument.geometry(string).clone()).collect();
+    let (mut left, mut right) = (vec![0.0; 512], vec![0.0; 512]);
+    let touch = setup.player.fretting.touch;
+    // How many gestures of each kind were taken, and how loud it was.
+    let (mut taken, mut loudest) = ([0; 6], 0.0);
+    assert_no_alloc(|| {
+        for block in 0..100u64 {
+            for (string, geometry) in geometry.iter().enumerate() {
+                let finger = (block % 4) as usize;
+                let position = geometry.finger_position(1 + (block as usize + string) % 12);
+                let away = geometry.length - 0.1;
+                let gestures = [
+                    Gesture::Place { finger, touch, position, clearance: 1e-4 },
+                    Gesture::Press { finger, force: 6.0, duration: 0.004 },
+                    Gesture::Pluck { position: away, force: 2.0, duration: 0.001 },
+                    Gesture::Slide { finger, position: position + 0.01, duration: 0.01 },
+                    Gesture::Bend { tension_ratio: 1.1, duration: 0.01 },
+                    Gesture::Lift { finger, force: 3.0, duration: 0.002 },
+                ];
+                for (index, gesture) in gestures.into_iter().enumerate() {
+                    let time = instrument.now() + 80 * index as u64;
+                    // A full queue leaves a gesture out, which is no concern here.
+                    let scheduled = instrument.schedule(TimedGesture { time, string, gesture });
+                    taken[index] += u32::from(scheduled.is_ok());
+                }
+            }
+            instrument.process(&mut left, &mut right);
+            loudest = largest([loudest, peak(&left)]);
+        }
+        instrument.reset();
+    });
+    assert!(taken.iter().all(|taken| *taken > 0), "{name}: {taken:?} gestures were taken");
+    assert!(loudest > 1e-3 && loudest.is_finite(), "{name}: nothing was played");
 }
 
 #[test]
@@ -78,10 +84,13 @@ fn hundreds_of_coupled_contacts() {
         let mut state = State::new(&model);
         let shape = scene.string[0].shape.clone().expect("there is one");
         state.set_shape(&model, &low_action_dsp::curve::Curve::Points(shape));
-        let mut scratch = Scratch::new(&model);
+        let scratch = Scratch::new(&model);
         let drive = Drive::new(&model);
-        let most =
-            assert_no_alloc(|| (0..2000).map(|_| state.step(&model, &drive, &mut scratch).active).max());
-        assert!(most.is_some_and(|most| most > 50), "{most:?} contacts at once");
+        let clones = (state.clone(), scratch.clone(), drive.clone());
+        for (mut state, mut scratch, drive) in [clones, (state, scratch, drive)] {
+            let most =
+                assert_no_alloc(|| (0..2000).map(|_| state.step(&model, &drive, &mut scratch).active).max());
+            assert!(most.is_some_and(|most| most > 50), "{most:?} contacts at once");
+        }
     }
 }

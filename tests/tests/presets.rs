@@ -167,7 +167,7 @@ fn what_is_wrong_with_a_change_is_named_by_its_keys() {
         ),
         ("neck = 1", "neck: invalid type: integer `1`, expected a table"),
         ("pickup = 1", "pickup: invalid type: integer `1`, expected a table"),
-        ("intonation = 3", "intonation: expected a text"),
+        ("intonation = 3", "intonation: invalid type: integer `3`, expected `compensated` or `physical`"),
         ("intonation = \"just\"", "intonation: unknown choice `just`"),
         ("name = 3", "name: invalid type: integer `3`, expected a text"),
         ("name = [1, 2]", "name: invalid type: list, expected a text"),

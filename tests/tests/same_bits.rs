@@ -1,10 +1,17 @@
-//! Promise: the same gestures give the same bits, in blocks of any size, on every run, after a reset, and whether or not
-//! strings are asked for by themselves or ledgers are kept.
+//! Promise: the same gestures give the same bits, in blocks of any size, on every run and every machine, after a reset, and
+//! whether or not strings are asked for by themselves or ledgers are kept.
 
 use low_action_dsp::{Gesture, Instrument, Quality, Scene, Setup, Simulation, TimedGesture};
 
 const RATE: f64 = 48_000.0;
 const SAMPLES: usize = 48_000;
+
+/// A string with all that a scene can have.
+const SCENE: &str = "sample_rate = 48000\nduration = 0.5\n[[string]]\nlength = 0.65\nlinear_density = 5.25e-3\n\
+    tension = 60.0\nyoungs_modulus = 2e11\ncore_radius = 4.3e-4\nloss_0 = 1.0\nloss_1 = 1e-4\n\
+    tension_modulation = true\n[fretboard]\nstiffness = 1e12\nexponent = 1.5\nboard = -0.002\nfrets = 12\n\
+    fret_top = -0.001\n[[pluck]]\nduration = 0.002\nposition = 0.5\nforce = -3.0\n[[finger]]\nmass = 5e-3\n\
+    stiffness = 1e8\nexponent = 2.0\nposition = 0.2\nheight = 1e-4\nforce = 6.0\nhand_damping = 5.0\n";
 
 fn instrument() -> Instrument {
     let setup = Setup::builtin("electric").expect("it is built in");
@@ -78,12 +85,7 @@ fn stems_do_not_change_the_mix() {
 
 #[test]
 fn with_and_without_the_ledger() {
-    let text = "sample_rate = 48000\nduration = 0.5\n[[string]]\nlength = 0.65\nlinear_density = 5.25e-3\n\
-        tension = 60.0\nyoungs_modulus = 2e11\ncore_radius = 4.3e-4\nloss_0 = 1.0\nloss_1 = 1e-4\n\
-        tension_modulation = true\n[fretboard]\nstiffness = 1e12\nexponent = 1.5\nboard = -0.002\nfrets = 12\n\
-        fret_top = -0.001\n[[pluck]]\nduration = 0.002\nposition = 0.5\nforce = -3.0\n[[finger]]\nmass = 5e-3\n\
-        stiffness = 1e8\nexponent = 2.0\nposition = 0.2\nheight = 1e-4\nforce = 6.0\nhand_damping = 5.0\n";
-    let scene = Scene::from_toml(text).expect("the scene is valid");
+    let scene = Scene::from_toml(SCENE).expect("the scene is valid");
     let run = |measured: bool| {
         let mut simulation = Simulation::new(&scene).expect("the scene can be built");
         if measured {
@@ -104,6 +106,28 @@ fn with_and_without_the_ledger() {
     assert!(render(&mut measured, 480) == render(&mut instrument(), 480));
     let closed = |string| measured.ledger(string).is_some_and(|ledger| ledger.put_in > 0.0);
     assert!((0..measured.string_count()).all(closed), "a ledger without an entry");
+}
+
+/// Numbers that were found once and are compared with since. Another compiler or processor must give the same; whoever
+/// changes the physics puts new ones here.
+#[test]
+fn on_every_machine() {
+    let scene = Scene::from_toml(SCENE).expect("the scene is valid");
+    let mut simulation = Simulation::new(&scene).expect("the scene can be built");
+    let mut moved = Vec::new();
+    for _ in 0..simulation.samples() {
+        simulation.step();
+        moved.push(simulation.output().to_bits());
+        moved.extend(simulation.string(0).state.displacement().map(f64::to_bits));
+    }
+    assert_eq!(format!("{:016x}", digest(moved)), "9c6ab403b8a86b37");
+    let heard = render(&mut instrument(), SAMPLES).into_iter().map(u64::from);
+    assert_eq!(format!("{:016x}", digest(heard)), "7e2fe8118788c21f");
+}
+
+/// A number that stands for many: FNV-1a, by words.
+fn digest(words: impl IntoIterator<Item = u64>) -> u64 {
+    words.into_iter().fold(0xCBF2_9CE4_8422_2325, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01B3))
 }
 
 /// Hosts may flush subnormal numbers to zero; there are none to flush, so that the bits do not depend on it.

@@ -80,7 +80,7 @@ fn values_out_of_range_are_refused() {
         ("length = 0.65", "length = 0.0", &["string[1].length = 0", "m"]),
         ("linear_density = 5.25e-3", "linear_density = -1", &["string[1].linear_density = -1", "kg/m"]),
         ("tension = 60.0", "tension = inf", &["string[1].tension = inf", "N"]),
-        ("tension = 60.0", "tension = []", &["string[1].tension", "at least one point"]),
+        ("tension = 60.0", "tension = []", &["string[1].tension", "at least one"]),
         (
             "tension = 60.0",
             "tension = [[1, 60], [0.5, 60]]",
@@ -200,6 +200,22 @@ fn what_is_not_a_scene_is_refused() {
             "duration = 0.01\nsolver.stencil = \"better\"",
             &["`better`", "`paper`, `corrected`, `wide`"],
         ),
+        (
+            "duration = 0.01",
+            "duration = 0.01\nsolver.stencil = 3",
+            &["line 4, solver.stencil", "integer `3`", "`paper`, `corrected`, `wide`"],
+        ),
+        (
+            "frets = 3",
+            "frets = 3\nfret_placement = []",
+            &["fret_placement", "list", "`exact`, `nearest`, `kinked`"],
+        ),
+        (
+            "loss_0 = 1.0",
+            "tension_modulation = 1",
+            &["tension_modulation", "integer `1`", "`true` or `false`"],
+        ),
+        ("loss_0 = 1.0", "shape = []", &["string[1].shape = []", "at least one"]),
         ("board = -0.002", "board = [[0, -0.001, 3]]", &["line 12, board", "length 3", "pair"]),
         ("loss_0", "\"\\u001b[31m\\n\\u0007\"", &["line 8", "unknown key"]),
     ];

@@ -29,7 +29,7 @@ fn built_in_setups_read() {
     assert_eq!(Setup::BUILTIN[0], "electric");
     assert_eq!(builtin("electric").neck.frets, 22);
     assert!(matches!(builtin("electric").pickup, Pickup::Magnetic { .. }));
-    assert!(matches!(builtin("steel").pickup, Pickup::Bridge));
+    assert!(matches!(builtin("steel").pickup, Pickup::Bridge {}));
     assert!(Setup::builtin("banjo").is_none());
 }
 
@@ -158,7 +158,7 @@ fn frequencies_follow_the_midi_tuning_standard() {
 
 #[test]
 fn wrong_setups_are_refused_in_one_line() {
-    let cases: [(&str, &str, &[&str]); 26] = [
+    let cases: [(&str, &str, &[&str]); 27] = [
         ("frets = 22", "frets = 99", &["neck.frets", "99"]),
         ("frets = 22", "fretz = 22", &["fretz"]),
         ("action = 0.0016", "action = 0.0001", &["neck.action", "1e-4"]),
@@ -181,9 +181,14 @@ fn wrong_setups_are_refused_in_one_line() {
         ("kind = \"magnetic\"", "kind = \"laser\"", &["laser"]),
         ("\"compensated\"", "\"just\"", &["unknown choice `just`", "physical"]),
         // What else is wrong with a text is said with its line, in words of the file.
-        ("\"compensated\"", "3", &["line 5, intonation: expected a text"]),
-        ("\"compensated\"", "[]", &["line 5, intonation: expected a text"]),
+        (
+            "\"compensated\"",
+            "3",
+            &["line 5, intonation: invalid type: integer `3`, expected `compensated` or `physical`"],
+        ),
+        ("\"compensated\"", "[]", &["line 5, intonation: invalid type: list, expected `compensated`"]),
         ("kind = \"magnetic\"", "kind = 3", &["kind: invalid type: integer `3`, expected a text"]),
+        ("kind = \"magnetic\"", "kind = \"bridge\"", &["unknown key `aperture`, there are no others"]),
         ("[neck]", "neck = 1\n[nock]", &["neck: invalid type: integer `1`, expected a table"]),
         ("[neck]", "[[neck]]", &["line 9, [[neck]]: there is only one: write [neck]"]),
     ];

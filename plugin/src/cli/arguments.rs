@@ -73,10 +73,10 @@ pub struct RenderArgs {
     /// Whether that is the set-up's first string, the highest on guitars, or its last [default: first_first].
     #[arg(long, value_name = "ORDER", value_parser = render::parse_choice::<StringOrder>())]
     pub string_order: Option<StringOrder>,
-    /// How far a full turn of the pitch wheel bends, 0 to 96 semitones, unless the song says so itself; in MPE it
-    /// is 48.
-    #[arg(long, value_name = "SEMITONES", default_value_t = EngineOptions::BEND_RANGE, value_parser = render::parse_bend)]
-    pub bend_range: f64,
+    /// How far a full turn of the pitch wheel bends, 0 to 96 semitones, unless the song says so itself [default: 2; in MPE
+    /// always 48].
+    #[arg(long, value_name = "SEMITONES", value_parser = render::parse_bend)]
+    pub bend_range: Option<f64>,
     /// Pass over what the song says of the bend range (registered parameter 0).
     #[arg(long)]
     pub ignore_rpn: bool,
@@ -114,8 +114,10 @@ the energies half a sample later.
   t                            s
   x_S, u_S                     m; places, and displacements over time and there
   u_finger_N                   m
+  tension_S                    N; what stretching adds included
   force_board_S, force_fret_S_F,
   force_finger_N               N
+  output                       m/s or N, as the scene's [output] asks
   iterations                   of the contact solver, all strings together
   energy_string, energy_tension,
   energy_contact, energy_finger

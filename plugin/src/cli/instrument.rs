@@ -29,7 +29,8 @@ pub(super) fn file(name: &str) -> Result<(PathBuf, String, Setup), Failure> {
 /// Where the file is that a name or a path means.
 fn path(name: &str) -> Result<PathBuf, Failure> {
     let path = PathBuf::from(name);
-    if path.exists() || path.components().count() > 1 {
+    // A folder is no set-up, whatever it is called.
+    if (path.exists() && !path.is_dir()) || path.components().count() > 1 {
         return Ok(path);
     }
     let installed = setups::installed();

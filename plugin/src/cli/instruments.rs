@@ -7,7 +7,7 @@ use low_action_dsp::Setup;
 
 use super::names::{escaped, shown};
 use super::unfinished::undisturbed;
-use super::{InstrumentsArgs, Outcome, say};
+use super::{Failure, InstrumentsArgs, Outcome, say};
 use crate::plugin::shelf::MOST_FILES;
 use crate::setups::{self, FOLDER_VARIABLE, SHIPPED};
 
@@ -18,6 +18,13 @@ pub(super) fn run(arguments: &InstrumentsArgs) -> Outcome {
     })?;
     if !arguments.install.is_empty() {
         let files = arguments.install.iter().map(|path| setups::check(path)).collect::<Result<Vec<_>>>()?;
+        for (index, file) in files.iter().enumerate() {
+            if let Some(other) = files[..index].iter().position(|other| other.name() == file.name()) {
+                let [one, two] = [other, index].map(|index| shown(&arguments.install[index]));
+                let name = escaped(file.name());
+                return Err(Failure::Usage(format!("{one} and {two} would both be installed as {name}")));
+            }
+        }
         // Told to stop meanwhile, it still installs them all: some would be neither what was nor what was asked for.
         for file in undisturbed(|_| setups::install(&files, &folder))? {
             say(&file.name, &format!("installed as {}", shown(&file.path)));

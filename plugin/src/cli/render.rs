@@ -35,16 +35,17 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     for warning in &song.warnings {
         say("warning", &warning.to_string());
     }
+    let bend_range = arguments.bend_range.unwrap_or(EngineOptions::BEND_RANGE);
     let options = EngineOptions {
         quality: arguments.quality,
         variation: arguments.variation,
         seed: arguments.seed,
-        bend_range: arguments.bend_range,
+        bend_range,
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
     let mut engine = Engine::new(&options).with_context(|| escaped(&arguments.instrument))?;
     engine.set_input(input);
-    let touching = Touching::new(arguments.variation, arguments.bend_range);
+    let touching = Touching::new(arguments.variation, bend_range);
     engine.touch(&Touching { ignore_rpn: arguments.ignore_rpn, ..touching });
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
     let output = output_path(arguments)?;
@@ -61,6 +62,10 @@ fn input_mode(arguments: &RenderArgs) -> Result<InputMode, Failure> {
     let RenderArgs { input, first_channel, string_order, .. } = arguments;
     let of_strings =
         [("--first-channel", first_channel.is_some()), ("--string-order", string_order.is_some())];
+    if arguments.bend_range.is_some() && *input == InputChoice::Mpe {
+        let reason = "--bend-range is not for --input mpe: there wheels reach 48 semitones, channel 1's 2, or what the song says";
+        return Err(Failure::Usage(reason.into()));
+    }
     match of_strings.into_iter().find(|&(_, given)| given && *input != InputChoice::Strings) {
         Some((option, _)) => Err(Failure::Usage(format!("{option} is only for --input strings"))),
         None => Ok(input.mode(first_channel.unwrap_or(1), string_order.unwrap_or(StringOrder::FirstFirst))),

@@ -1,7 +1,7 @@
 //! The `scene` command: a scene file computed into a WAV file, a trace and a picture.
 //!
 //! The result is checked as it is made: every sample must be finite and, where the energy ledger is
-//! open, the balance must close. The ledger takes as long as two to three times the step it measures,
+//! open, the balance must close. The ledger takes ten times as long as the step it measures, and more,
 //! so it is open when a trace or a picture is asked for, and when nothing is written at all; a run that only
 //! makes a WAV file goes without.
 

@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::simulation::SceneString;
 use low_action_dsp::{Entry, Simulation};
 
@@ -17,6 +18,7 @@ const LARGEST: u64 = 1_000_000_000_000;
 /// Where the numbers of one string go.
 struct StringArrays {
     displacement: usize,
+    tension: usize,
     board: Option<usize>,
     /// The first of its frets' arrays; the others follow.
     frets: usize,
@@ -57,6 +59,7 @@ struct Plan {
     arrays: Vec<Array>,
     strings: Vec<StringArrays>,
     fingers: Vec<FingerArrays>,
+    output: usize,
     iterations: usize,
     ledger: usize,
     rows: u64,
@@ -79,13 +82,14 @@ impl Plan {
             let points = string.model.grid.unknowns() as u64;
             array(format!("x_{number}"), Kind::Real, &[points]);
             let displacement = array(format!("u_{number}"), Kind::Real, &[rows, points]);
+            let tension = array(format!("tension_{number}"), Kind::Real, &[rows]);
             let board =
                 string.has_board().then(|| array(format!("force_board_{number}"), Kind::Real, &[rows]));
-            let frets = displacement + 1 + usize::from(board.is_some());
+            let frets = tension + 1 + usize::from(board.is_some());
             for fret in 1..=string.fret_count() {
                 array(format!("force_fret_{number}_{fret}"), Kind::Real, &[rows]);
             }
-            strings.push(StringArrays { displacement, board, frets });
+            strings.push(StringArrays { displacement, tension, board, frets });
             finger_numbers.extend(string.fingers().map(|finger| finger.number));
         }
         finger_numbers.sort_unstable();
@@ -94,12 +98,13 @@ impl Plan {
             force: array(format!("force_finger_{}", index + 1), Kind::Real, &[rows]),
         });
         let fingers = fingers.collect();
+        let output = array("output".into(), Kind::Real, &[rows]);
         let iterations = array("iterations".into(), Kind::Count, &[rows]);
         let ledger = iterations + 1;
         for (name, _) in LEDGER {
             array(name.into(), Kind::Real, &[rows]);
         }
-        Plan { arrays, strings, fingers, iterations, ledger, rows, every }
+        Plan { arrays, strings, fingers, output, iterations, ledger, rows, every }
     }
 
     /// Bytes of all numbers.
@@ -185,6 +190,7 @@ impl Trace {
             iterations += string.convergence.iterations;
             self.keep_forces(index, string)?;
         }
+        self.npz.add(self.plan.output, &[simulation.output()])?;
         self.npz.add_count(self.plan.iterations, iterations)?;
         for (array, (_, number)) in (self.plan.ledger..).zip(LEDGER) {
             self.npz.add(array, &[number(entry)])?;
@@ -194,6 +200,8 @@ impl Trace {
 
     fn keep_forces(&mut self, index: usize, string: &SceneString) -> io::Result<()> {
         let arrays = &self.plan.strings[index];
+        let tension = string.scratch.stiffness().tension + stretch_tension(&string.model, &string.scratch);
+        self.npz.add(arrays.tension, &[tension])?;
         if let Some(board) = arrays.board {
             self.npz.add(board, &[string.board_force()])?;
         }

@@ -7,7 +7,7 @@ use crate::performance::Performance;
 
 /// All that an engine needs to go on as another: built beforehand, where allocating does no harm, and given
 /// back with what it replaced.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Replacement {
     performance: Performance,
     instrument: Option<Box<Instrument>>,

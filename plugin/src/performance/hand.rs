@@ -81,7 +81,7 @@ pub(crate) struct Placement {
 }
 
 /// The left hand, with the scratch memory of its search.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct Hand {
     strings: Vec<Range>,
     highest_fret: usize,

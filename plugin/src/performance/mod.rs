@@ -58,7 +58,7 @@ pub struct Style {
 }
 
 /// A player with an instrument in hand.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Performance {
     strings: Vec<StringPlayer>,
     sample_rate: f64,

@@ -85,14 +85,19 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
 }
 
 fn measure(timed: bool) -> Result<Vec<Row>> {
+    let times = if timed {
+        eprintln!("times of all");
+        count::nanoseconds(CASES)?.into_iter().map(Some).collect()
+    } else {
+        vec![None; CASES.len()]
+    };
     CASES
         .iter()
+        .zip(times)
         .enumerate()
-        .map(|(index, case)| {
+        .map(|(index, (case, time))| {
             eprintln!("{} of {}: {}", index + 1, CASES.len(), case.name);
-            let instructions = count::instructions(case)?;
-            let time = timed.then(|| count::nanoseconds(case)).transpose()?;
-            Ok(Row { case, instructions, time })
+            Ok(Row { case, instructions: count::instructions(case)?, time })
         })
         .collect()
 }

@@ -12,9 +12,10 @@ use super::cases::Case;
 pub const WARM_UP: usize = 4800;
 /// Samples counted.
 const COUNTED: usize = 4800;
-/// Samples of one measurement of time, and how many there are; the fastest counts.
-const TIMED: usize = 9600;
-const TRIES: usize = 7;
+/// Samples of which the time is taken at once, how many such pieces a run has, and how many runs there are.
+const PIECE: usize = 2400;
+const PIECES: usize = 28;
+const RUNS: usize = 15;
 
 /// Runs a case for what is counted in it: nothing but the warm-up, or the samples to count as well.
 pub fn child(name: &str, count: bool) -> Result<()> {
@@ -93,15 +94,25 @@ fn summary(path: &Path) -> Result<f64> {
     bail!("callgrind wrote no summary")
 }
 
-/// Nanoseconds of a case per sample, the fastest of some tries.
-pub fn nanoseconds(case: &Case) -> Result<f64> {
-    let mut run = case.prepare()?;
-    run(WARM_UP);
-    let mut best = f64::INFINITY;
-    for _ in 0..TRIES {
-        let started = Instant::now();
-        run(TIMED);
-        best = best.min(started.elapsed().as_secs_f64() / TIMED as f64 * 1e9);
+/// Nanoseconds of each case per sample. All run in turn, a piece at a time, and of each piece the fastest of some runs
+/// counts: what else the machine does falls on all alike, and seldom on the same piece of every run.
+pub fn nanoseconds(cases: &[Case]) -> Result<Vec<f64>> {
+    let mut fastest = vec![[f64::INFINITY; PIECES]; cases.len()];
+    for _ in 0..RUNS {
+        let begun = |case: &Case| {
+            let mut run = case.prepare()?;
+            run(WARM_UP);
+            Ok(run)
+        };
+        let mut runs = cases.iter().map(begun).collect::<Result<Vec<_>>>()?;
+        for piece in 0..PIECES {
+            for (run, fastest) in runs.iter_mut().zip(&mut fastest) {
+                let started = Instant::now();
+                run(PIECE);
+                fastest[piece] = fastest[piece].min(started.elapsed().as_secs_f64());
+            }
+        }
     }
-    Ok(best)
+    let mean = |pieces: &[f64; PIECES]| pieces.iter().sum::<f64>() / (PIECES * PIECE) as f64;
+    Ok(fastest.iter().map(|pieces| 1e9 * mean(pieces)).collect())
 }
