@@ -29,11 +29,6 @@ impl Curve {
         }
     }
 
-    /// Whether the value is the same everywhere.
-    pub fn is_constant(&self) -> bool {
-        matches!(self, Curve::Constant(_))
-    }
-
     /// The largest value taken.
     pub fn largest(&self) -> f64 {
         match self {

@@ -178,7 +178,7 @@ fn low_pass(ratio: Ratio, half: usize) -> Vec<f64> {
     taps
 }
 
-/// The modified Bessel function I₀, by its series Σ ((x/2)ⁿ/n!)²; x is at most 10 here.
+/// The modified Bessel function I₀, by its series Σ ((x/2)ⁿ/n!)²; x is at most 10.2 here.
 fn bessel(x: f64) -> f64 {
     let (mut term, mut sum) = (1.0, 1.0);
     for n in 1..64 {
@@ -225,7 +225,7 @@ mod tests {
                 }
                 let (ripple, folded) = (20.0 * (1.0 + ripple).log10(), 20.0 * folded.log10());
                 println!("{halves}/2, {half}: {ripple:.1e} dB of ripple, {folded:.1} dB of what folds down");
-                assert!(ripple < 2e-4, "{halves}/2: {ripple} dB");
+                assert!(ripple < 1.2e-4, "{halves}/2: {ripple} dB");
                 assert!(folded < -REJECTION, "{halves}/2: {folded} dB");
             }
         }
@@ -283,7 +283,7 @@ mod tests {
             };
             let mirror = 20.0 * (level(0.5 * COUNT as f64 - bin) / level(bin)).log10();
             println!("{halves}/2, {bin}: mirror at {mirror:.1} dB");
-            assert!(mirror < -REJECTION, "{halves}/2, {bin}: {mirror} dB");
+            assert!(mirror < -110.0, "{halves}/2, {bin}: {mirror} dB");
         }
     }
 

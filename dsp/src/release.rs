@@ -11,7 +11,7 @@ impl State {
     ///
     /// The velocity at a sample is the mean of the motions that lead to it and from it. Were the string simply where it is a
     /// sample before, it would be released half a sample too early, and all that follows would be off by as much. A step
-    /// d⁺ = decay·d + q from d = 0 shows q, and d⁺ + d = 0 makes d = −q/(1 + decay); likewise for a finger that comes at a
+    /// d⁺ = decay·d + q from d = 0 shows q, and d⁺ + d = 0 makes d = −q/(1 + decay), but for the part of it that `loss_1` damps in that step; likewise for a finger that comes at a
     /// velocity. Allocates.
     pub(crate) fn let_go(&mut self, model: &Model, drive: &Drive) {
         let mut after = self.clone();

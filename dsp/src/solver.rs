@@ -180,7 +180,8 @@ fn solve(
         }
         gain = 0.5 * created;
         answer.product(room.residual, room.motion);
-        // |Mδ| of a full Newton step is at most |M R|.
+        // A full Newton step moves by Mδ, which is no more than M R in the norm of M; the largest number of it may be about twice
+        // that of M R.
         let error = largest(room.motion);
         if error <= settings.tolerance && work.abs() <= work_tolerance && gain <= scale.credit {
             break true;

@@ -1,5 +1,5 @@
 //! Promise: a lossy fretboard takes from a string that strikes it what its law says and books just that, never pulls,
-//! and leaves a string that rests pressed on a fret alone; one without damping is the paper's, bit for bit.
+//! and leaves a string that rests pressed on a fret alone; one that says nothing of damping has none.
 
 use std::f64::consts::PI;
 
@@ -184,7 +184,7 @@ fn a_string_that_rests_on_a_fret_rings_on() {
 }
 
 #[test]
-fn without_damping_it_is_the_papers() {
+fn damping_left_out_is_none() {
     let mut left_out = struck(0.2, 50, "");
     let mut none = struck(0.2, 50, "damping = 0.0\n");
     let mut least = struck(0.2, 50, "damping = 1e-9\n");

@@ -100,16 +100,21 @@ fn penetration_falls_with_stiffness_as_energy_has_it() {
 }
 
 /// The paper's K and exponent give micrometres: a grid point of mass ρh = 26 mg at the speeds that this pluck
-/// has, 1 to 2.5 m/s, sinks in by 1.3 to 2.3 µm. With an exponent of 1, and a rate at which so stiff a contact
-/// can still be told from rounding, the same energy is stored within 1e-9 m.
+/// has, 1 to 2.5 m/s, sinks in by 1.3 to 2.3 µm. With an exponent of 1, where the same K would be stored within 1e-9 m, a
+/// contact of 1.5e14 N/m is the steepest that is told from rounding at this rate, and not made softer.
 #[test]
 fn the_paper_s_limit_is_kept_with_another_exponent() {
     let grid = Simulation::new(&plucked(1.0)).expect("the scene can be built").string(0).model.grid;
     let depth = |speed: f64| (0.5 * 5.25e-3 * grid.spacing * speed * speed * 3.3 / 1e15).powf(1.0 / 3.3);
     let (paper, ..) = sink(&with_law(1e15, 2.3));
     assert!(paper > depth(1.0) && paper < depth(2.5), "{paper} m");
-    let (linear, ..) = sink(&Scene { sample_rate: 352_800.0, ..with_law(1e15, 1.0) });
-    assert!(linear < 1e-9, "{linear} m with an exponent of 1");
+    let scene = Scene { sample_rate: 352_800.0, ..with_law(1.5e14, 1.0) };
+    let simulation = Simulation::new(&scene).expect("the scene can be built");
+    let laws = simulation.string(0).model.contacts.iter().map(|contact| contact.law);
+    assert!(laws.clone().count() > 0);
+    laws.for_each(|law| assert_eq!(law.stiffness(), 1.5e14));
+    let (linear, ..) = sink(&scene);
+    assert!(linear < 2e-9, "{linear} m with an exponent of 1");
 }
 
 /// With losses the string no longer reaches the frets after a while.

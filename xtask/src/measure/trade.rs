@@ -7,6 +7,7 @@
 mod chord;
 mod errors;
 mod filter;
+mod frets;
 mod losses;
 mod picture;
 mod qualities;

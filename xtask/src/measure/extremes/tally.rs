@@ -146,7 +146,7 @@ impl Tally {
         for (reason, count) in &self.refused {
             row(&format!("refused: {reason}"), count.to_string());
         }
-        text += "\n| cap | trials | lost < 0.1 % | < 1 % | < 10 % | mean loss | iterations | fallbacks |\n";
+        text += "\n| cap | trials with contact | lost < 0.1 % | < 1 % | < 10 % | mean loss | iterations | fallbacks |\n";
         text += "|---|---|---|---|---|---|---|---|\n";
         let mut caps: Vec<_> =
             self.caps.iter().filter_map(|(cap, counts)| Some((cap.parse::<u64>().ok()?, counts))).collect();

@@ -6,7 +6,7 @@ use low_action_dsp::Quality;
 use super::scenes::{Kind, SCENES};
 use super::settings::{Axis, BASE, Setting, quality, settings};
 use super::table::{accuracy, cost, head, mean_load, plain};
-use super::{Outcome, losses};
+use super::{Outcome, frets, losses};
 
 /// Tables of the qualities and of single strings, under their headings.
 pub fn tables(outcomes: &[Outcome], chords: &[(Setting, f64)]) -> Result<String> {
@@ -24,6 +24,7 @@ pub fn tables(outcomes: &[Outcome], chords: &[(Setting, f64)]) -> Result<String>
         losses::table(outcomes)
     );
     text += &format!("\nThe light strings of `electric` stopped high on the neck:\n\n{}", high(outcomes));
+    text += &format!("\n### Frets\n\n{}", frets::tables(outcomes));
     Ok(text)
 }
 

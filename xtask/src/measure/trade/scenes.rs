@@ -7,9 +7,7 @@ use std::sync::LazyLock;
 use anyhow::{Context, Result};
 use low_action_dsp::curve::{CountOrList, Curve, OneOrEach};
 use low_action_dsp::intonation::finger_place;
-use low_action_dsp::scene::{
-    FingerSpec, FretPlacement, FretboardSpec, ListeningPoint, OutputSpec, PluckSpec, StringSpec,
-};
+use low_action_dsp::scene::{FingerSpec, FretboardSpec, ListeningPoint, OutputSpec, PluckSpec, StringSpec};
 use low_action_dsp::setup::{SetupString, frequency};
 use low_action_dsp::{Scene, Setup, Simulation};
 
@@ -255,7 +253,7 @@ fn fretboard(setup: &Setup, setting: &Setting) -> Result<FretboardSpec> {
         board: barrier.board,
         frets: CountOrList::List(barrier.frets.iter().map(|fret| fret[0]).collect()),
         fret_top: Some(OneOrEach::Each(barrier.frets.iter().map(|fret| fret[1]).collect())),
-        fret_placement: FretPlacement::Kinked,
+        fret_placement: setting.frets,
         board_reference_spacing: barrier.board_reference_spacing,
     })
 }

@@ -2,8 +2,10 @@
 
 use std::sync::LazyLock;
 
+use low_action_dsp::scene::FretPlacement;
 use low_action_dsp::{EngineSettings, Quality, Setup, SolverSettings, Stencil};
 
+use super::frets::placement_name;
 use super::scenes::Kind;
 
 /// One way to compute a scene.
@@ -23,6 +25,8 @@ pub struct Setting {
     pub exponent: Option<f64>,
     /// Damping of frets and board, s/m; without it the instrument's own.
     pub damping: Option<f64>,
+    /// Where frets act on the grid.
+    pub frets: FretPlacement,
     /// How contacts are computed.
     pub law: Law,
 }
@@ -45,6 +49,7 @@ pub const BASE: Setting = Setting {
     tolerance: 1e-12,
     exponent: None,
     damping: None,
+    frets: FretPlacement::Kinked,
     law: Law::Newton,
 };
 
@@ -72,16 +77,29 @@ pub enum Axis {
     String,
     /// Damping of frets, likewise.
     Loss,
+    /// Where frets act and how wide grids are, likewise.
+    Frets,
 }
 
 impl Axis {
     /// All of them.
-    pub const ALL: [Axis; 7] =
-        [Axis::Quality, Axis::Grid, Axis::Solver, Axis::Exponent, Axis::Law, Axis::String, Axis::Loss];
+    pub const ALL: [Axis; 8] = [
+        Axis::Quality,
+        Axis::Grid,
+        Axis::Solver,
+        Axis::Exponent,
+        Axis::Law,
+        Axis::String,
+        Axis::Loss,
+        Axis::Frets,
+    ];
 }
 
 /// Host rates at which qualities are measured, Hz.
 pub const HOSTS: [f64; 3] = [44.1e3, 48e3, 96e3];
+
+/// The widest grids on which frets are looked at, m: as they come at one step a sample, those of `live`, and finer ones.
+const SPACINGS: [f64; 3] = [f64::INFINITY, 9e-3, 6e-3];
 
 /// A quality at a host rate.
 pub fn quality(quality: Quality, rate: f64) -> Setting {
@@ -109,6 +127,11 @@ pub fn settings(axis: Axis) -> Vec<Setting> {
             let others = [Some(0.0), Some(0.1), None, Some(1.0), Some(3.0)];
             let at = |rate: f64| others.map(|damping| Setting { rate, damping, ..BASE });
             [&at(BASE.rate)[..], &at(REFERENCE.rate)[1..]].concat()
+        }
+        Axis::Frets => {
+            let of = |frets: FretPlacement| SPACINGS.map(|widest| Setting { frets, widest, ..BASE });
+            let lossless = Setting { frets: FretPlacement::Exact, damping: Some(0.0), ..BASE };
+            [&[lossless], &of(FretPlacement::Exact)[..], &of(FretPlacement::Kinked)].concat()
         }
         Axis::Grid => {
             let mut all = vec![grid(44.1e3, Wide)];
@@ -162,8 +185,11 @@ impl Setting {
                 among(Axis::String)
                     || self.rate == 48e3 && among(Axis::Quality)
                     || kind == Kind::EachBuzzing && among(Axis::Loss)
+                    || among(Axis::Frets) && (kind == Kind::EachBuzzing || self.damping.is_none())
             }
-            _ => Axis::ALL.into_iter().any(|axis| !matches!(axis, Axis::String | Axis::Loss) && among(axis)),
+            _ => Axis::ALL
+                .into_iter()
+                .any(|axis| !matches!(axis, Axis::String | Axis::Loss | Axis::Frets) && among(axis)),
         }
     }
 
@@ -202,6 +228,12 @@ impl Setting {
             }
             Axis::String => rate,
             Axis::Loss => format!("{} s/m, {rate}", self.damping.unwrap_or(*OWN_DAMPING)),
+            Axis::Frets => {
+                let loss = if self.damping == Some(0.0) { ", lossless" } else { "" };
+                let spacing =
+                    if self.widest.is_finite() { format!("{} mm", 1e3 * self.widest) } else { rate };
+                format!("{}{loss}, {spacing}", placement_name(self.frets))
+            }
             Axis::Grid => format!("{rate}, {}", stencil_name(self.stencil)),
             Axis::Solver => format!("{rate}, cap {}, {:e} m", self.cap, self.tolerance),
             Axis::Exponent => format!("{rate}, exponent {}", self.exponent.unwrap_or(1.5)),
