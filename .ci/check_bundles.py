@@ -1,4 +1,4 @@
-"""Fails unless both bundles are there and their libraries offer the formats' entry points."""
+"""Fails unless both bundles are there, their libraries offer the formats' entry points and notices are beside them."""
 
 import ctypes
 import pathlib
@@ -6,6 +6,9 @@ import platform
 import sys
 
 folder = pathlib.Path(sys.argv[1])
+notices = folder / "THIRD-PARTY.txt"
+if not notices.is_file() or "SIL OPEN FONT LICENSE" not in notices.read_text(encoding="utf-8"):
+    sys.exit(f"{notices} is missing, or has not all licences")
 # Where the two formats want the library, on Linux; elsewhere only the bundles' presence is checked.
 ENTRIES = {
     "Low Action.clap": (".", "clap_entry"),

@@ -55,6 +55,11 @@ impl Biquad {
         still
     }
 
+    /// As if a high-pass had heard this for ever: it gives nothing.
+    pub fn settle(&mut self, x: f64) {
+        self.state = [-self.b[0] * x, self.b[2] * x];
+    }
+
     /// Takes over another filter's past.
     pub fn take_over(&mut self, other: &Biquad) {
         self.state = other.state;

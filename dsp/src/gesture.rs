@@ -41,6 +41,12 @@ pub type FingerSlot = usize;
 /// of the hand that silences it, one of the hand that plucks it, and a capo.
 pub const FINGERS_PER_STRING: usize = 6;
 
+/// The largest force of a hand either way, N: as in scenes, and far below where differences of forces overflow.
+pub const MOST_FORCE: f64 = 1e6;
+
+/// The highest place for a finger over a string, m: as in scenes.
+pub const MOST_CLEARANCE: f64 = 10.0;
+
 /// Something a hand does to one string.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Gesture {
@@ -48,13 +54,13 @@ pub enum Gesture {
     Pluck {
         /// Place, m from the nut.
         position: f64,
-        /// Largest force, N, up is positive; 0 or more pushes away from the board.
+        /// Largest force, N, up is positive; 0 or more pushes away from the board. Left out above [`MOST_FORCE`].
         force: f64,
         /// Length of the push, s.
         duration: f64,
     },
     /// Puts a finger over the string, at rest, touching nothing. A finger already in that slot is
-    /// taken away first.
+    /// taken away first. What cannot be (a touch or clearance out of range, a slot that is not there) is left out.
     Place {
         /// Which finger.
         finger: FingerSlot,
@@ -62,7 +68,7 @@ pub enum Gesture {
         touch: Touch,
         /// Place, m from the nut.
         position: f64,
-        /// Height of the pad above the string's present displacement, m.
+        /// Height of the pad above the string's present displacement, m, up to [`MOST_CLEARANCE`]; below 0 is 0.
         clearance: f64,
     },
     /// Throws a finger at the string: over it as by `Place`, but already on its way to it.
@@ -82,7 +88,7 @@ pub enum Gesture {
     Press {
         /// Which finger.
         finger: FingerSlot,
-        /// Force at the end of the ramp, N, positive towards the board.
+        /// Force at the end of the ramp, N, positive towards the board. Left out above [`MOST_FORCE`].
         force: f64,
         /// Length of the ramp, s; 0 is at once.
         duration: f64,
@@ -100,7 +106,7 @@ pub enum Gesture {
     Lift {
         /// Which finger.
         finger: FingerSlot,
-        /// Force that pulls it up, N, above 0.
+        /// Force that pulls it up, N, above 0. Left out above [`MOST_FORCE`].
         force: f64,
         /// Length of the ramp from the present force, s.
         duration: f64,
@@ -134,7 +140,8 @@ pub struct TimedGesture {
 /// between two samples might not push at all; by means the string gets what the push gives, t_p/2 in all, wherever samples fall.
 pub fn pluck_push(since: f64, step: f64, duration: f64) -> f64 {
     let (from, to) = ((since - 0.5 * step).max(0.0), (since + 0.5 * step).min(duration));
-    if from >= to {
+    // Less than the smallest normal number has no inverse.
+    if from >= to || duration < 1e-300 {
         return 0.0;
     }
     // ∫cos over an interval is its length times cos(middle)·sin(x)/x, x half its length: no small difference of large numbers.

@@ -20,23 +20,26 @@ use crate::hands::Hands;
 use crate::instrument::{Instrument, heard};
 use crate::model::{Contact, ContactKind, Model};
 use crate::ramp::Ramp;
+use crate::scene::SolverSettings;
 use crate::state::State;
 
 /// The time in which one sound fades into the other, s.
 const FADE: f64 = 0.02;
 
 impl Instrument {
-    /// Puts `successor`, which must be built for the same sample rate, in the place of this instrument.
+    /// Puts `successor` in the place of this instrument. Whatever it has played before is forgotten first.
     /// If its strings are much the same the sound goes on; otherwise the old sound fades away and the new
     /// instrument is silent. Either way the sound is continuous, and nothing is allocated
     /// or given back: the old instrument stays inside until [`Instrument::take_before`] fetches it.
     ///
     /// # Errors
-    /// While the instrument before has not been fetched; `successor` comes back unused.
+    /// When `successor` is built for another sample rate, and while the instrument before has not been fetched; `successor`
+    /// comes back unused.
     pub fn hand_over(&mut self, mut successor: Box<Instrument>) -> Result<(), Box<Instrument>> {
-        if self.before.is_some() {
+        if self.before.is_some() || successor.sample_rate != self.sample_rate {
             return Err(successor);
         }
+        successor.reset();
         successor.now = self.now;
         successor.level.clone_from(&self.level);
         if self.continues_in(&successor) {
@@ -81,10 +84,11 @@ impl Instrument {
     }
 
     /// How exactly contacts are solved from the next sample on: Newton iterations at most, and the change
-    /// of penetration, m, at which they stop.
+    /// of penetration, m, at which they stop. Brought into their ranges in [`SolverSettings`]; what is no number counts as 0.
     pub fn set_effort(&mut self, max_iterations: usize, tolerance: f64) {
+        let tolerance = if tolerance > 0.0 { tolerance.min(SolverSettings::WIDEST_TOLERANCE) } else { 0.0 };
         for voice in &mut self.voices {
-            voice.model.settings.max_iterations = max_iterations;
+            voice.model.settings.max_iterations = max_iterations.min(SolverSettings::MOST_ITERATIONS);
             voice.model.settings.tolerance = tolerance;
         }
     }
@@ -95,6 +99,9 @@ impl Instrument {
     }
 
     /// The ledger of a string, if it was opened.
+    ///
+    /// # Panics
+    /// When there is no such string.
     pub fn ledger(&self, string: usize) -> Option<&Ledger> {
         self.voices[string].ledger.as_ref()
     }

@@ -1,7 +1,7 @@
 //! The hands on one string: gestures become the forces, places and tension of a [`Drive`].
 
 use crate::drive::{Drive, PUSHES, Push};
-use crate::gesture::{FINGERS_PER_STRING, Gesture, Touch, pluck_push};
+use crate::gesture::{FINGERS_PER_STRING, Gesture, MOST_CLEARANCE, MOST_FORCE, Touch, pluck_push};
 use crate::grid::Reading;
 use crate::model::Model;
 use crate::ramp::Ramp;
@@ -20,6 +20,12 @@ const FASTEST_THROW: f64 = 10.0;
 
 /// Least tension a bend may leave, as a part of the string's own.
 const LEAST_TENSION: f64 = 0.05;
+
+/// Whether a hand can have such a force, N. One that is no number, or becomes none on its way, would stay in the string for
+/// ever.
+fn is_possible(force: f64) -> bool {
+    force.abs() <= MOST_FORCE
+}
 
 /// A pluck under way.
 #[derive(Debug, Clone, Copy)]
@@ -117,7 +123,7 @@ impl Hands {
         };
         match gesture {
             Gesture::Pluck { position, force, duration } => {
-                if self.plucks.len() < PUSHES && force.is_finite() && duration.is_finite() {
+                if self.plucks.len() < PUSHES && is_possible(force) && duration.is_finite() {
                     let position = inside(position);
                     let reading = model.grid.reading(position);
                     self.plucks.push(Pluck {
@@ -137,8 +143,7 @@ impl Hands {
                 let speed = if speed > 0.0 { speed.min(FASTEST_THROW) } else { 0.0 };
                 self.put(finger, touch, inside(position), [clearance, speed], model, state);
             }
-            // A force that is no number would stay in the string for ever.
-            Gesture::Press { force, .. } | Gesture::Lift { force, .. } if !force.is_finite() => {}
+            Gesture::Press { force, .. } | Gesture::Lift { force, .. } if !is_possible(force) => {}
             Gesture::Press { finger, force, duration } => {
                 let samples = self.samples(duration);
                 if let Some(held) = self.finger(finger) {
@@ -182,7 +187,8 @@ impl Hands {
         model: &Model,
         state: &mut State,
     ) {
-        if slot >= FINGERS_PER_STRING || !touch.is_possible() {
+        let is_near = clearance <= MOST_CLEARANCE;
+        if slot >= FINGERS_PER_STRING || !touch.is_possible() || !is_near {
             return;
         }
         let reading = model.grid.reading(place);

@@ -102,31 +102,49 @@ impl Instrument {
     }
 
     /// What a player needs to know of a string.
+    ///
+    /// # Panics
+    /// When there is no such string.
     pub fn geometry(&self, string: usize) -> &StringGeometry {
         &self.voices[string].geometry
     }
 
     /// How many steps of a string a sample has.
+    ///
+    /// # Panics
+    /// When there is no such string.
     pub fn ratio(&self, string: usize) -> Ratio {
         self.voices[string].ratio()
     }
 
     /// The model of a string.
+    ///
+    /// # Panics
+    /// When there is no such string.
     pub fn model(&self, string: usize) -> &Model {
         &self.voices[string].model
     }
 
     /// The state of a string.
+    ///
+    /// # Panics
+    /// When there is no such string.
     pub fn state(&self, string: usize) -> &State {
         &self.voices[string].state
     }
 
     /// What acted on a string in its last step; a string at rest takes none.
+    ///
+    /// # Panics
+    /// When there is no such string.
     pub fn drive(&self, string: usize) -> &Drive {
         &self.voices[string].drive
     }
 
     /// The record of a string's last step.
+    ///
+    /// # Panics
+    /// When there is no such string.
     pub fn scratch(&self, string: usize) -> &Scratch {
         &self.voices[string].scratch
     }
@@ -137,6 +155,9 @@ impl Instrument {
     }
 
     /// What has happened to a string since [`Instrument::observe_anew`], while it is kept.
+    ///
+    /// # Panics
+    /// When there is no such string.
     pub fn observed(&self, string: usize) -> &Observed {
         &self.voices[string].observed
     }
@@ -156,20 +177,25 @@ impl Instrument {
         self.now
     }
 
-    /// Puts a gesture into the queue; one whose time is past happens at the next sample. Never allocates.
+    /// Puts a gesture into the queue; one whose time is past happens at the next sample, after those that wait for it already.
+    /// One for a string that is not there does nothing. Never allocates.
     ///
     /// # Errors
     /// When too many gestures wait; this one is then left out.
     pub fn schedule(&mut self, gesture: TimedGesture) -> Result<(), QueueFull> {
-        self.queue.push(gesture)
+        self.queue.push(TimedGesture { time: gesture.time.max(self.now), ..gesture })
     }
 
-    /// Renders the next samples in stereo. Both slices have the same length.
+    /// Renders the next samples in stereo: as many as the shorter of the two slices has.
     pub fn process(&mut self, left: &mut [f32], right: &mut [f32]) {
         self.process_stems(&mut [], left, right);
     }
 
-    /// The same samples, and each string's own, before pan, into as many of `stems` as there are.
+    /// The same samples, and each string's own, before pan, into as many of `stems` as there are; those without a string are
+    /// silent, but for what fades.
+    ///
+    /// # Panics
+    /// When a stem is shorter than the two channels.
     pub fn process_stems(&mut self, stems: &mut [&mut [f32]], left: &mut [f32], right: &mut [f32]) {
         let count = left.len().min(right.len());
         let mut done = 0;
@@ -192,6 +218,9 @@ impl Instrument {
                         *out = heard(*sample);
                     }
                 }
+            }
+            for stem in stems.iter_mut().skip(self.voices.len()) {
+                stem[done..done + run].fill(0.0);
             }
             for i in 0..run {
                 let [l, r] = self.stereo(i);

@@ -233,7 +233,10 @@ impl Behind {
     }
 }
 
-/// Where a finger presses to stop the fret of index `fret`, m from the nut.
+/// Where a finger presses to stop the fret of index `fret`, 0 for the first, m from the nut.
+///
+/// # Panics
+/// When there is no such fret.
 pub fn finger_place(frets: &[f64], fret: usize, behind: Behind) -> f64 {
     let below = if fret == 0 { 0.0 } else { frets[fret - 1] };
     frets[fret] - behind.distance(frets[fret] - below)

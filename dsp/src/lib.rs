@@ -24,6 +24,57 @@
 //! transcendental on the signal path comes from `libm`, sums have a fixed order and there is no fused
 //! multiply-add, so that the same description gives the same bits on every machine.
 //!
+//! # A scene and an instrument
+//!
+//! ```
+//! use low_action_dsp::{Scene, Simulation};
+//!
+//! let scene = Scene::from_toml(
+//!     "sample_rate = 88200
+//!      duration = 0.1
+//!      [[string]]
+//!      length = 0.65
+//!      linear_density = 5.25e-3
+//!      tension = 60.0
+//!      [[pluck]]
+//!      duration = 0.002
+//!      position = 0.52
+//!      force = -1.0",
+//! )?;
+//! let mut simulation = Simulation::new(&scene)?;
+//! simulation.open_ledger();
+//! let mut sound = Vec::new();
+//! for _ in 0..simulation.samples() {
+//!     let entry = simulation.step().expect("the ledger is open");
+//!     assert!(entry.residual.abs() < 1e-14); // J
+//!     sound.push(simulation.output()); // the force on the bridge, N
+//! }
+//! assert!(simulation.ledgers()[0].put_in > 1e-4); // J, by the pluck
+//! # Ok::<(), low_action_dsp::Error>(())
+//! ```
+//!
+//! ```
+//! use low_action_dsp::{Gesture, Instrument, Quality, Setup, TimedGesture};
+//!
+//! let setup = Setup::builtin("electric").expect("it is built in");
+//! let mut instrument = Instrument::new(&setup, &Quality::Live.settings(48e3))?;
+//! let geometry = instrument.geometry(0);
+//! let (fretting, place) = (&setup.player.fretting, geometry.finger_position(5));
+//! let pluck = Gesture::Pluck { position: geometry.length - 0.12, force: 1.0, duration: 1.5e-3 };
+//! let gestures = [
+//!     (0, Gesture::Place { finger: 0, touch: fretting.touch, position: place, clearance: 1e-4 }),
+//!     (0, Gesture::Press { finger: 0, force: fretting.force, duration: 0.004 }),
+//!     (480, pluck),
+//! ];
+//! for (time, gesture) in gestures {
+//!     instrument.schedule(TimedGesture { time, string: 0, gesture }).expect("there is room");
+//! }
+//! let (mut left, mut right) = (vec![0.0; 4800], vec![0.0; 4800]);
+//! instrument.process(&mut left, &mut right);
+//! assert!(left.iter().any(|sample| sample.abs() > 0.01));
+//! # Ok::<(), low_action_dsp::Error>(())
+//! ```
+//!
 //! The derivation is in `docs/physics.md`, the contact solver in `docs/solver.md`, the files in
 //! `docs/formats.md` of the repository.
 //!

@@ -57,6 +57,11 @@ impl Observed {
         self.looking = looking;
     }
 
+    /// Whether somebody looks.
+    pub(crate) fn is_looking(&self) -> bool {
+        self.looking
+    }
+
     /// Forgets what has been looked at.
     pub(crate) fn begin_anew(&mut self, state: &State) {
         for ((lowest, highest), now) in

@@ -81,6 +81,8 @@ struct Ear {
     share: f64,
     coil: Biquad,
     block: Biquad,
+    /// Whether what it hears first has been there for ever: the force of a string that is pressed is no thump.
+    begins: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -129,12 +131,17 @@ impl Listener {
         self.ears.iter_mut().flatten().all(Ear::is_still)
     }
 
-    /// Takes over what the filters of another listener remember.
+    /// Takes over what the filters of another listener remember, each from one that has heard the same.
     pub fn take_over(&mut self, old: &Listener) {
-        for (ear, old) in self.ears.iter_mut().zip(&old.ears) {
-            if let (Some(ear), Some(old)) = (ear, old) {
-                ear.coil.take_over(&old.coil);
-                ear.block.take_over(&old.block);
+        for ear in self.ears.iter_mut().flatten() {
+            let same =
+                |old: &&Ear| std::mem::discriminant(&old.source) == std::mem::discriminant(&ear.source);
+            match old.ears.iter().flatten().find(same) {
+                Some(old) => {
+                    ear.coil.take_over(&old.coil);
+                    ear.block.take_over(&old.block);
+                }
+                None => ear.begins = true,
             }
         }
     }
@@ -144,6 +151,7 @@ impl Listener {
         for ear in self.ears.iter_mut().flatten() {
             ear.coil.reset();
             ear.block.reset();
+            ear.begins = false;
         }
     }
 }
@@ -152,7 +160,9 @@ impl Ear {
     fn new(pickup: &Pickup, share: f64, model: &Model, sample_rate: f64) -> Self {
         let block = Biquad::high_pass(LOWEST, sample_rate);
         match *pickup {
-            Pickup::Bridge {} => Ear { source: Source::Bridge, share, coil: Biquad::through(), block },
+            Pickup::Bridge {} => {
+                Ear { source: Source::Bridge, share, coil: Biquad::through(), block, begins: false }
+            }
             Pickup::Magnetic { position, aperture, resonance, quality } => {
                 let end = model.grid.length;
                 let middle = end - position;
@@ -166,7 +176,7 @@ impl Ear {
                 let weights =
                     cells.map(|cell| (cell, sum[cell])).filter(|(_, weight)| *weight != 0.0).collect();
                 let coil = Biquad::resonance(resonance, quality, sample_rate);
-                Ear { source: Source::Coil(weights), share, coil, block }
+                Ear { source: Source::Coil(weights), share, coil, block, begins: false }
             }
         }
     }
@@ -177,11 +187,17 @@ impl Ear {
             Source::Bridge => bridge_force(model, scratch),
             Source::Coil(weights) => weights.iter().map(|&(cell, weight)| state.motion[cell] * weight).sum(),
         };
-        self.share * self.block.next(self.coil.next(signal))
+        let signal = self.coil.next(signal);
+        if self.begins {
+            self.block.settle(signal);
+            self.begins = false;
+        }
+        self.share * self.block.next(signal)
     }
 
     #[inline]
     fn hear_nothing(&mut self) -> f64 {
+        self.begins = false;
         if self.is_still() {
             return 0.0;
         }

@@ -66,6 +66,13 @@ pub struct SolverSettings {
     pub stencil: Stencil,
 }
 
+impl SolverSettings {
+    /// The most iterations that may be asked for.
+    pub const MOST_ITERATIONS: usize = 1000;
+    /// The widest tolerance, m.
+    pub const WIDEST_TOLERANCE: f64 = 1e-3;
+}
+
 impl Default for SolverSettings {
     fn default() -> Self {
         SolverSettings { max_iterations: 50, tolerance: 1e-15, stencil: Stencil::Paper }

@@ -192,6 +192,9 @@ impl State {
     ///
     /// # Errors
     /// When the place is off the string or the pad too stiff for this rate.
+    ///
+    /// # Panics
+    /// When the model has no such slot.
     pub fn place_finger(
         &mut self,
         model: &Model,
@@ -215,6 +218,9 @@ impl State {
     }
 
     /// Takes the finger in a slot away.
+    ///
+    /// # Panics
+    /// When the model has no such slot.
     pub fn remove_finger(&mut self, slot: usize) {
         self.finger_changes += u64::from(self.fingers[slot].is_some());
         self.fingers[slot] = None;

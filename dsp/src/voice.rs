@@ -219,7 +219,10 @@ impl Voice {
         self.hands.take_over(&old.hands, &self.model, &old.model);
         self.listener.take_over(&old.listener);
         self.decimator.take_over(&old.decimator);
+        self.observed.look(old.observed.is_looking(), &self.state);
         if self.asleep {
+            // Nobody heard the old tension, and no ramp runs while nothing moves.
+            self.hands.tension = Ramp::at(self.hands.tension.goal());
             return self.rebook();
         }
         self.state.take_over(&self.model, &old.state, &old.model);
@@ -243,6 +246,7 @@ impl Voice {
         self.asleep = true;
         self.run = [0.0; RUN];
         self.silent = true;
+        self.observed.begin_anew(&self.state);
         self.rebook();
     }
 }

@@ -37,7 +37,7 @@ pub const INAUDIBLE: f64 = 1e-6;
 pub struct EngineOptions {
     /// The instrument and its player.
     pub setup: Setup,
-    /// Sample rate, Hz, 8,000 to 384,000.
+    /// Sample rate, Hz, 8e3 to 1e6.
     pub sample_rate: f64,
     /// How much computing.
     pub quality: Quality,
@@ -150,7 +150,7 @@ impl Engine {
     }
 
     /// Has contacts solved so exactly from the next sample on: Newton iterations at most, and the change of
-    /// penetration, m, at which they stop.
+    /// penetration, m, at which they stop, each brought into its range.
     pub fn set_effort(&mut self, max_iterations: usize, tolerance: f64) {
         self.instrument.set_effort(max_iterations, tolerance);
     }
@@ -223,7 +223,7 @@ impl Engine {
         self.instrument.observe_anew();
     }
 
-    /// Largest size of the sound over the last 50 ms, 1 is full scale; for the end of tails.
+    /// Largest size of the sound over the last 50 to 100 ms, 1 is full scale; for the end of tails.
     pub fn level(&self) -> f64 {
         self.instrument.level()
     }

@@ -1,4 +1,24 @@
-//! Low Action.
+//! Low Action, as it is played: notes become gestures, gestures become sound.
+//!
+//! ```text
+//! MIDI file ─> midi_file ────┐                                                    ┌─> cli (files)
+//! host ─> plugin (events) ───┼─> engine: performance ─gestures─> dsp::Instrument ─┼─> plugin (CLAP, VST3)
+//! editor (mouse, keys) ──────┘      ^                                             └─> standalone (devices)
+//! params ─> plugin/order ───────────┴─ controls at once; set-ups compiled by plugin/workshop, then handed over
+//! ```
+//!
+//! - [`performance`] is the player: on which string and fret a note is played, and what the fingers do for it.
+//! - [`engine`] is a player with an instrument: what commands, plugins and the stand-alone program all play.
+//! - [`params`] are the knobs, [`controls`] what of them needs no other coefficients.
+//! - [`plugin`] is what hosts see, [`cli`] the commands, [`setups`] users' own files; the editor draws what [`display`] is told.
+//!
+//! | to add or change | where, in `plugin/src` unless it says otherwise |
+//! |---|---|
+//! | what a note, pedal or controller does | `performance`: `control.rs` (messages), `string/` (fingers), `chord.rs` (who plays what); `docs/gestures.md` |
+//! | a parameter | `params.rs`, its range in `params/ranges.rs`, its words in `params/words.rs`, what it asks for in `plugin/order.rs`; `docs/plugin.md` |
+//! | a set-up that comes with the program | `dsp/instruments/presets` and `dsp/src/preset.rs`, a phrase in `plugin/examples/compose_music`; `docs/formats.md` |
+//! | a command or an option | `cli/arguments.rs`, then the command's own file |
+//! | a control of the editor | `editor/panels`; `docs/editor.md` |
 
 pub mod cli;
 pub mod controls;

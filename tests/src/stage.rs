@@ -1,7 +1,7 @@
 //! A player with an instrument in hand and nothing between them, so that what hands do, what strings do and
 //! what is heard can be seen together.
 
-use low_action::performance::{InputMode, Performance, PlayerEvent};
+use low_action::performance::{Performance, PlayerEvent};
 use low_action_dsp::{Instrument, Quality, Setup, TimedGesture};
 
 use crate::hands::{EXACT, RATE, strings};
@@ -42,12 +42,6 @@ impl Stage {
         let setup = Setup::shipped(setup).expect("it comes with the program");
         let spec = setup.string[string].clone();
         Self::new(&Setup { string: vec![spec], ..setup })
-    }
-
-    /// The same with channels that mean something else.
-    pub fn with_input(mut self, input: InputMode) -> Self {
-        self.performance.set_input(input);
-        self
     }
 
     /// Plays events (seconds, in order) for so many seconds from the start.

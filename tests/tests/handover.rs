@@ -145,6 +145,101 @@ fn strings_that_are_tuned_ring_on() {
     }
 }
 
+/// Whoever is put under silent strings plays as if it had been there from the beginning.
+#[test]
+fn silent_strings_are_tuned_at_once() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let tuned = changed(&setup, 1.0, 1.0, 0.0, -2.0);
+    let after = |mut instrument: Instrument, next: Option<Instrument>| {
+        let mut sound = Vec::new();
+        play(&mut instrument, 4800, &mut sound);
+        if let Some(next) = next {
+            assert!(instrument.hand_over(Box::new(next)).is_ok());
+        }
+        play(&mut instrument, 4800, &mut sound);
+        strike(&mut instrument, &tuned);
+        play(&mut instrument, 9600, &mut sound);
+        sound
+    };
+    let expected = after(build(&tuned), None);
+    assert!(peak(&expected) > 0.01, "nothing sounds");
+    assert!(after(build(&setup), Some(build(&tuned))) == expected, "the old tension is heard");
+}
+
+/// One that has played already comes back in silence.
+#[test]
+fn an_instrument_that_comes_back_remembers_nothing() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let mut instrument = build(&setup);
+    strike(&mut instrument, &setup);
+    let mut sound = Vec::new();
+    play(&mut instrument, 4800, &mut sound);
+    let silent = Box::new(build(&Setup::builtin("bass").expect("it is built in")));
+    assert!(instrument.hand_over(silent).is_ok());
+    play(&mut instrument, 4800, &mut sound);
+    let electric = instrument.take_before().expect("it has faded");
+    assert!(instrument.hand_over(electric).is_ok());
+    let mut rest = Vec::new();
+    play(&mut instrument, 4800, &mut rest);
+    assert_eq!(peak(&rest), 0.0);
+}
+
+#[test]
+fn an_instrument_of_another_rate_is_given_back() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let other = Instrument::new(&setup, &Quality::Live.settings(96_000.0)).expect("it can be built");
+    let refused = build(&setup).hand_over(Box::new(other)).expect_err("it is of another rate");
+    assert_eq!(refused.sample_rate(), 96_000.0);
+}
+
+/// With fewer strings the outputs of those that are gone fade like the rest, and are silent then.
+#[test]
+fn outputs_of_strings_that_are_gone_fade() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let mut instrument = build(&setup);
+    strike(&mut instrument, &setup);
+    let mut sound = Vec::new();
+    play(&mut instrument, 12_000, &mut sound);
+    assert!(instrument.hand_over(Box::new(build(&Setup::builtin("bass").expect("it is built in")))).is_ok());
+    let mut stems = vec![vec![1.0_f32; 2400]; 8];
+    let (mut left, mut right) = (vec![0.0; 2400], vec![0.0; 2400]);
+    let mut slices: Vec<&mut [f32]> = stems.iter_mut().map(Vec::as_mut_slice).collect();
+    instrument.process_stems(&mut slices, &mut left, &mut right);
+    for stem in [4, 5] {
+        assert!(peak(&stems[stem][..480]) > 1e-4, "string {stem} is cut off");
+    }
+    for (index, stem) in stems.iter().enumerate() {
+        assert_eq!(peak(&stem[960..]), 0.0, "string {index}");
+    }
+}
+
+/// A pickup that comes in over pressed strings hears their force as what has been there all along.
+#[test]
+fn a_bridge_that_is_blended_in_does_not_thump() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let blended = Setup { blend: 1.0, ..setup.clone() };
+    let mut instrument = build(&setup);
+    for string in 0..instrument.string_count() {
+        let position = instrument.geometry(string).finger_position(12);
+        let touch = setup.player.fretting.touch;
+        for gesture in [
+            Gesture::Place { finger: 0, touch, position, clearance: 1e-4 },
+            Gesture::Press { finger: 0, force: setup.player.fretting.force, duration: 0.004 },
+        ] {
+            instrument.schedule(TimedGesture { time: 0, string, gesture }).expect("there is room");
+        }
+    }
+    let mut before = Vec::new();
+    // Until what the fingers have set off has died away.
+    play(&mut instrument, 480_000, &mut before);
+    assert!(instrument.hand_over(Box::new(build(&blended))).is_ok());
+    let mut after = Vec::new();
+    play(&mut instrument, 9600, &mut after);
+    println!("{:.1e} of full scale", peak(&after));
+    // The constant force itself would be 0.2 at fret 12 of a high E, its thump a tenth of that.
+    assert!(peak(&after) < 1e-3, "{:e}", peak(&after));
+}
+
 #[test]
 fn another_instrument_begins_in_silence() {
     let setup = Setup::builtin("electric").expect("it is built in");
@@ -184,14 +279,27 @@ fn nothing_is_allocated() {
     assert!(before.0.is_ok() && before.1.is_some());
 }
 
+/// What set-ups are made from: those built in and some of other lengths, numbers of strings and necks.
+const BASES: [&str; 9] = [
+    "electric",
+    "classical",
+    "steel",
+    "bass",
+    "baritone",
+    "drop-d",
+    "ukulele",
+    "five-string-bass",
+    "fretless-bass",
+];
+
 /// A set-up out of numbers from 0 to 1.
 fn any_setup(which: usize, numbers: &[f64]) -> Setup {
-    let mut setup = Setup::builtin(Setup::BUILTIN[which]).expect("it is built in");
+    let mut setup = Setup::shipped(BASES[which]).expect("it comes with the program");
     setup.neck.nut_clearance = 5e-5 + 1e-3 * numbers[0];
     setup.neck.action = setup.neck.nut_clearance + 5e-3 * numbers[1];
     setup.neck.relief = (1e-3 * numbers[2]).min(setup.neck.most_relief());
     setup.neck.fret_height = 2e-3 * numbers[3];
-    setup.tuning = 0.5 * numbers[4] - 0.25;
+    setup.tuning = 10.0 * numbers[4] - 5.0;
     setup.tension_modulation = numbers[5] > 0.3;
     setup.blend = numbers[6];
     for string in &mut setup.string {
@@ -206,18 +314,26 @@ proptest! {
 
     #[test]
     fn the_ledger_closes(
-        which in 0_usize..3,
+        bases in proptest::collection::vec(0..BASES.len(), 2),
         setups in proptest::collection::vec(proptest::collection::vec(0.0..1.0_f64, 9), 3),
         samples in 300_usize..3000,
     ) {
-        let setups: Vec<Setup> = setups.iter().map(|numbers| any_setup(which, numbers)).collect();
+        // Once much the same strings, once perhaps others.
+        let bases = [bases[0], bases[0], bases[1]];
+        let setups: Vec<Setup> = bases.iter().zip(&setups).map(|(base, numbers)| any_setup(*base, numbers)).collect();
         let mut instrument = build(&setups[0]);
         instrument.open_ledgers();
         strike(&mut instrument, &setups[0]);
         let mut sound = Vec::new();
         play(&mut instrument, samples, &mut sound);
         for setup in &setups[1..] {
+            prop_assert!(peak(&sound[sound.len() - samples.min(300)..]) > 0.0, "nothing is handed over");
             prop_assert!(instrument.hand_over(Box::new(build(setup))).is_ok());
+            if instrument.ledger(0).is_none() {
+                // Other strings, which begin at rest.
+                instrument.open_ledgers();
+                strike(&mut instrument, setup);
+            }
             play(&mut instrument, samples.max(960), &mut sound);
             instrument.take_before();
         }

@@ -49,6 +49,53 @@ fn forces_that_are_no_numbers() {
     }
 }
 
+/// No number on its own, but a difference of two such forces is none.
+#[test]
+fn forces_beyond_all_hands() {
+    for force in [1e7, 1e308, -1e308] {
+        assert_left_out(Gesture::Press { finger: FINGER, force, duration: 0.01 });
+        assert_left_out(Gesture::Lift { finger: FINGER, force, duration: 0.01 });
+        assert_left_out(Gesture::Pluck { position: 0.3, force, duration: 0.01 });
+    }
+    // And so is a push of less than any time.
+    assert_left_out(Gesture::Pluck { position: 0.3, force: 1.0, duration: 1e-310 });
+}
+
+#[test]
+fn fingers_that_would_never_arrive() {
+    for clearance in [f64::NAN, f64::INFINITY, 1e3] {
+        assert_left_out(Gesture::Place { finger: FINGER, touch: PAD, position: 0.3, clearance });
+        let thrown = Gesture::Throw { finger: FINGER, touch: PAD, position: 0.3, clearance, speed: 2.0 };
+        assert_left_out(thrown);
+    }
+}
+
+/// One whose time is past happens at the next sample, behind those that wait for it.
+#[test]
+fn late_gestures_keep_their_order() {
+    let setup = Setup::builtin("electric").expect("built in");
+    let settings = Quality::Live.settings(RATE);
+    let heard = |late: u64| {
+        let mut instrument = Instrument::new(&setup, &settings).expect("it can be built");
+        let (mut left, mut right) = (vec![0.0; 4800], vec![0.0; 4800]);
+        instrument.process(&mut left, &mut right);
+        let now = instrument.now();
+        let position = instrument.geometry(0).finger_position(5);
+        let gestures = [
+            (now, Gesture::Place { finger: FINGER, touch: PAD, position, clearance: 1e-4 }),
+            (late, Gesture::Press { finger: FINGER, force: 5.0, duration: 0.002 }),
+            (now + 480, Gesture::Pluck { position: 0.5, force: 0.8, duration: 0.003 }),
+        ];
+        for (time, gesture) in gestures {
+            instrument.schedule(TimedGesture { time, string: 0, gesture }).expect("there is room");
+        }
+        instrument.process(&mut left, &mut right);
+        left
+    };
+    assert!(heard(4800).iter().any(|sample| sample.abs() > 1e-3), "nothing sounds");
+    assert!(heard(4800) == heard(0), "the late press is lost");
+}
+
 #[test]
 fn fingers_that_cannot_be() {
     let wrong = NUMBERS.into_iter().chain([0.0, -1.0]);

@@ -48,9 +48,13 @@ fn closes(scene: &str, stencil: &str) -> Vec<Ledger> {
         let scene = Scene::from_toml(&text).expect("the scene is valid");
         let mut simulation = Simulation::new(&scene).expect("the scene can be built");
         simulation.open_ledger();
+        let mut touched = 0;
         for _ in 0..simulation.samples() {
             simulation.step();
+            touched += u64::from(simulation.string(0).convergence.active > 0);
         }
+        let can_touch = scene.fretboard.is_some() || !scene.finger.is_empty();
+        assert_eq!(touched > 0, can_touch, "{touched} samples have contacts");
         let ledger = simulation.ledgers()[0].clone();
         let sum = ledger.residual_sum.abs() / ledger.largest;
         println!("cap {cap:2}: worst {:.2e}, sum {sum:.2e}", ledger.worst_residual);

@@ -9,10 +9,12 @@ const STIFFNESSES: [f64; 4] = [1e10, 1e13, 1e15, 1e20];
 const CAPS: [usize; 6] = [0, 1, 2, 4, 8, 50];
 const RATES: [f64; 4] = [22_050.0, 44_100.0, 96_000.0, 192_000.0];
 
-/// What a run came to: the largest excess over what was put in, and what the solver took away at most.
+/// What a run came to: the largest excess over what was put in, what the solver took away at most, and how many samples
+/// had contacts.
 struct Outcome {
     excess: f64,
     solver_loss: f64,
+    touched: u64,
 }
 
 fn run(text: &str) -> Outcome {
@@ -20,7 +22,7 @@ fn run(text: &str) -> Outcome {
     let mut simulation = Simulation::new(&scene).expect("the scene can be built");
     simulation.open_ledger();
     let mut excess = 0.0f64;
-    let mut solver_loss = 0.0;
+    let (mut solver_loss, mut touched) = (0.0, 0);
     let step = 1.0 / scene.sample_rate;
     for _ in 0..simulation.samples() {
         let entry = simulation.step().expect("the ledger is open");
@@ -29,10 +31,11 @@ fn run(text: &str) -> Outcome {
         let ledger = &simulation.ledgers()[0];
         excess = largest([excess, (total - ledger.put_in) / largest([ledger.largest, f64::MIN_POSITIVE])]);
         solver_loss += step * entry.power_solver;
+        touched += u64::from(simulation.string(0).convergence.active > 0);
     }
     let state = &simulation.string(0).state;
     assert!(state.displacement().all(f64::is_finite), "not finite in {text}");
-    Outcome { excess, solver_loss: solver_loss / simulation.ledgers()[0].largest }
+    Outcome { excess, solver_loss: solver_loss / simulation.ledgers()[0].largest, touched }
 }
 
 /// Runs a scene at every stiffness, cap and rate. `{K}` in it stands for the stiffness.
@@ -54,6 +57,8 @@ fn passive_everywhere(scene: &str, duration: f64) {
                     "K {stiffness:e}, cap {cap}, {rate} Hz: {:e} over what was put in",
                     outcome.excess
                 );
+                // What is promised is about contacts.
+                assert!(outcome.touched > 10, "K {stiffness:e}, cap {cap}, {rate} Hz: nothing touches");
             }
             println!(
                 "{rate:6} Hz, cap {cap:2}: excess at most {worst:.1e}, solver took {:.1} %",

@@ -418,4 +418,11 @@ fn every_example_runs() {
         count += 1;
     }
     assert!(count >= 11);
+    // So is the one in the description of the files.
+    let page = fs::read_to_string(folder.join("../docs/formats.md")).unwrap();
+    let (_, rest) = page.split_once("```toml\n").unwrap();
+    place.write("scene.toml", rest.split_once("```").unwrap().0);
+    let done = place.run(&["scene", "scene.toml"]);
+    assert_eq!(done.code, 0, "{}", done.error);
+    assert!(!done.error.contains("stretching: "), "{}", done.error);
 }

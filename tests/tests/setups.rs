@@ -4,6 +4,7 @@
 use low_action_dsp::intonation::{finger_place, intonate};
 use low_action_dsp::setup::{Intonation, Pickup, frequency};
 use low_action_dsp::{Instrument, Model, Quality, Setup, SolverSettings, Stencil};
+use low_action_tests::numbers::largest;
 
 const RATE: f64 = 48_000.0;
 
@@ -278,7 +279,7 @@ fn nothing_stands_above_the_strings() {
         let instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).unwrap();
         for string in 0..setup.string.len() {
             let highest = instrument.model(string).contacts.iter().map(|contact| contact.height);
-            assert!(highest.fold(f64::NEG_INFINITY, f64::max) <= -1e-5, "{text}");
+            assert!(largest(highest) <= -1e-5, "{text}");
         }
     }
 }

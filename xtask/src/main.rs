@@ -4,6 +4,7 @@
 
 mod figures;
 mod hosts;
+mod notices;
 
 use std::process::ExitCode;
 
@@ -50,7 +51,8 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "bundle",
         arguments: "low-action [--release] [cargo build options]",
-        summary: "builds the plugin and lays out target/bundled/Low Action.clap and Low Action.vst3",
+        summary: "builds the plugin and lays out target/bundled/Low Action.clap and Low Action.vst3, with the notices of \
+                  the libraries in them",
         examples: &["low-action --release", "low-action --release --no-default-features"],
         run: |arguments| bundle("bundle", arguments),
     },
@@ -85,9 +87,11 @@ const COMMANDS: &[Command] = &[
     },
 ];
 
-/// Hands a bundling command to the plugin framework, which reads `bundler.toml`.
+/// Hands a bundling command to the plugin framework, which reads `bundler.toml`; then puts the notices of what is in the
+/// bundles beside them.
 fn bundle(name: &str, arguments: Arguments) -> Result<()> {
-    nice_plug_xtask::main_with_args("cargo xtask", std::iter::once(name.to_owned()).chain(arguments))
+    nice_plug_xtask::main_with_args("cargo xtask", std::iter::once(name.to_owned()).chain(arguments))?;
+    notices::write()
 }
 
 /// The list of commands, one line each.

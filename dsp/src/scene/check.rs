@@ -73,8 +73,9 @@ impl Scene {
 impl SolverSettings {
     /// Refuses values outside their range.
     pub fn check(&self) -> Result<(), Error> {
-        within("solver.max_iterations", self.max_iterations as f64, 0.0, 1000.0, "")?;
-        within("solver.tolerance", self.tolerance, 0.0, 1e-3, "m").map(drop)
+        let most = Self::MOST_ITERATIONS as f64;
+        within("solver.max_iterations", self.max_iterations as f64, 0.0, most, "")?;
+        within("solver.tolerance", self.tolerance, 0.0, Self::WIDEST_TOLERANCE, "m").map(drop)
     }
 }
 

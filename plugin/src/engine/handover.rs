@@ -32,7 +32,7 @@ impl Engine {
     /// are silent. Nothing is allocated or given back.
     ///
     /// # Errors
-    /// While what the engine was before is still fading or has not been fetched; the replacement comes back
+    /// When the replacement is built for another sample rate, and while what the engine was before is still fading or has not been fetched; the replacement comes back
     /// unused.
     pub fn replace(&mut self, mut replacement: Box<Replacement>) -> Result<(), Box<Replacement>> {
         if self.outgoing.is_some() {

@@ -133,20 +133,13 @@ impl Playing {
             let left_over = (left.len() - done) as u64;
             let run = self.exchange(wanted).map_or(left_over, |until| until.min(left_over)) as usize;
             let span = done..done + run;
-            let count = stems.len().min(self.engine.string_count());
+            let count = stems.len().min(super::STRING_OUTPUTS);
             let mut parts: [&mut [f32]; super::STRING_OUTPUTS] = std::array::from_fn(|_| Default::default());
-            for (index, (part, stem)) in parts.iter_mut().zip(stems.iter_mut()).enumerate() {
+            for (part, stem) in parts.iter_mut().zip(stems.iter_mut()) {
                 *part = &mut stem[span.clone()];
-                if index >= count {
-                    part.fill(0.0);
-                }
             }
             let (left, right) = (&mut left[span.clone()], &mut right[span]);
-            if count == 0 {
-                self.engine.process(left, right);
-            } else {
-                self.engine.process_stems(&mut parts[..count], left, right);
-            }
+            self.engine.process_stems(&mut parts[..count], left, right);
             done += run;
         }
     }

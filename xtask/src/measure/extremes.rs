@@ -34,8 +34,8 @@ pub use trial::{Fault, Outcome, Record, TOLERANCE, Trial};
         cargo xtask measure extremes --seed 7 --trials 20000\n  \
         cargo xtask measure extremes --replay tests/regressions/extremes/finger-deep-in-a-mass.toml\n\n\
         A run that was stopped goes on where it was when it is started again. Trials that fail are made small\n\
-        and written to tests/regressions/extremes/open; once mended they belong one folder up, where `cargo test`\n\
-        replays them."
+        and written to tests/regressions/extremes/open; once mended they belong one folder up, where\n\
+        `cargo test -p low-action-tests --test extremes` replays them."
 )]
 struct Arguments {
     /// Trials to draw

@@ -72,7 +72,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
             compare(&rows, &committed)?;
             println!("as in {PAGE}, within {} %", 100.0 * AGREEMENT);
         } else {
-            println!("not compared with {PAGE}: this processor has no AVX2");
+            println!("passed over: nothing is compared with {PAGE}, since this processor has no AVX2");
         }
     }
     if let Some(version) = &arguments.since {

@@ -84,7 +84,9 @@ pub fn compare(rows: &[Row], named: &str) -> Result<()> {
     let version = match version(named) {
         Ok(version) => version,
         Err(reason) if named == "auto" => {
-            println!("compared with no earlier version, since there is none here: {reason}");
+            println!(
+                "passed over: nothing is compared with an earlier version, since there is none here: {reason}"
+            );
             return Ok(());
         }
         Err(reason) => return Err(reason),
