@@ -96,6 +96,25 @@ impl Articulation {
         tremolo: 0.0,
     };
 
+    /// This, under what another channel says for all: where that is nothing special, what has been told stays.
+    pub(crate) fn under(&self, all: &Self) -> Self {
+        fn told<T: PartialEq>(own: T, all: T, plain: T) -> T {
+            if all == plain { own } else { all }
+        }
+        let plain = Self::PLAIN;
+        Self {
+            stroke: told(self.stroke, all.stroke, plain.stroke),
+            stop: told(self.stop, all.stop, plain.stop),
+            palm: told(self.palm, all.palm, plain.palm),
+            legato: told(self.legato, all.legato, plain.legato),
+            slide: told(self.slide, all.slide, plain.slide),
+            slide_time: told(self.slide_time, all.slide_time, plain.slide_time),
+            strum: told(self.strum, all.strum, plain.strum),
+            accent: told(self.accent, all.accent, plain.accent),
+            tremolo: told(self.tremolo, all.tremolo, plain.tremolo),
+        }
+    }
+
     /// Follows a controller (0 to 127); `false` if it is none of these.
     pub(crate) fn set_controller(&mut self, number: u8, value: u8) -> bool {
         let part = f64::from(value) / 127.0;

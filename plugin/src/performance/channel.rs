@@ -142,6 +142,13 @@ impl Channel {
         self.wheel * (semitones + 0.01 * cents)
     }
 
+    /// What a message for all says of hands is said to its own, too.
+    pub(crate) fn hear(&mut self, message: impl Fn(&mut Self) -> Request) {
+        let mut heard = Self { articulation: self.articulation, ..Self::new(self.usual_range) };
+        message(&mut heard);
+        self.articulation = heard.articulation;
+    }
+
     /// A channel's pressure, 0 to 1.
     pub(crate) fn set_pressure(&mut self, pressure: f32) -> Request {
         self.manner.pressure = pressure_factor(pressure);

@@ -79,13 +79,14 @@ impl Performance {
     pub(super) fn control(
         &mut self,
         number: u8,
-        change: impl FnOnce(&mut Channel) -> Request,
+        change: impl Fn(&mut Channel) -> Request,
         out: &mut impl GestureSink,
     ) {
+        let was_mpe = self.is_mpe();
         let Some(channel) = self.channels.get_mut(usize::from(number)) else { return };
         let before = channel.announced_reach();
         let request = change(channel);
-        let (articulation, reach) = (channel.articulation, channel.announced_reach());
+        let reach = channel.announced_reach();
         let (time, mpe) = (self.now, self.is_mpe());
         let announces = mpe && number != MANAGER && reach != before;
         let acts_on_all = (mpe && number == MANAGER) || announces;
@@ -93,7 +94,11 @@ impl Performance {
             // The reach of the wheel that one member announces is that of all.
             self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.take_reach(reach));
         } else if acts_on_all {
-            self.channels.iter_mut().for_each(|channel| channel.articulation = articulation);
+            // Most messages say nothing of hands: what other channels have been told stays.
+            self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.hear(&change));
+        }
+        if mpe && !was_mpe {
+            self.begin_mpe();
         }
         match request {
             Request::Capo(fret) => return self.set_capo(usize::from(fret)),
@@ -112,6 +117,7 @@ impl Performance {
                 continue;
             };
             let (pedal, bend, manner) = (self.pedal(channel), self.bend(channel), self.manner(channel));
+            let articulation = self.channels[usize::from(channel)].articulation;
             let string = &mut self.strings[index];
             match request {
                 Request::None | Request::Capo(_) | Request::Switches(_) => {}
@@ -135,6 +141,14 @@ impl Performance {
                 }
             }
             self.welcome_back(index, out);
+        }
+    }
+
+    /// From now on the first channel speaks for all, with what it has said before.
+    pub(super) fn begin_mpe(&mut self) {
+        let all = self.channels[usize::from(MANAGER)].articulation;
+        for member in &mut self.channels[usize::from(MANAGER) + 1..] {
+            member.articulation = member.articulation.under(&all);
         }
     }
 

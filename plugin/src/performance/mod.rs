@@ -205,7 +205,11 @@ impl Performance {
 
     /// Channels mean something else from now on.
     pub fn set_input(&mut self, input: InputMode) {
+        let was_mpe = self.is_mpe();
         self.input = input;
+        if self.is_mpe() && !was_mpe {
+            self.begin_mpe();
+        }
     }
 
     /// Takes over from another player in the middle of the music: pedals, wheels and, if the strings go on

@@ -1,0 +1,101 @@
+//! The promise: in MPE the first channel speaks for all, of what it speaks of and of nothing else. What another channel has
+//! been told for itself stays: hands, pedals, and the chord it is part of.
+
+use std::sync::LazyLock;
+
+use low_action::controls::Touching;
+use low_action::performance::{InputMode, PlayerEvent};
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::hands::{EXACT, Neck, play};
+
+static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
+
+fn note(channel: u8, key: u8) -> PlayerEvent {
+    PlayerEvent::NoteOn { channel, key, velocity: 0.8 }
+}
+
+fn control(channel: u8, number: u8, value: u8) -> PlayerEvent {
+    PlayerEvent::Controller { channel, number, value: f32::from(value) / 127.0 }
+}
+
+fn wheel(channel: u8, value: f32) -> PlayerEvent {
+    PlayerEvent::PitchBend { channel, value }
+}
+
+/// What hands make of events, each with its sample.
+fn hands(input: InputMode, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
+    let mut player = GUITAR.player(EXACT);
+    player.set_input(input);
+    player.touch(0, &Touching::default(), &mut Vec::new());
+    play(&mut player, events)
+}
+
+fn mpe(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
+    hands(InputMode::Mpe, events)
+}
+
+/// Times of the plucks.
+fn plucks(gestures: &[TimedGesture]) -> Vec<u64> {
+    gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).map(|g| g.time).collect()
+}
+
+/// Whether the thumb was thrown at the string, and whether the palm was laid on it.
+fn slap_and_palm(gestures: &[TimedGesture]) -> [bool; 2] {
+    let palm = |g: &Gesture| matches!(g, Gesture::Place { finger: 4, .. });
+    let thumb = |g: &Gesture| matches!(g, Gesture::Throw { finger: 4, .. });
+    [gestures.iter().any(|g| thumb(&g.gesture)), gestures.iter().any(|g| palm(&g.gesture))]
+}
+
+#[test]
+fn the_first_channel_leaves_what_another_has_been_told_of_something_else() {
+    let told = [(0, control(2, 22, 4)), (0, control(2, 20, 100))];
+    let after = |message: &[PlayerEvent]| {
+        let message: Vec<_> = message.iter().map(|&event| (2400, event)).collect();
+        slap_and_palm(&mpe(&[&told[..], &message, &[(4800, note(2, 60))]].concat()))
+    };
+    for message in [
+        wheel(0, 0.5),
+        control(0, 1, 20),
+        control(0, 7, 100),
+        control(0, 64, 127),
+        PlayerEvent::ChannelPressure { channel: 0, pressure: 0.5 },
+        // Hands, but neither thumb nor palm.
+        control(0, 24, 100),
+        control(0, 21, 0),
+    ] {
+        assert_eq!(after(&[message]), [true, true], "{message:?}");
+    }
+    // What it says of these holds for all, if it is what it has said before, too.
+    assert_eq!(after(&[control(0, 22, 0)]), [false, true]);
+    assert_eq!(after(&[control(0, 20, 0)]), [true, false]);
+    assert_eq!(after(&[control(0, 121, 0)]), [false, false]);
+    // And until the other is told otherwise.
+    assert_eq!(after(&[control(0, 22, 0), control(2, 22, 4)]), [true, true]);
+}
+
+#[test]
+fn a_palm_for_all_leaves_the_tremolo_of_one() {
+    let strokes = |palm: &[(u64, PlayerEvent)]| {
+        let one = [(0, control(2, 25, 127)), (0, note(2, 60))];
+        let end = [(48_000, PlayerEvent::NoteOff { channel: 2, key: 60 })];
+        plucks(&mpe(&[&one[..], palm, &end].concat())).len()
+    };
+    assert!(strokes(&[]) >= 20);
+    assert_eq!(strokes(&[(2400, control(0, 20, 100))]), strokes(&[]));
+}
+
+#[test]
+fn what_the_first_channel_said_before_it_spoke_for_all_counts_from_then_on() {
+    let announced = [(101, 0), (100, 6), (6, 15)].map(|(number, value)| (2400, control(0, number, value)));
+    let told = [(0, control(0, 22, 4)), (0, control(2, 20, 100))];
+    let played = [(4800, note(2, 60))];
+    let auto = |events: &[&[(u64, PlayerEvent)]]| hands(InputMode::Auto, &events.concat());
+    assert_eq!(slap_and_palm(&auto(&[&told, &played])), [false, true]);
+    assert_eq!(slap_and_palm(&auto(&[&told, &announced, &played])), [true, true]);
+    // Or when the input is said to be such a keyboard.
+    let mut player = GUITAR.player(EXACT);
+    player.set_input(InputMode::Keyboard);
+    play(&mut player, &told);
+    player.set_input(InputMode::Mpe);
+    assert_eq!(slap_and_palm(&play(&mut player, &[(200_000, note(2, 60))])), [true, true]);
+}
