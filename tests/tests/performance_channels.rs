@@ -231,3 +231,46 @@ fn a_strum_goes_no_farther_than_silence() {
         assert_eq!(plucks(&gestures).len(), 1, "the first string has been struck");
     }
 }
+
+/// Samples and strings of the plucks, every pluck exactly alike.
+fn strummed_by(input: InputMode, events: &[(u64, PlayerEvent)]) -> Vec<(u64, usize)> {
+    let found = plucks(&hands(input, Touching::new(0.0, 2.0), events));
+    found.iter().map(|pluck| (pluck.0, pluck.1)).collect()
+}
+
+#[test]
+fn only_notes_of_channels_that_strum_are_strummed_whichever_comes_first() {
+    let strummed = [40, 47, 52].map(|key| (0, note(1, key)));
+    let struck = [56, 59, 64].map(|key| (0, note(2, key)));
+    let told = [(0, control(1, 21, 127))];
+    // 0.4 s over the six strings.
+    let way = [(0, 5), (3_840, 4), (7_680, 3), (0, 2), (0, 1), (0, 0)];
+    for (first, second) in [(strummed, struck), (struck, strummed)] {
+        let mut found = strummed_by(InputMode::Keyboard, &[&told[..], &first, &second].concat());
+        found.reverse();
+        assert_eq!(found, way);
+    }
+    // Two times, two hands: each goes over its own strings.
+    let both = [told[0], (0, control(2, 21, 64))];
+    for (first, second) in [(strummed, struck), (struck, strummed)] {
+        let found = strummed_by(InputMode::Keyboard, &[&both[..], &first, &second].concat());
+        let times: Vec<u64> = found.iter().rev().map(|pluck| pluck.0).collect();
+        let step = (3_840.0 * 64.0 / 127.0_f64).round() as u64;
+        assert_eq!(times[..4], [0, 3_840, 7_680, 0]);
+        assert!(times[4].abs_diff(step) <= 1 && times[5].abs_diff(2 * step) <= 1, "{times:?}");
+    }
+}
+
+#[test]
+fn a_strum_of_all_channels_is_one_in_whatever_order_its_notes_come() {
+    let way = [0, 1, 2, 3, 4, 5].map(|string| (19_200 - 3_840 * string as u64, string));
+    let members = BARRE.into_iter().zip(1_u8..).map(|(key, channel)| (0, note(channel, key)));
+    let [up, mut down] = [(); 2].map(|()| members.clone().collect::<Vec<_>>());
+    down.reverse();
+    for notes in [up, down] {
+        // A stroke that one of them has for itself goes the same way.
+        let told = [(0, control(0, 21, 127)), (0, control(3, 22, 5))];
+        let found = strummed_by(InputMode::Mpe, &[&told[..], &notes].concat());
+        assert_eq!(found, way);
+    }
+}

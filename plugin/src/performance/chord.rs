@@ -6,7 +6,7 @@
 //! as there are keys; what comes on top of that is left out, and counted.
 //!
 //! **Strums**: the right hand goes over the strings at one speed, towards the high ones or back, and reaches
-//! the first at once.
+//! the first at once. Notes that are told the same way and time are one strum, whatever their channels.
 //!
 //! What notes do that overlap is in `legato`.
 
@@ -150,9 +150,9 @@ impl Performance {
         self.placements.resize(self.wanted.len(), None);
         self.hand.place(&self.wanted, &self.uses, &mut self.placements);
         self.find_other_ways();
-        let strum = self.strum();
         for index in 0..self.chord.len() {
             let Some(placement) = self.placements[index] else { continue };
+            let strum = self.strum(index);
             let start = self.start(index, placement, strum.as_ref());
             let (channel, string) = (start.channel, placement.string);
             let (bend, palm) = (self.bend(channel), start.articulation.palm);
@@ -195,21 +195,27 @@ impl Performance {
         }
     }
 
-    /// How the hand goes over the strings of the chord, if that takes time.
-    fn strum(&self) -> Option<Strum> {
-        let articulation = self.chord.first()?.articulation;
-        let strings = self.placements.iter().flatten().map(|placement| placement.string);
-        let (high, low) = (strings.clone().min()?, strings.max()?);
-        if articulation.strum <= 0.0 || high == low {
-            return None;
-        }
-        let back = match articulation.stroke {
+    /// How the hand goes over the strings of a note of the chord and of those it is strummed with, if that takes time.
+    fn strum(&self, index: usize) -> Option<Strum> {
+        let way = |articulation: &Articulation| match articulation.stroke {
             Stroke::Up => true,
             Stroke::Alternate => self.upward,
             _ => false,
         };
+        let told = self.chord[index].articulation;
+        let back = way(&told);
+        let together = |struck: &Struck| {
+            let Struck { articulation, .. } = struck;
+            articulation.strum == told.strum && way(articulation) == back
+        };
+        let strummed = self.chord.iter().zip(&self.placements).filter(|(struck, _)| together(struck));
+        let strings = strummed.filter_map(|(_, placement)| placement.map(|placement| placement.string));
+        let (high, low) = (strings.clone().min()?, strings.max()?);
+        if told.strum <= 0.0 || high == low {
+            return None;
+        }
         let ends = if back { [high, low] } else { [low, high] };
-        Some(Strum { ends, step: articulation.strum / self.strings.len().saturating_sub(1).max(1) as f64 })
+        Some(Strum { ends, step: told.strum / self.strings.len().saturating_sub(1).max(1) as f64 })
     }
 
     /// Finds other ways for notes of the chord that have no string: another octave, or another time.
