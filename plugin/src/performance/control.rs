@@ -2,9 +2,9 @@
 
 use super::channel::{Channel, Request, pressure_factor};
 use super::chord::Struck;
-use super::string::Manner;
+use super::string::{Manner, Own};
 use super::technique::BRIGHTNESS_REACH;
-use super::{Expression, GestureSink, Performance, PlayerEvent, seven_bits};
+use super::{CHANNELS, Expression, GestureSink, Performance, PlayerEvent, seven_bits};
 
 /// What the channels of notes mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -108,6 +108,11 @@ impl Performance {
             }
             _ => {}
         }
+        if matches!(request, Request::Press | Request::Swing | Request::Reset) {
+            let manners: [Manner; CHANNELS] = std::array::from_fn(|channel| self.manner(channel as u8));
+            let said = |own: u8| (own == number || acts_on_all).then(|| manners[usize::from(own)]);
+            self.strings.iter_mut().for_each(|string| string.hear(request, said));
+        }
         for index in 0..self.strings.len() {
             if matches!(request, Request::ReleaseKeys | Request::Silence) {
                 self.strings[index].forget_under((!acts_on_all).then_some(number));
@@ -140,7 +145,7 @@ impl Performance {
                     string.set_touch(time, &articulation, out);
                 }
             }
-            self.welcome_back(index, out);
+            self.welcome_back(index);
         }
     }
 
@@ -152,14 +157,11 @@ impl Performance {
         }
     }
 
-    /// What a channel says now is for a note of it that has come back to a string, too.
-    pub(super) fn welcome_back(&mut self, index: usize, out: &mut impl GestureSink) {
+    /// The wheel of its channel bends a note that has come back to a string.
+    pub(super) fn welcome_back(&mut self, index: usize) {
         let Some(channel) = self.strings[index].take_gone_back() else { return };
-        let (time, bend, manner) = (self.now, self.bend(channel), self.manner(channel));
-        let string = &mut self.strings[index];
-        string.bend(time, channel, bend);
-        string.swing(time, manner.vibrato);
-        string.press(time, manner.pressure, out);
+        let (time, bend) = (self.now, self.bend(channel));
+        self.strings[index].bend(time, channel, bend);
     }
 
     /// A capo goes to a fret of all strings, 0 for none, as soon as each is played.
@@ -178,8 +180,13 @@ impl Performance {
         out: &mut impl GestureSink,
     ) {
         let value = |value: f32| if value.is_finite() { f64::from(value) } else { 0.0 };
-        let struck =
-            self.chord.iter_mut().find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
+        // The latest note of the key: one that begins now, or waits for a string, before any that sounds.
+        let late = self.late.iter_mut().filter(|late| late.key_down()).map(|late| &mut late.struck);
+        let struck = self
+            .chord
+            .iter_mut()
+            .chain(late)
+            .find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
         if let Some(Struck { manner, .. }) = struck {
             match expression {
                 Expression::Tuning(semitones) => manner.tuning = value(semitones),
@@ -194,15 +201,19 @@ impl Performance {
             }
             return;
         }
-        let time = self.now;
-        let Some(string) = self.strings.iter_mut().find(|string| string.sounds(channel, key)) else { return };
-        match expression {
-            Expression::Tuning(semitones) => string.tune(time, channel, key, value(semitones)),
-            Expression::Pressure(pressure) => string.press(time, pressure_factor(pressure), out),
-            Expression::FingerForce(factor) => string.press(time, value(factor).clamp(0.0, 100.0), out),
-            Expression::Vibrato(depth) => string.swing(time, value(depth).clamp(0.0, 1.0)),
+        let own = match expression {
+            Expression::Tuning(semitones) => Own::Tuning(value(semitones)),
+            Expression::Pressure(pressure) => Own::Pressure(pressure_factor(pressure)),
+            Expression::FingerForce(factor) => Own::Pressure(value(factor).clamp(0.0, 100.0)),
+            Expression::Vibrato(depth) => Own::Vibrato(value(depth).clamp(0.0, 1.0)),
             // It has been plucked already.
-            Expression::Brightness(_) | Expression::PluckPlace(_) | Expression::PluckForce(_) => {}
+            Expression::Brightness(_) | Expression::PluckPlace(_) | Expression::PluckForce(_) => return,
+        };
+        // Rather where the key's note sounds than where it is down under another.
+        let sounding = self.strings.iter().position(|string| string.is_of(channel, key));
+        let under = || self.strings.iter().position(|string| string.sounds(channel, key));
+        if let Some(string) = sounding.or_else(under) {
+            self.strings[string].express(self.now, (channel, key), own, out);
         }
     }
 }

@@ -111,8 +111,9 @@ pub enum StringDeed {
     Damp,
 }
 
-/// What a note can have for itself. What concerns its pluck counts if it comes at the note's own sample,
-/// before or after it.
+/// What a note can have for itself. What concerns its pluck counts if it comes after its note-on and before its pluck: at the
+/// note's own sample, or while it waits for a string. What comes before the note-on, at its own sample, too, is for an earlier note
+/// of its key. A note that sounds no more, but whose key is down under another one, has it when it comes back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Expression {
     /// Its tuning, semitones.

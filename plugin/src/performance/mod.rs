@@ -313,7 +313,7 @@ impl Performance {
         let pedal = self.pedal(channel);
         for index in 0..self.strings.len() {
             if self.strings[index].release(self.now, channel, key, pedal, out) {
-                return self.welcome_back(index, out);
+                return self.welcome_back(index);
             }
         }
         // A note that has yet to come is heard nevertheless.

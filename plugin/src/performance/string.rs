@@ -11,6 +11,7 @@ mod ending;
 mod keys;
 mod legato;
 mod note;
+mod own;
 mod sighted;
 
 use low_action_dsp::setup::Player;
@@ -25,6 +26,7 @@ use deeds::{Deed, Deeds, Struck};
 use ending::Ending;
 use note::Note;
 pub(crate) use note::{Manner, Start};
+pub(crate) use own::Own;
 
 /// The player's dealings with one string.
 #[derive(Debug, Clone)]
@@ -155,6 +157,8 @@ impl StringPlayer {
             fret: start.fret,
             strength,
             tuning: start.manner.tuning,
+            pressure: start.manner.pressure,
+            vibrato: start.manner.vibrato,
             bar: stop == Stop::Bar,
             partial: (stop == Stop::Harmonic).then_some(start.order),
             slide: (slide || stop == Stop::Bar).then_some(slide_time),
@@ -173,26 +177,9 @@ impl StringPlayer {
         self.bend.set_vibrato(time, manner.vibrato);
     }
 
-    /// Whether the string sounds a key of a channel.
-    pub(crate) fn sounds(&self, channel: u8, key: u8) -> bool {
-        let notes = self.under.iter().chain([&self.note]);
-        notes.flatten().any(|note| note.is(channel, key))
-    }
-
     /// Channel of the string's last note, whose wheel and pedals count.
     pub(crate) fn channel(&self) -> Option<u8> {
         self.bend.channel()
-    }
-
-    /// A note changes its tuning, semitones: at once, or when it comes back.
-    pub(crate) fn tune(&mut self, time: u64, channel: u8, key: u8, semitones: f64) {
-        let own = |note: &&mut Note| (note.channel, note.key) == (channel, key);
-        if let Some(note) = self.note.as_mut().filter(own) {
-            note.tuning = semitones;
-            self.bend.tune(time, semitones);
-        } else if let Some(note) = self.under.iter_mut().flatten().find(own) {
-            note.tuning = semitones;
-        }
     }
 
     /// The note's vibrato goes so deep, 0 to 1. Without a note no hand swings.

@@ -35,7 +35,7 @@ impl StringPlayer {
         self.follow(time, &start.manner);
     }
 
-    /// Channel of the note that has come back since this was last asked, if one has: what that channel says now is for it.
+    /// Channel of the note that has come back since this was last asked, if one has: that channel's wheel is for it.
     pub(crate) fn take_gone_back(&mut self) -> Option<u8> {
         let note = self.note?;
         std::mem::take(&mut self.gone_back).then_some(note.channel)
@@ -80,7 +80,9 @@ impl StringPlayer {
         self.deeds.forget_tap();
         let mut at = self.moment(time, out);
         self.fingers.change(back.fret, from.slide, from.bar, from.strength, &mut at);
+        self.fingers.press(back.pressure, &mut at);
         self.bend.tune(time, back.tuning);
+        self.bend.set_vibrato(time, back.vibrato);
         self.gone_back = true;
         true
     }

@@ -91,6 +91,9 @@ pub(super) struct Note {
     pub strength: f64,
     /// Its own tuning, semitones.
     pub tuning: f64,
+    /// Factor of its finger's force, and depth of its vibrato, 0 to 1: its own or its channel's, whichever was said last.
+    pub pressure: f64,
+    pub vibrato: f64,
     /// Whether a bar stops it.
     pub bar: bool,
     /// The partial that a harmonic is.

@@ -1,0 +1,70 @@
+//! What a note has for itself, beside its pluck. A note under the one that sounds has it when it comes back.
+
+use super::{Manner, Note, StringPlayer};
+use crate::performance::GestureSink;
+use crate::performance::channel::Request;
+
+/// Something a note has for itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Own {
+    /// Its tuning, semitones.
+    Tuning(f64),
+    /// Factor of its finger's force.
+    Pressure(f64),
+    /// Depth of its vibrato, 0 to 1.
+    Vibrato(f64),
+}
+
+impl StringPlayer {
+    /// Whether a key of a channel has the note that sounds.
+    pub(crate) fn is_of(&self, channel: u8, key: u8) -> bool {
+        self.note.is_some_and(|note| note.is(channel, key))
+    }
+
+    /// Whether it has that note, or is down under it.
+    pub(crate) fn sounds(&self, channel: u8, key: u8) -> bool {
+        self.is_of(channel, key) || self.under.iter().flatten().any(|note| note.is(channel, key))
+    }
+
+    /// The note of a key has something for itself: at once, or when it comes back.
+    pub(crate) fn express(
+        &mut self,
+        time: u64,
+        (channel, key): (u8, u8),
+        own: Own,
+        out: &mut impl GestureSink,
+    ) {
+        let sounds = self.is_of(channel, key);
+        let Some(note) = self.notes().find(|note| note.is(channel, key)) else { return };
+        match own {
+            Own::Tuning(semitones) => note.tuning = semitones,
+            Own::Pressure(factor) => note.pressure = factor,
+            Own::Vibrato(depth) => note.vibrato = depth,
+        }
+        match own {
+            _ if !sounds => {}
+            Own::Tuning(semitones) => self.bend.tune(time, semitones),
+            Own::Pressure(factor) => self.press(time, factor, out),
+            Own::Vibrato(depth) => self.swing(time, depth),
+        }
+    }
+
+    /// Channels have said how hard keys are pressed, or how deep they swing, of all their notes: those that are to come
+    /// back have it then.
+    pub(crate) fn hear(&mut self, request: Request, manner: impl Fn(u8) -> Option<Manner>) {
+        for note in self.notes() {
+            let Some(manner) = manner(note.channel) else { continue };
+            if matches!(request, Request::Press | Request::Reset) {
+                note.pressure = manner.pressure;
+            }
+            if matches!(request, Request::Swing | Request::Reset) {
+                note.vibrato = manner.vibrato;
+            }
+        }
+    }
+
+    /// The note that sounds and those under it.
+    fn notes(&mut self) -> impl Iterator<Item = &mut Note> {
+        self.note.iter_mut().chain(self.under.iter_mut().flatten())
+    }
+}

@@ -1,0 +1,126 @@
+//! The promise: what a note has for itself acts on that note and on no other. One whose key is down under the note that sounds
+//! has it when it comes back, one that waits for a string when it comes.
+
+use std::sync::LazyLock;
+
+use low_action::performance::{Expression, PlayerEvent};
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::hands::{EXACT, Neck, play as play_by};
+use low_action_tests::stage::{cc, off, on};
+
+static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
+
+fn play(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
+    play_by(&mut GUITAR.player(EXACT), events)
+}
+
+fn has(key: u8, expression: Expression) -> PlayerEvent {
+    PlayerEvent::Note { channel: 0, key, expression }
+}
+
+/// A3 held, B3 hammered over it, then something about either, then B3 let go of.
+fn hammered(said: PlayerEvent) -> Vec<TimedGesture> {
+    let hammer = [(0, cc(68, 127)), (0, on(57, 90)), (24_000, on(59, 90))];
+    play(&[&hammer[..], &[(36_000, said), (48_000, off(59)), (96_000, off(57))]].concat())
+}
+
+/// When fingers are told to press harder or less hard, and so many N.
+fn presses(gestures: &[TimedGesture]) -> Vec<(u64, f64)> {
+    let force = |g: &TimedGesture| match g.gesture {
+        Gesture::Press { force, .. } => Some((g.time, force)),
+        _ => None,
+    };
+    gestures.iter().filter_map(force).collect()
+}
+
+/// How often the string is bent between two samples.
+fn bends(gestures: &[TimedGesture], from: u64, to: u64) -> usize {
+    let bent = |g: &&TimedGesture| matches!(g.gesture, Gesture::Bend { .. }) && (from..to).contains(&g.time);
+    gestures.iter().filter(bent).count()
+}
+
+#[test]
+fn a_key_under_the_one_that_sounds_is_pressed_for_its_own_note() {
+    let pressed = |key| presses(&hammered(has(key, Expression::Pressure(1.0))));
+    let nobody = pressed(60);
+    let at =
+        |found: &[(u64, f64)], time| found.iter().any(|&press| press.0 == time && !nobody.contains(&press));
+    // The key that sounds at once, and no longer than it sounds.
+    let over = pressed(59);
+    assert!(at(&over, 36_000), "{over:?}, for nobody {nobody:?}");
+    // The one under it when it is back.
+    let under = pressed(57);
+    assert!(!at(&under, 36_000) && at(&under, 48_000), "{under:?}, for nobody {nobody:?}");
+    // So hard it presses until its key is up.
+    let last = |found: &[(u64, f64)]| found.iter().rev().find(|press| press.0 < 96_000).map(|press| press.1);
+    let usual = last(&nobody).expect("it presses");
+    assert!(last(&under).is_some_and(|force| (force / usual - 2.5).abs() < 1e-9), "{under:?}");
+    // The other's pressure has gone with it.
+    assert_eq!(last(&over), Some(usual), "{over:?}");
+}
+
+#[test]
+fn a_key_under_the_one_that_sounds_swings_for_its_own_note() {
+    let swings = |key| {
+        let gestures = hammered(has(key, Expression::Vibrato(1.0)));
+        [bends(&gestures, 36_000, 48_000), bends(&gestures, 49_000, 96_000)]
+    };
+    let [before, after] = swings(59);
+    assert!(before > 10 && after == 0, "{before} and {after}");
+    let [before, after] = swings(57);
+    assert!(before == 0 && after > 40, "{before} and {after}");
+}
+
+/// What a channel says is of all its notes, also of those that are to come back, and the last word counts.
+#[test]
+fn a_channel_swings_and_presses_the_note_that_comes_back() {
+    let hammer = [(0, cc(68, 127)), (0, on(57, 90)), (24_000, on(59, 90))];
+    let own = [(30_000, has(57, Expression::Vibrato(1.0))), (36_000, cc(1, 0))];
+    let back = [(48_000, off(59)), (96_000, off(57))];
+    assert_eq!(bends(&play(&[&hammer[..], &own, &back].concat()), 49_000, 96_000), 0);
+    let pressure = [(36_000, PlayerEvent::ChannelPressure { channel: 0, pressure: 1.0 })];
+    let usual = presses(&play(&[&hammer[..], &back].concat()));
+    let pressed = presses(&play(&[&hammer[..], &pressure, &back].concat()));
+    let after = |found: &[(u64, f64)]| found.iter().filter(|press| press.0 > 48_000).count();
+    assert_eq!(after(&pressed), after(&usual), "nothing presses less hard when it is back");
+}
+
+/// (time, place, force) of the last pluck.
+fn last_pluck(gestures: &[TimedGesture]) -> (u64, f64, f64) {
+    let pluck = |g: &TimedGesture| match g.gesture {
+        Gesture::Pluck { position, force, .. } => Some((g.time, position, force)),
+        _ => None,
+    };
+    gestures.iter().filter_map(pluck).max_by_key(|pluck| pluck.0).expect("it is plucked")
+}
+
+#[test]
+fn a_note_that_waits_for_a_string_is_plucked_as_it_was_told_meanwhile() {
+    // The highest two of eight wait for 70 and 140 ms.
+    let chord = [40, 47, 52, 55, 59, 64, 67, 71].map(|key| (0, on(key, 90)));
+    let told = |said: &[(u64, PlayerEvent)]| last_pluck(&play(&[&chord[..], said].concat()));
+    let key = {
+        let mut player = GUITAR.player(EXACT);
+        for &(time, event) in &chord {
+            player.event(time, event, &mut Vec::new());
+        }
+        player.advance(5_000, &mut Vec::new());
+        (0..128).find(|&key| player.awaits(0, key)).expect("one still waits")
+    };
+    let (time, place, force) = told(&[]);
+    assert_eq!(time, 6_720);
+    let softer = told(&[(2_400, has(key, Expression::PluckForce(0.5)))]);
+    assert_eq!((softer.0, softer.1), (time, place));
+    assert!((softer.2 / force - 0.5).abs() < 1e-9, "{} N of {force}", softer.2);
+    let nearer = told(&[(2_400, has(key, Expression::Brightness(1.0)))]);
+    assert!(nearer.1 > place && nearer.2 == force, "{} m, {place} m", nearer.1);
+}
+
+#[test]
+fn what_is_said_of_a_pluck_counts_at_its_sample_after_its_note_on() {
+    let half = (0, has(64, Expression::PluckForce(0.5)));
+    let [plain, after, before] = [&[(0, on(64, 90))][..], &[(0, on(64, 90)), half], &[half, (0, on(64, 90))]]
+        .map(|events| last_pluck(&play(events)).2);
+    assert!((after / plain - 0.5).abs() < 1e-9);
+    assert_eq!(before, plain);
+}
