@@ -99,3 +99,28 @@ fn what_the_first_channel_said_before_it_spoke_for_all_counts_from_then_on() {
     player.set_input(InputMode::Mpe);
     assert_eq!(slap_and_palm(&play(&mut player, &[(200_000, note(2, 60))])), [true, true]);
 }
+
+/// Whether a note of channel 3 goes on after its key is up and then something is said, up to the end.
+fn goes_on(before: &[PlayerEvent], after: PlayerEvent) -> bool {
+    let mut player = GUITAR.player(EXACT);
+    player.set_input(InputMode::Mpe);
+    let pedals = before.iter().map(|&event| (2400, event));
+    let rest = [(4800, PlayerEvent::NoteOff { channel: 3, key: 60 }), (24_000, after)];
+    play(&mut player, &[(0, note(3, 60))].into_iter().chain(pedals).chain(rest).collect::<Vec<_>>());
+    player.sounds(3, 60)
+}
+
+#[test]
+fn a_channel_that_is_reset_leaves_what_the_pedals_of_the_first_hold() {
+    for pedal in [64, 66] {
+        let [first, own] = [control(0, pedal, 127), control(3, pedal, 127)];
+        for reset in [control(3, 121, 0), control(3, pedal, 0)] {
+            assert!(goes_on(&[first, own], reset), "CC {pedal}, {reset:?}");
+            assert!(!goes_on(&[own], reset), "CC {pedal}, {reset:?}");
+        }
+        for reset in [control(0, 121, 0), control(0, pedal, 0)] {
+            assert!(!goes_on(&[first], reset), "CC {pedal}, {reset:?}");
+            assert!(goes_on(&[first, own], reset), "CC {pedal}, {reset:?}");
+        }
+    }
+}

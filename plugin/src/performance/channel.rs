@@ -27,7 +27,7 @@ pub(crate) struct Channel {
     /// Whether the sustain pedal is down.
     pub pedal: bool,
     /// Whether the sostenuto pedal is down.
-    sostenuto: bool,
+    pub sostenuto: bool,
     /// How its notes are played.
     pub manner: Manner,
     /// What the hands are told to do with them.

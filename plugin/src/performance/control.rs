@@ -56,6 +56,12 @@ impl Performance {
             || (self.is_mpe() && self.channels[usize::from(MANAGER)].pedal)
     }
 
+    /// Whether a sostenuto pedal keeps what it has caught of a channel.
+    fn sostenuto(&self, channel: u8) -> bool {
+        self.channels[usize::from(channel)].sostenuto
+            || (self.is_mpe() && self.channels[usize::from(MANAGER)].sostenuto)
+    }
+
     /// Bend by the wheels that act on a channel, semitones.
     pub(super) fn bend(&self, channel: u8) -> f64 {
         let own = &self.channels[usize::from(channel)];
@@ -122,7 +128,8 @@ impl Performance {
                 continue;
             };
             let (pedal, bend, manner) = (self.pedal(channel), self.bend(channel), self.manner(channel));
-            let articulation = self.channels[usize::from(channel)].articulation;
+            let (articulation, caught) =
+                (self.channels[usize::from(channel)].articulation, self.sostenuto(channel));
             let string = &mut self.strings[index];
             match request {
                 Request::None | Request::Capo(_) | Request::Switches(_) => {}
@@ -130,6 +137,7 @@ impl Performance {
                 Request::PedalUp if pedal => {}
                 Request::PedalUp => string.pedal_up(time, channel, out),
                 Request::Catch => string.catch(channel),
+                Request::LetFall if caught => {}
                 Request::LetFall => string.let_fall(time, channel, pedal, out),
                 Request::Bend => string.bend(time, channel, bend),
                 Request::Press => string.press(time, manner.pressure, out),
@@ -137,8 +145,13 @@ impl Performance {
                 Request::ReleaseKeys => string.release_channel(time, channel, pedal, out),
                 Request::Silence => string.silence(time, Some(channel)),
                 Request::Reset => {
-                    string.let_fall(time, channel, pedal, out);
-                    string.pedal_up(time, channel, out);
+                    // In MPE the pedals of the first channel go on holding when another one is reset.
+                    if !caught {
+                        string.let_fall(time, channel, pedal, out);
+                    }
+                    if !pedal {
+                        string.pedal_up(time, channel, out);
+                    }
                     string.bend(time, channel, bend);
                     string.press(time, manner.pressure, out);
                     string.swing(time, manner.vibrato);
