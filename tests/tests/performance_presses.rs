@@ -103,6 +103,20 @@ fn a_note_without_its_note_off_rings_until_it_is_stopped() {
     assert_eq!(ends(&play(&[&string[..], &next].concat())), [2 * WHILE, 4 * WHILE]);
 }
 
+#[test]
+fn a_pedal_that_was_down_when_everything_stopped_holds_again_when_it_is_pressed() {
+    for pedal in [64, 66] {
+        let stopped = [press(0), (10, cc(pedal, 127)), (WHILE, PlayerEvent::AllNotesOff), release(WHILE)];
+        let next = [press(4 * WHILE), (5 * WHILE, cc(pedal, 127)), release(6 * WHILE)];
+        let up = [(8 * WHILE, cc(pedal, 0))];
+        let gestures = play(&[&stopped[..], &next, &up].concat());
+        assert_eq!(ends(&gestures), [WHILE, 8 * WHILE], "CC {pedal}");
+        // Until then it holds nothing.
+        let gestures = play(&[&stopped[..], &[press(4 * WHILE), release(6 * WHILE)]].concat());
+        assert_eq!(ends(&gestures), [WHILE, 6 * WHILE], "CC {pedal}");
+    }
+}
+
 /// Notes of a few neighbouring keys, each with its note-off, so that they overlap in all ways and take strings from one another.
 fn score() -> impl Strategy<Value = Vec<(u64, PlayerEvent)>> {
     let note = (0..40_u64, 1..30_u64, 40..46_u8)

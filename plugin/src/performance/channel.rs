@@ -131,6 +131,11 @@ impl Channel {
         }
     }
 
+    /// No pedal holds anything any more, wherever it stands: what is pressed next goes down anew.
+    pub(crate) fn forget_pedals(&mut self) {
+        (self.pedal, self.sostenuto) = (false, false);
+    }
+
     /// Back to rest.
     pub(crate) fn reset(&mut self) {
         *self = Self { ignores_range: self.ignores_range, ..Self::new(self.usual_range) };

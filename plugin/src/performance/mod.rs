@@ -174,9 +174,7 @@ impl Performance {
                 for string in &mut self.strings {
                     string.silence(time, None);
                 }
-                for channel in &mut self.channels {
-                    channel.pedal = false;
-                }
+                self.channels.iter_mut().for_each(Channel::forget_pedals);
             }
         }
     }
