@@ -182,6 +182,34 @@ fn what_is_left_out_is_counted() {
     assert_eq!((plucks(&gestures).len(), performance.compromises().left_out), (128, 128));
 }
 
+/// What `render` says of notes is of each once, whatever happens to it.
+#[test]
+fn a_note_that_moves_or_waits_twice_is_one() {
+    // E1 sounds as E2, for which F2 leaves no string: it moves again.
+    let mut performance = player();
+    assert_eq!(plucks(&play(&mut performance, &[(0, on(28, 90)), (0, on(41, 90))])).len(), 2);
+    assert_eq!(performance.compromises().moved_by_octaves, 1);
+    // The first of two that wait finds all strings taken by a chord of its very sample.
+    let chord = [40, 47, 52, 55, 59, 64, 67, 71].map(|key| (0, on(key, 90)));
+    let barre = [46, 53, 58, 61, 65, 70].map(|key| (3360, on(key, 90)));
+    let mut performance = player();
+    let times: Vec<u64> =
+        plucks(&play(&mut performance, &[&chord[..], &barre].concat())).iter().map(|pluck| pluck.0).collect();
+    assert_eq!((times.len(), times[12] > 3360), (14, true), "{times:?}");
+    assert_eq!(performance.compromises().arpeggiated, 2);
+    // What is left out has not been moved: of all keys at once, twice, no more than have been played.
+    let mut performance = player();
+    let all = |time| (0..128).map(move |key| (time, on(key, 90)));
+    let mut gestures = Vec::new();
+    for (time, event) in all(0).chain(all(100)) {
+        performance.event(time, event, &mut gestures);
+    }
+    performance.advance(20 * RATE as u64, &mut gestures);
+    let (played, compromises) = (plucks(&gestures).len() as u64, performance.compromises());
+    assert_eq!(played + compromises.left_out, 256);
+    assert!(compromises.left_out > 0 && compromises.moved_by_octaves <= played, "{played}, {compromises:?}");
+}
+
 proptest! {
     #![proptest_config(cases(200))]
 

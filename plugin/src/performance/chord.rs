@@ -30,6 +30,8 @@ pub(super) struct Struck {
     /// What the note has for itself, its channel's share included.
     pub manner: Manner,
     pub articulation: Articulation,
+    /// Whether it has waited for a string.
+    pub waited: bool,
 }
 
 /// A note that comes late.
@@ -76,10 +78,10 @@ impl Performance {
         }
         match self.wanted(channel, key) {
             Some(wanted) if self.chord.len() < LARGEST_CHORD => {
-                self.compromises.moved_by_octaves += u64::from(wanted.is_moved());
+                self.count_move(false, wanted.is_moved());
                 let (manner, articulation) =
                     (self.manner(channel), self.channels[usize::from(channel)].articulation);
-                self.chord.push(Struck { wanted, velocity, presses: 1, manner, articulation });
+                self.chord.push(Struck { wanted, velocity, presses: 1, manner, articulation, waited: false });
             }
             Some(_) => self.compromises.left_out += 1,
             None => self.compromises.without_string += 1,
@@ -108,10 +110,15 @@ impl Performance {
             let Wanted { channel, key, .. } = self.chord[index].wanted;
             if let Some(wanted) = self.wanted(channel, key) {
                 let before = std::mem::replace(&mut self.chord[index].wanted, wanted);
-                self.compromises.moved_by_octaves += u64::from(wanted.is_moved());
-                self.compromises.moved_by_octaves -= u64::from(before.is_moved());
+                self.count_move(before.is_moved(), wanted.is_moved());
             }
         }
+    }
+
+    /// A note that was in another octave than its key, or not, is so now: however often it moves, it is one.
+    fn count_move(&mut self, before: bool, after: bool) {
+        self.compromises.moved_by_octaves += u64::from(after);
+        self.compromises.moved_by_octaves -= u64::from(before);
     }
 
     /// Whether notes that begin now have to be placed before this key goes up: it is one of them, or the one that they take
@@ -168,7 +175,7 @@ impl Performance {
 
     /// What a string is told of the note of the chord that is placed there.
     fn start(&mut self, index: usize, placement: Placement, strum: Option<&Strum>) -> Start {
-        let Struck { wanted, velocity, presses, manner, mut articulation } = self.chord[index];
+        let Struck { wanted, velocity, presses, manner, mut articulation, .. } = self.chord[index];
         if articulation.stroke == Stroke::Alternate {
             articulation.stroke = if self.upward { Stroke::Up } else { Stroke::Down };
         }
@@ -228,16 +235,19 @@ impl Performance {
             if self.placements[index].is_some() {
                 continue;
             }
+            let struck = self.chord[index];
+            let before = struck.wanted.is_moved();
             if let Some(placement) = self.revoiced(index) {
                 self.uses[placement.string] = Use::Untouchable;
                 self.placements[index] = Some(placement);
-                self.compromises.moved_by_octaves += 1;
+                self.count_move(before, self.chord[index].wanted.is_moved());
             } else if self.late.len() < LARGEST_CHORD {
                 late += 1;
                 let time = self.now + (f64::from(late) * ARPEGGIO * self.sample_rate).round() as u64;
-                self.late.push(Late { time, struck: self.chord[index], releases: 0 });
-                self.compromises.arpeggiated += 1;
+                self.compromises.arpeggiated += u64::from(!struck.waited);
+                self.late.push(Late { time, struck: Struck { waited: true, ..struck }, releases: 0 });
             } else {
+                self.count_move(before, false);
                 self.compromises.left_out += 1;
             }
         }
