@@ -148,6 +148,32 @@ fn a_keyswitch_counts_for_the_notes_of_its_sample_whichever_comes_first() {
 }
 
 #[test]
+fn a_string_that_one_channel_asks_for_is_no_other_channels() {
+    let touching = Touching { keyswitches: Some(12), ..Touching::default() };
+    let strings = |input, events: &[PlayerEvent]| {
+        let events: Vec<_> = events.iter().map(|&event| (0, event)).collect();
+        let found = plucks(&hands(input, touching, &events));
+        found.iter().map(|pluck| pluck.1).collect::<Vec<_>>()
+    };
+    // Strings 3 and 5, of which each channel has its own.
+    let [third, fifth] = [note(1, 26), note(2, 28)];
+    let keyboard = |events: &[PlayerEvent]| strings(InputMode::Keyboard, events);
+    assert_eq!(keyboard(&[third, note(1, 64)]), [2]);
+    assert_eq!(keyboard(&[third, note(2, 64)]), [0]);
+    for [first, second] in [[third, fifth], [fifth, third]] {
+        assert_eq!(keyboard(&[first, second, note(1, 64)]), [2]);
+        assert_eq!(keyboard(&[first, second, note(2, 64)]), [4]);
+    }
+    // One that goes up is up for its own channel alone.
+    let up = PlayerEvent::NoteOff { channel: 1, key: 26 };
+    assert_eq!(keyboard(&[third, note(2, 26), up, note(2, 64)]), [2]);
+    assert_eq!(keyboard(&[third, note(2, 26), up, note(1, 64)]), [0]);
+    // Where each note has a channel it is for all.
+    assert_eq!(strings(InputMode::Mpe, &[third, note(2, 64)]), [2]);
+    assert_eq!(strings(InputMode::Mpe, &[note(0, 26), note(2, 64)]), [2]);
+}
+
+#[test]
 fn a_note_that_was_down_before_its_key_became_a_keyswitch_ends_with_it() {
     let mut player = GUITAR.player(EXACT);
     play(&mut player, &[(0, on(40, 90)), (4800, cc(27, 28)), (9600, off(40))]);

@@ -32,6 +32,8 @@ pub(crate) struct Channel {
     pub manner: Manner,
     /// What the hands are told to do with them.
     pub articulation: Articulation,
+    /// The string that a keyswitch asks for while it is down, and the channel that struck it.
+    pub forced: Option<(usize, u8)>,
     /// Expression and breath, each a factor of the pluck's force.
     swell: [f64; 2],
     /// Whether an announced reach of the wheel is passed over.
@@ -89,6 +91,7 @@ impl Channel {
             sostenuto: false,
             manner: Manner::PLAIN,
             articulation: Articulation::PLAIN,
+            forced: None,
             swell: [1.0; 2],
             ignores_range: false,
             members: None,

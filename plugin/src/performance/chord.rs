@@ -13,7 +13,7 @@
 mod legato;
 
 use super::articulation::{Articulation, Stop, Stroke};
-use super::channel::controller;
+use super::channel::{Channel, controller};
 use super::control::MANAGER;
 use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
 use super::string::{Manner, Start};
@@ -90,7 +90,8 @@ impl Performance {
 
     /// What a key of a channel asks the hand for, as hands are told to play now; `None` if no string has it.
     fn wanted(&self, channel: u8, key: u8) -> Option<Wanted> {
-        let Articulation { stop, .. } = self.channels[usize::from(channel)].articulation;
+        let Channel { articulation: Articulation { stop, .. }, forced, .. } =
+            self.channels[usize::from(channel)];
         let harmonic = stop == Stop::Harmonic;
         let only = match self.input {
             InputMode::Strings { first, from_last } => {
@@ -98,7 +99,9 @@ impl Performance {
                 let last = self.strings.len().wrapping_sub(1);
                 Some(if from_last { last.wrapping_sub(place) } else { place })
             }
-            _ => self.forced.filter(|&string| self.hand.reaches(string, f64::from(key), harmonic)),
+            _ => forced
+                .map(|(string, _)| string)
+                .filter(|&string| self.hand.reaches(string, f64::from(key), harmonic)),
         };
         let pitch = self.hand.playable_pitch(key, only, harmonic)?;
         Some(Wanted { channel, key, pitch, only, harmonic })

@@ -78,8 +78,6 @@ pub struct Performance {
     upward: bool,
     /// First of the keys that are keyswitches, if any are.
     switches: Option<u8>,
-    /// The string that a keyswitch asks for.
-    forced: Option<usize>,
     now: u64,
     // Scratch of `begin_chord`.
     wanted: Vec<Wanted>,
@@ -115,7 +113,6 @@ impl Performance {
             late: Vec::with_capacity(LARGEST_CHORD),
             upward: false,
             switches: None,
-            forced: None,
             now: 0,
             wanted: Vec::with_capacity(LARGEST_CHORD),
             uses: Vec::with_capacity(count),
@@ -170,7 +167,7 @@ impl Performance {
             PlayerEvent::AllNotesOff => {
                 self.begin_chord(out);
                 self.late.clear();
-                self.forced = None;
+                self.force_none();
                 for string in &mut self.strings {
                     string.silence(time, None);
                 }
@@ -221,7 +218,7 @@ impl Performance {
         self.chord.extend_from_slice(&old.chord);
         self.late.clear();
         self.late.extend_from_slice(&old.late);
-        (self.upward, self.switches, self.forced) = (old.upward, old.switches, old.forced);
+        (self.upward, self.switches) = (old.upward, old.switches);
         if strings_go_on {
             self.hand.take_over(&old.hand);
             for (string, old) in self.strings.iter_mut().zip(&old.strings) {
@@ -280,7 +277,6 @@ impl Performance {
         self.late.clear();
         self.upward = false;
         self.switches = self.touching.keyswitches;
-        self.forced = None;
         self.now = 0;
         self.pick_up_hands();
     }
@@ -307,7 +303,7 @@ impl Performance {
             return;
         }
         // (It may sound, too, if it was no keyswitch when it went down.)
-        self.release_switch(key);
+        self.release_switch(channel, key);
         let pedal = self.pedal(channel);
         for index in 0..self.strings.len() {
             if self.strings[index].release(self.now, channel, key, pedal, out) {

@@ -1,7 +1,8 @@
 //! Keyswitches: keys that tell the hands how to play instead of being played.
 
+use super::Performance;
 use super::articulation::SWITCHES;
-use super::{CHANNELS, InputMode, Performance};
+use super::channel::Channel;
 
 /// Strings that have a keyswitch.
 const STRINGS: u8 = 8;
@@ -10,22 +11,23 @@ impl Performance {
     /// Keyswitches begin at this key, or there are none.
     pub(super) fn set_switches(&mut self, first: Option<u8>) {
         self.switches = first;
-        self.forced = None;
+        self.force_none();
+    }
+
+    /// No string is asked for any more.
+    pub(super) fn force_none(&mut self) {
+        self.channels.iter_mut().for_each(|channel| channel.forced = None);
     }
 
     /// A key goes down; `true` if it is a keyswitch. One for the hands counts until the next one, also for
     /// notes of the same instant; one for a string while it is down.
     pub(super) fn press_switch(&mut self, channel: u8, key: u8) -> bool {
         let Some(number) = self.switch(key) else { return false };
-        if let Some(string) = number.checked_sub(SWITCHES) {
-            self.forced = Some(usize::from(string));
-            self.want_again();
-            return true;
-        }
-        let all = self.is_mpe() || matches!(self.input, InputMode::Strings { .. });
-        let own = |number: usize| all || number == usize::from(channel);
-        for number in (0..CHANNELS).filter(|&number| own(number)) {
-            self.channels[number].articulation.switch(key.wrapping_sub(self.switches.unwrap_or(0)));
+        for own in self.switched_by(channel) {
+            match number.checked_sub(SWITCHES) {
+                Some(string) => own.forced = Some((usize::from(string), channel)),
+                None => _ = own.articulation.switch(number),
+            }
         }
         for struck in &mut self.chord {
             struck.articulation = self.channels[usize::from(struck.wanted.channel)].articulation;
@@ -35,12 +37,20 @@ impl Performance {
     }
 
     /// A key goes up that may be a keyswitch.
-    pub(super) fn release_switch(&mut self, key: u8) {
+    pub(super) fn release_switch(&mut self, channel: u8, key: u8) {
         let Some(number) = self.switch(key) else { return };
-        let string = number.checked_sub(SWITCHES).map(usize::from);
-        if string.is_some() && self.forced == string {
-            self.forced = None;
+        let struck = number.checked_sub(SWITCHES).map(|string| (usize::from(string), channel));
+        // Wherever it counted when it went down.
+        for own in self.channels.iter_mut().filter(|own| own.forced == struck) {
+            own.forced = None;
         }
+    }
+
+    /// The channels for which a keyswitch of one counts: all where each note or each string has its own.
+    fn switched_by(&mut self, channel: u8) -> impl Iterator<Item = &mut Channel> {
+        let all = self.is_mpe() || self.is_by_strings();
+        let own = move |&(number, _): &(usize, &mut Channel)| all || number == usize::from(channel);
+        self.channels.iter_mut().enumerate().filter(own).map(|(_, channel)| channel)
     }
 
     /// The number of a keyswitch.

@@ -7,7 +7,7 @@ use crate::performance::{GestureSink, InputMode, Performance};
 
 impl Performance {
     /// Whether each string has a channel.
-    pub(super) fn is_by_strings(&self) -> bool {
+    pub(in crate::performance) fn is_by_strings(&self) -> bool {
         matches!(self.input, InputMode::Strings { .. })
     }
 
