@@ -124,3 +124,18 @@ fn a_channel_that_is_reset_leaves_what_the_pedals_of_the_first_hold() {
         }
     }
 }
+
+#[test]
+fn a_note_that_comes_back_when_another_channel_is_reset_swings_as_its_own_has_it() {
+    let swings = |reset: PlayerEvent| {
+        let told = [(0, control(0, 68, 127)), (0, control(1, 1, 127)), (0, control(2, 64, 127))];
+        // B3 over A3, kept by its pedal.
+        let notes = [(0, note(1, 57)), (24_000, note(2, 59))];
+        let up = [(36_000, PlayerEvent::NoteOff { channel: 2, key: 59 }), (48_000, reset)];
+        let gestures = mpe(&[&told[..], &notes, &up].concat());
+        let bent = |g: &&TimedGesture| g.time > 60_000 && matches!(g.gesture, Gesture::Bend { .. });
+        gestures.iter().filter(bent).count()
+    };
+    assert!(swings(control(2, 64, 0)) > 20, "the pedal goes up");
+    assert!(swings(control(2, 121, 0)) > 20, "all of its channel is put back");
+}

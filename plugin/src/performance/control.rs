@@ -153,8 +153,11 @@ impl Performance {
                         string.pedal_up(time, channel, out);
                     }
                     string.bend(time, channel, bend);
-                    string.press(time, manner.pressure, out);
-                    string.swing(time, manner.vibrato);
+                    // A note of another channel that has come back is as that has it.
+                    if string.channel() == Some(channel) {
+                        string.press(time, manner.pressure, out);
+                        string.swing(time, manner.vibrato);
+                    }
                     string.set_touch(time, &articulation, out);
                 }
             }
