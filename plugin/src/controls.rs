@@ -5,6 +5,7 @@ use low_action_dsp::Setup;
 use low_action_dsp::setup::{Pickup, Player};
 
 use crate::engine::{EngineOptions, Quality};
+use crate::performance::NEAREST_PLUCK;
 
 /// What cannot be changed without compiling the strings anew. All values are relative to a set-up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -154,19 +155,23 @@ impl Touching {
         self.pluck_softest + (1.0 - self.pluck_softest) * libm::pow(velocity, self.velocity_curve)
     }
 
-    /// The hands of a set-up, acting so; what would lead past a limit of the set-up file goes as far as it
-    /// can.
-    pub fn hands(&self, hands: &Player) -> Player {
+    /// The hands of a set-up with strings of such a scale (m), acting so; what would lead past a limit of the
+    /// set-up file goes as far as it can.
+    pub fn hands(&self, hands: &Player, scale: f64) -> Player {
         let mut hands = hands.clone();
-        hands.pluck_position += self.pluck_position;
+        // Fingers have a width, but what the set-up itself has is left to it.
+        let own = hands.pluck_position;
+        let (nearest, farthest) = (NEAREST_PLUCK.min(own), (scale - NEAREST_PLUCK).max(own));
+        hands.pluck_position = (own + self.pluck_position).min(farthest).max(nearest);
         hands.pluck_force *= self.pluck_force;
-        hands.pluck_duration = (hands.pluck_duration * self.pluck_duration).clamp(1e-4, 0.1);
+        hands.pluck_duration *= self.pluck_duration;
         let fretting = &mut hands.fretting;
         fretting.force *= self.finger_force;
         fretting.touch.stiffness *= self.finger_hardness;
         fretting.touch.mass *= self.finger_mass;
-        fretting.hover = (fretting.hover * self.finger_hover).min(0.1);
+        fretting.hover *= self.finger_hover;
         fretting.touch.hand_damping *= self.hand_damping;
+        hands.limit();
         hands
     }
 }

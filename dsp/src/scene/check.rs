@@ -161,13 +161,33 @@ impl FingerSpec {
     }
 }
 
+/// What the mass of a finger may be, kg, and what each of its two dampings, s/m and N s/m.
+const MASS: [f64; 2] = [1e-7, 1e3];
+const DAMPING: [f64; 2] = [0.0, 1e5];
+
 impl Touch {
+    /// Brings all but the exponent into its range.
+    pub(crate) fn limit(&mut self) {
+        let stiffness = [*ContactLaw::STIFFNESS.start(), *ContactLaw::STIFFNESS.end()];
+        for (value, [low, high]) in [
+            (&mut self.mass, MASS),
+            (&mut self.stiffness, stiffness),
+            (&mut self.damping, DAMPING),
+            (&mut self.hand_damping, DAMPING),
+        ] {
+            *value = value.clamp(low, high);
+        }
+    }
+
     /// Refuses values outside their range; `name` says whose they are.
     pub fn check(&self, name: &str) -> Result<(), Error> {
-        within(&format!("{name}.mass"), self.mass, 1e-7, 1e3, "kg")?;
+        let ranged = |key: &str, value, [low, high]: [f64; 2], unit| {
+            within(&format!("{name}.{key}"), value, low, high, unit)
+        };
+        ranged("mass", self.mass, MASS, "kg")?;
         ContactLaw::new(name, self.stiffness, self.exponent)?;
-        within(&format!("{name}.damping"), self.damping, 0.0, 1e5, "s/m")?;
-        within(&format!("{name}.hand_damping"), self.hand_damping, 0.0, 1e5, "N s/m").map(drop)
+        ranged("damping", self.damping, DAMPING, "s/m")?;
+        ranged("hand_damping", self.hand_damping, DAMPING, "N s/m").map(drop)
     }
 }
 

@@ -54,15 +54,36 @@ pub struct Damper {
     pub position: f64,
 }
 
+/// What the numbers may be that a player can also change while playing: s, N, N and m.
+const PLUCK_DURATION: [f64; 2] = [1e-4, 0.1];
+const PLUCK_FORCE: [f64; 2] = [1e-3, 1e3];
+const FRETTING_FORCE: [f64; 2] = [0.1, 100.0];
+const HOVER: [f64; 2] = [0.0, 0.1];
+
 impl Player {
+    /// Brings what a player can change while playing, but for the place of the pluck, back to what a set-up may have.
+    pub fn limit(&mut self) {
+        let Fretting { touch, force, hover, .. } = &mut self.fretting;
+        for (value, [low, high]) in [
+            (&mut self.pluck_duration, PLUCK_DURATION),
+            (&mut self.pluck_force, PLUCK_FORCE),
+            (force, FRETTING_FORCE),
+            (hover, HOVER),
+        ] {
+            *value = value.clamp(low, high);
+        }
+        touch.limit();
+    }
+
     pub(super) fn check(&self, scale: f64) -> Result<(), Error> {
+        let ranged = |name, value, [low, high]: [f64; 2], unit| within(name, value, low, high, unit);
         on_scale("player.pluck_position", self.pluck_position, scale)?;
-        within("player.pluck_duration", self.pluck_duration, 1e-4, 0.1, "s")?;
-        within("player.pluck_force", self.pluck_force, 1e-3, 1e3, "N")?;
+        ranged("player.pluck_duration", self.pluck_duration, PLUCK_DURATION, "s")?;
+        ranged("player.pluck_force", self.pluck_force, PLUCK_FORCE, "N")?;
         let Fretting { touch, force, hover, landing, behind, nearest } = &self.fretting;
         touch.check("player.fretting")?;
-        within("player.fretting.force", *force, 0.1, 100.0, "N")?;
-        within("player.fretting.hover", *hover, 0.0, 0.1, "m")?;
+        ranged("player.fretting.force", *force, FRETTING_FORCE, "N")?;
+        ranged("player.fretting.hover", *hover, HOVER, "m")?;
         within("player.fretting.landing", *landing, 0.0, 1.0, "s")?;
         within("player.fretting.behind", *behind, 0.05, 0.95, "of the fret's space")?;
         within("player.fretting.nearest", *nearest, 0.0, 0.03, "m")?;

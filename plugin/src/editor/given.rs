@@ -51,7 +51,7 @@ impl Plan {
     pub fn follow(&mut self, params: &LowActionParams) {
         // Neither the rate nor how a host renders changes what is seen.
         let order = Order::of(params, 0.0, false);
-        let hands = |setup: &Setup| order::touching(params).hands(&setup.player);
+        let hands = |setup: &Setup| order::touching(params).hands(&setup.player, setup.neck.scale_length);
         match &mut self.made {
             Some((made, setup, player)) if *made == order => *player = hands(setup),
             made => {

@@ -39,6 +39,7 @@ pub use moment::GestureSink;
 pub(crate) use moment::Moment;
 pub use played::PlayedString;
 use string::StringPlayer;
+pub(crate) use technique::NEAREST_PLUCK;
 pub use technique::VELOCITY_CURVE;
 use variation::Variation;
 
@@ -68,6 +69,8 @@ pub struct Performance {
     input: InputMode,
     /// The hands as the set-up has them.
     hands: Player,
+    /// Length of the strings, m; of the shortest.
+    scale: f64,
     touching: Touching,
     compromises: Compromises,
     /// Notes that began at `now` and are not placed yet.
@@ -95,7 +98,9 @@ impl Performance {
             coil: coil.map(|from_saddle| from_saddle / geometry.length),
         });
         let count = strings.len();
+        let lengths = strings.iter().map(|string| string.geometry.length);
         Self {
+            scale: lengths.fold(f64::INFINITY, f64::min),
             hand: Hand::new(ranges.collect()),
             strings: strings
                 .into_iter()
@@ -191,7 +196,7 @@ impl Performance {
         for channel in &mut self.channels {
             channel.set_range(touching.bend_range, touching.ignore_rpn);
         }
-        let hands = touching.hands(&self.hands);
+        let hands = touching.hands(&self.hands, self.scale);
         for string in &mut self.strings {
             string.set_hands(time, &hands, out);
             string.set_arm(time, touching.tremolo_arm);
@@ -283,7 +288,7 @@ impl Performance {
 
     /// Gives every string the hands and the tremolo arm as they are now.
     fn pick_up_hands(&mut self) {
-        let hands = self.touching.hands(&self.hands);
+        let hands = self.touching.hands(&self.hands, self.scale);
         for string in &mut self.strings {
             string.begin_with(self.now, &hands, self.touching.tremolo_arm);
         }

@@ -181,3 +181,44 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
         });
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::Start;
+    use crate::performance::NEAREST_PLUCK;
+    use crate::setups::SHIPPED;
+
+    /// Checked as a set-up file would be: what is played so can be saved.
+    #[test]
+    fn hands_led_as_far_as_they_go_are_those_of_a_set_up() {
+        let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
+        let player = params.player.param_map();
+        assert_eq!(player.len(), 11);
+        for (id, param, _) in player {
+            // SAFETY: the pointers lead into `params`.
+            let set = |value| unsafe { param._internal_set_normalized_value(value) };
+            for end in [0.0, 1.0] {
+                set(end);
+                for name in SHIPPED {
+                    let mut setup = Setup::shipped(name).expect("it comes with the program");
+                    setup.player = touching(&params).hands(&setup.player, setup.neck.scale_length);
+                    assert_eq!(setup.check(), Ok(()), "{name} with {id} at {end}");
+                    // As near as fingers can be, and no nearer.
+                    assert!(setup.player.pluck_position >= NEAREST_PLUCK, "{name} with {id} at {end}");
+                }
+            }
+            // SAFETY: as above.
+            set(unsafe { param.default_normalized_value() });
+        }
+    }
+
+    #[test]
+    fn the_pluck_stays_on_a_short_string() {
+        let mut setup = Setup::builtin("electric").expect("it is built in");
+        setup.neck.scale_length = 0.25;
+        let hands = Touching { pluck_position: 0.2, ..Touching::default() };
+        setup.player = hands.hands(&setup.player, setup.neck.scale_length);
+        assert_eq!(setup.player.pluck_position, 0.25 - NEAREST_PLUCK);
+    }
+}
