@@ -23,7 +23,11 @@ pub const LARGEST_FILE: usize = 32 << 20;
 /// The channel of percussion in General MIDI, counted from 0.
 const DRUM_CHANNEL: u8 = 9;
 
-/// Which of a file's notes are played. Tempo changes always count.
+/// Controllers that set registered parameters, and those that take data entry away from them.
+const PARAMETERS: [u8; 6] = [6, 38, 98, 99, 100, 101];
+
+/// Which of a file's notes are played. Tempo changes always count, and so do registered parameters: MPE and how far
+/// wheels reach are announced on other channels than those of the notes, and often in another track.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Selection {
     /// Only this track, counted from 1.
@@ -66,7 +70,8 @@ impl Song {
         {
             return Err(MidiFileError::NoSuchTrack { asked, count: chunks.tracks.len() });
         }
-        let mut reader = Reader { selection, division: chunks.division, no_tempos: 0, song: Song::empty() };
+        let (division, song) = (chunks.division, Song::empty());
+        let mut reader = Reader { selection, division, no_tempos: 0, found: Vec::new(), song };
         if chunks.left_out > 0 {
             let (announced, left_out) = (chunks.tracks.len(), chunks.left_out);
             reader.song.warnings.push(SongWarning::TracksLeftOut { announced, left_out });
@@ -110,7 +115,8 @@ struct Tick {
 enum TickKind {
     /// Microseconds a beat.
     Tempo(u32),
-    Player(PlayerEvent),
+    /// Something for a player, and whether it is selected.
+    Player(PlayerEvent, bool),
 }
 
 /// A decoded track: its events, and the tick at which it ends.
@@ -125,6 +131,8 @@ struct Reader {
     division: Division,
     /// Changes to a tempo that is none, passed over.
     no_tempos: usize,
+    /// Everything that is for a player, in order of time, and whether it is selected.
+    found: Vec<(SongEvent, bool)>,
     song: Song,
 }
 
@@ -160,10 +168,11 @@ impl Reader {
                     break;
                 }
                 TrackEventKind::Meta(MetaMessage::Tempo(tempo)) => self.tempo(tempo.as_int()),
-                TrackEventKind::Midi { channel, message } if self.selects(index) => {
+                TrackEventKind::Midi { channel, message } => {
                     let chosen = |only| only == channel.as_int() + 1;
+                    let selected = self.selects(index) && self.selection.channel.is_none_or(chosen);
                     let event = player_event(channel.as_int(), message);
-                    event.filter(|_| self.selection.channel.is_none_or(chosen)).map(TickKind::Player)
+                    event.map(|event| TickKind::Player(event, selected))
                 }
                 _ => None,
             };
@@ -195,26 +204,38 @@ impl Reader {
             clock.advance_to(tick.at);
             match tick.kind {
                 TickKind::Tempo(tempo) => clock.set_tempo(tempo),
-                TickKind::Player(event) => self.song.events.push(SongEvent { time: clock.now(), event }),
+                TickKind::Player(event, selected) => {
+                    self.found.push((SongEvent { time: clock.now(), event }, selected));
+                }
             }
         }
         clock.advance_to(end);
         clock.now()
     }
 
-    fn finish(mut self) -> Song {
-        let Self { selection, no_tempos, song: Song { events, warnings }, .. } = &mut self;
-        warnings.extend((*no_tempos > 0).then_some(SongWarning::NoTempo { changes: *no_tempos }));
-        let plays_tenth = selection.channel.is_some() || selection.tenth;
-        if !plays_tenth && !announces_mpe(events.iter().map(|event| event.event)) {
-            let notes = count_notes(events);
+    fn finish(self) -> Song {
+        let Self { selection, no_tempos, mut found, song: Song { mut events, mut warnings }, .. } = self;
+        warnings.extend((no_tempos > 0).then_some(SongWarning::NoTempo { changes: no_tempos }));
+        let mpe = announces_mpe(found.iter().map(|(event, _)| event.event));
+        // What is announced when all that is selected is over makes the song no longer.
+        let end = found.iter().rposition(|&(_, selected)| selected).map_or(0, |last| last + 1);
+        found.truncate(end);
+        let counts = |&(event, selected): &(SongEvent, bool)| selected || is_parameter(event.event);
+        events.extend(found.into_iter().filter(counts).map(|(event, _)| event));
+        if selection.channel.is_none() && !selection.tenth && !mpe {
+            let notes = count_notes(&events);
             events.retain(|event| event.event.channel() != Some(DRUM_CHANNEL));
-            let notes = notes - count_notes(events);
+            let notes = notes - count_notes(&events);
             warnings.extend((notes > 0).then_some(SongWarning::DrumsSkipped { notes }));
         }
-        warnings.extend((count_notes(events) == 0).then_some(SongWarning::NoNotes));
-        self.song
+        warnings.extend((count_notes(&events) == 0).then_some(SongWarning::NoNotes));
+        Song { events, warnings }
     }
+}
+
+/// Whether it is part of setting a registered parameter.
+fn is_parameter(event: PlayerEvent) -> bool {
+    matches!(event, PlayerEvent::Controller { number, .. } if PARAMETERS.contains(&number))
 }
 
 fn count_notes(events: &[SongEvent]) -> usize {

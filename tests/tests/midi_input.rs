@@ -1,7 +1,7 @@
 //! The promise: every Standard MIDI File plays, every event at its exact sample; what is no such file is
 //! refused in one line, and no bytes at all make the reader panic or hang.
 
-use low_action::midi_file::{LARGEST_FILE, MidiFileError, Selection, Song, SongWarning};
+use low_action::midi_file::{LARGEST_FILE, Selection, Song, SongWarning};
 use low_action::performance::PlayerEvent;
 use low_action_tests::cases::cases;
 use low_action_tests::midi::{END, file, tempo, track};
@@ -170,31 +170,6 @@ fn drums_are_left_out_with_one_warning() {
         [(0, &[0xB0, 101, 0][..]), (0, &[0xB0, 100, 6]), (0, &[0xB0, 6, 15]), (5, &[0x99, 38, 100])];
     let mpe = read(&file(0, 96, &[track(&announced)]));
     assert_eq!((note_ons(&mpe).len(), mpe.warnings.len()), (1, 0));
-}
-
-#[test]
-fn tracks_and_channels_can_be_chosen() {
-    let slow = tempo(1_000_000);
-    let tracks = [
-        track(&[(0, &slow), (0, &[0x90, 40, 100])]),
-        track(&[(96, &[0x91, 50, 100]), (0, &[0x92, 51, 100])]),
-    ];
-    let bytes = file(1, 96, &tracks);
-    let chosen = |track, channel| {
-        Song::from_midi(&bytes, Selection { track, channel, ..ALL })
-            .map(|song| note_ons(&song))
-            .expect("good")
-    };
-    assert_eq!(chosen(Some(2), None), [(48_000, 50), (48_000, 51)], "the tempo of track 1 still counts");
-    assert_eq!(chosen(None, Some(3)), [(48_000, 51)]);
-    assert_eq!(chosen(Some(1), Some(2)), []);
-    for asked in [0, 3] {
-        let error = Song::from_midi(&bytes, Selection { track: Some(asked), ..ALL });
-        assert_eq!(error, Err(MidiFileError::NoSuchTrack { asked, count: 2 }));
-    }
-    // Of sequences, only the chosen one takes time.
-    let second = Song::from_midi(&file(2, 96, &tracks), Selection { track: Some(2), ..ALL });
-    assert_eq!(note_ons(&second.expect("good"))[0], (24_000, 50), "and no other's tempo counts");
 }
 
 #[test]

@@ -55,10 +55,11 @@ pub struct RenderArgs {
     /// (auto, 30 s at most), so many seconds, or not at all (none).
     #[arg(long, value_name = "auto|SECONDS|none", default_value_t = Tail::Auto)]
     pub tail: Tail,
-    /// Play only this track, counted from 1; tempo changes of all tracks count.
+    /// Play only this track, counted from 1; tempo changes and registered parameters (bend ranges, MPE) of all tracks
+    /// count.
     #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=65_535))]
     pub track: Option<u16>,
-    /// Play only this channel, 1 to 16.
+    /// Play only this channel, 1 to 16; registered parameters (bend ranges, MPE) of all channels count.
     #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=16))]
     pub channel: Option<u8>,
     /// What channels mean: auto (MPE if the song announces it, or else keyboard), keyboard (string and fret are
