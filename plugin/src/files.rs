@@ -2,9 +2,9 @@
 
 use std::fs::{self, Permissions};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use tempfile::NamedTempFile;
 
 /// Writes a text in place of what is there, in a folder that is made if need be. Where a link is, what it points to is
@@ -13,19 +13,49 @@ use tempfile::NamedTempFile;
 /// # Errors
 /// When the folder cannot be made or the file not be written; what was there is left.
 pub(crate) fn put(target: &Path, text: &str) -> Result<()> {
-    let place = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
-    let folder = place.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    // Beside it and then renamed, so that nobody ever reads half of it.
-    let write = || -> io::Result<()> {
-        let mut draft = beside(&place)?;
-        draft.write_all(text.as_bytes())?;
-        // On the disk first: after a power failure there must not be an empty file under the name.
-        draft.as_file().sync_all()?;
-        draft.persist(&place)?;
-        Ok(())
-    };
-    write().with_context(|| format!("cannot write {}", target.display()))
+    Draft::write(target, text)?.appear()
+}
+
+/// A text that is on the disk beside its place, so that nobody ever reads half of it; gone when dropped.
+#[derive(Debug)]
+pub(crate) struct Draft {
+    file: NamedTempFile,
+    /// Where it goes, and what that is called in messages.
+    place: PathBuf,
+    target: PathBuf,
+}
+
+impl Draft {
+    /// Writes a text that is to appear at a place, as [`put`] does.
+    ///
+    /// # Errors
+    /// When the folder cannot be made or the text not be written, or a folder is in its place.
+    pub fn write(target: &Path, text: &str) -> Result<Self> {
+        let place = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
+        if place.is_dir() {
+            bail!("cannot write {}: it is a folder", target.display());
+        }
+        let folder = place.parent().unwrap_or(Path::new("."));
+        fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+        let write = || -> io::Result<NamedTempFile> {
+            let mut file = beside(&place)?;
+            file.write_all(text.as_bytes())?;
+            // On the disk first: after a power failure there must not be an empty file under the name.
+            file.as_file().sync_all()?;
+            Ok(file)
+        };
+        let file = write().with_context(|| format!("cannot write {}", target.display()))?;
+        Ok(Self { file, place, target: target.to_owned() })
+    }
+
+    /// Takes the place of what is there.
+    ///
+    /// # Errors
+    /// When it cannot be renamed; what was there is left.
+    pub fn appear(self) -> Result<()> {
+        let renamed = self.file.persist(&self.place).map_err(|error| error.error);
+        renamed.map(drop).with_context(|| format!("cannot write {}", self.target.display()))
+    }
 }
 
 /// A file in the same folder as another, so that renaming it is one step; gone when dropped.

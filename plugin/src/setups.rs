@@ -108,12 +108,32 @@ impl Checked {
     }
 }
 
-/// Writes set-up files into a folder, which is made if need be, in place of those of the same name.
+/// Writes set-up files into a folder, which is made if need be, in place of those of the same name: all or none.
 ///
 /// # Errors
-/// When one cannot be written.
+/// When one cannot be written. Should the system refuse only to rename what is written, it names those that were before it.
 pub fn install(files: &[Checked], folder: &Path) -> Result<Vec<SetupFile>> {
-    files.iter().map(|file| put(&file.name, &file.text, folder)).collect()
+    let draft = |Checked { name, text }: &Checked| -> Result<_> {
+        let file = SetupFile { name: name.clone(), path: place(name, folder) };
+        Ok((files::Draft::write(&file.path, text)?, file))
+    };
+    appear(files.iter().map(draft).collect::<Result<_>>()?)
+}
+
+/// Lets drafts appear, one after the other.
+fn appear(drafts: Vec<(files::Draft, SetupFile)>) -> Result<Vec<SetupFile>> {
+    let mut installed: Vec<SetupFile> = Vec::with_capacity(drafts.len());
+    for (draft, file) in drafts {
+        draft.appear().with_context(|| match installed.as_slice() {
+            [] => "nothing was installed".to_owned(),
+            files => {
+                let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
+                format!("only {} was installed", names.join(", "))
+            }
+        })?;
+        installed.push(file);
+    }
+    Ok(installed)
 }
 
 /// Reads a set-up file that is to be installed.
@@ -143,12 +163,31 @@ pub fn save(setup: &Setup, folder: &Path) -> Result<SetupFile> {
     );
     ensure!(!SHIPPED.contains(&name), "{name} comes with the program: give yours another name");
     setup.check().with_context(|| name.to_owned())?;
-    put(name, &setup.to_toml()?, folder)
+    let file = SetupFile { name: name.to_owned(), path: place(name, folder) };
+    files::put(&file.path, &setup.to_toml()?)?;
+    Ok(file)
 }
 
-/// Writes a set-up file.
-fn put(name: &str, text: &str, folder: &Path) -> Result<SetupFile> {
-    let path = place(name, folder);
-    files::put(&path, text)?;
-    Ok(SetupFile { name: name.to_owned(), path })
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_installed_before_an_error_is_named() {
+        let folder = tempfile::tempdir().expect("there is room");
+        let draft = |name: &str| {
+            let file = SetupFile { name: name.into(), path: place(name, folder.path()) };
+            (files::Draft::write(&file.path, "text").expect("there is room"), file)
+        };
+        let drafts = ["one", "two", "three", "four"].map(draft);
+        // Somebody else is quicker.
+        fs::create_dir(place("three", folder.path())).expect("there is room");
+        let error = format!("{:#}", appear(drafts.into()).expect_err("a folder is there"));
+        assert!(error.starts_with("only one, two was installed: cannot write "), "{error}");
+        assert!(error.contains("three.toml"), "{error}");
+        // The drafts that were left have gone.
+        let names: Vec<_> = files_in(folder.path()).into_iter().map(|file| file.name).collect();
+        assert_eq!(names, ["one", "two"]);
+        assert_eq!(fs::read_dir(folder.path()).expect("it is there").count(), 3);
+    }
 }

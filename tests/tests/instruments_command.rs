@@ -146,6 +146,22 @@ fn what_is_played_is_not_written_over() {
 }
 
 #[test]
+fn where_one_cannot_be_written_none_is() {
+    let place = workplace();
+    place.write("aa.toml", LOWER);
+    assert_eq!(place.run(&["instruments", "--install", "aa.toml"]).code, 0);
+    place.write("aa.toml", LOWER.replace("two", "three"));
+    place.write("bb.toml", LOWER);
+    std::fs::create_dir(place.path("instruments/bb.toml")).expect("there is room");
+    let done = place.run(&["instruments", "--install", "aa.toml", "bb.toml"]);
+    assert_eq!(done.code, 1, "{}", done.error);
+    assert!(done.error.contains("bb.toml: it is a folder"), "{}", done.error);
+    assert_eq!(done.error.lines().count(), 1, "{}", done.error);
+    assert_eq!(std::fs::read_to_string(place.path("instruments/aa.toml")).expect("it is there"), LOWER);
+    assert_eq!(installed(&place), ["aa.toml", "bb.toml"]);
+}
+
+#[test]
 fn what_is_no_set_up_is_refused_in_one_line() {
     let place = workplace();
     place.write("broken.toml", "name = \"broken\"\nbased_on = \"electric\"\n[neck]\naction = 9.0\n");
