@@ -9,6 +9,7 @@ use low_action_dsp::Setup;
 use low_action_tests::desk::Desk;
 use low_action_tests::user::isolate as folder;
 use nice_plug::prelude::{ParamSetter, Params};
+use serde_json::{Value, json};
 
 /// Types a value into the control of a parameter.
 fn enter(desk: &mut Desk, tab: &str, name: &str, value: &str) {
@@ -143,6 +144,37 @@ fn what_somebody_else_has_saved_is_not_replaced_unasked() {
         assert!(desk.harness.query_by_label(button).is_some(), "{name}");
         assert!(desk.harness.query_by_label(other).is_none(), "{name}");
     }
+}
+
+/// As in a project from a time when the folder had other files: the session's own has the number of another one.
+#[test]
+fn what_a_session_keeps_gives_way_to_what_is_chosen() {
+    for name in ["Kept aa", "Kept cc"] {
+        fs::write(folder().join(format!("{name}.toml")), "based_on = \"steel\"\n")
+            .expect("it can be written");
+    }
+    let mut desk = Desk::new();
+    let place = |desk: &Desk, name| desk.params.shelf.names().iter().position(|known| known == name);
+    let number = place(&desk, "Kept cc").expect("it is there") as u32 + 1;
+    let kept = json!({ "number": number, "name": "Kept aa", "text": "based_on = \"bass\"\n" }).to_string();
+    let field = |desk: &Desk| desk.params.serialize_fields()["instrument_file"].clone();
+    desk.params.deserialize_fields(&[("instrument_file".to_owned(), kept.clone())].into());
+    let setter = ParamSetter::new(&*desk.host);
+    setter.set_parameter(&desk.params.instrument.file, number as i32);
+    desk.wait(0.1);
+    assert_eq!(desk.params.shelf.name(number).as_deref(), Some("Kept aa"));
+    let parsed = |text: &str| -> Value { serde_json::from_str(text).expect("JSON") };
+    assert_eq!(parsed(&field(&desk)), parsed(&kept), "nobody has chosen anything yet");
+    // The one after it in the list has its number.
+    desk.click(desk.named("›"));
+    desk.wait(0.1);
+    assert_eq!(desk.params.instrument.file.value(), number as i32);
+    assert_eq!(desk.params.shelf.name(number).as_deref(), Some("Kept cc"));
+    let found = parsed(&field(&desk));
+    assert_eq!((&found["name"], &found["text"]), (&json!("Kept cc"), &json!("based_on = \"steel\"\n")));
+    desk.click(desk.named("‹"));
+    desk.wait(0.1);
+    assert_eq!(desk.params.instrument.file.value(), place(&desk, "Kept aa").expect("it is there") as i32 + 1);
 }
 
 #[test]

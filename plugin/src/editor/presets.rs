@@ -132,13 +132,15 @@ fn number(given: &Given) -> u32 {
     given.params.instrument.file.unmodulated_plain_value().unsigned_abs()
 }
 
-/// Where in the list what is played stands, if it does.
+/// Where in the list what is played stands, if it does: a session's own file by its name, as the folder may have another
+/// under its number.
 fn chosen(given: &Given) -> Option<usize> {
-    match number(given) as usize {
-        0 => Some(given.params.instrument.instrument.unmodulated_plain_value().to_index()),
-        file if file <= given.params.shelf.count() => Some(SHIPPED.len() + file - 1),
-        _ => None,
+    let (number, shelf) = (number(given), &given.params.shelf);
+    if number == 0 {
+        return Some(given.params.instrument.instrument.unmodulated_plain_value().to_index());
     }
+    let name = shelf.name(number)?;
+    Some(SHIPPED.len() + shelf.names().iter().position(|listed| *listed == name)?)
 }
 
 fn title(given: &Given, chosen: Option<usize>) -> String {
@@ -160,6 +162,10 @@ fn choose(given: &Given, index: usize) {
         }
         Some(file) => file as i32 + 1,
     };
+    // Of another number the shelf hears by itself.
+    if file != 0 && file.unsigned_abs() == number(given) {
+        given.params.shelf.let_go();
+    }
     values.push((instrument.file.as_ptr(), instrument.file.preview_normalized(file)));
     change(given, &values);
 }

@@ -3,7 +3,7 @@
 //! The files of the user's folder are numbered, in the order of their names, as they are when the plugin is loaded.
 //! One that is chosen by its number is read and from then on kept, text and all: the session saves the text, and so
 //! the project sounds the same on another machine and after the file was changed. Choosing another number lets go of
-//! it. The audio thread sees nothing but numbers.
+//! it, as does choosing anything in the editor's list. The audio thread sees nothing but numbers.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -133,6 +133,14 @@ impl Shelf {
         let stands_for = self.0.stands_for.load(Ordering::Relaxed);
         if stands_for != NONE && stands_for != number {
             self.0.stands_for.store(NONE, Ordering::Relaxed);
+            self.0.edition.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    /// Lets go of the kept file: its number means the file of the folder again.
+    #[cfg(feature = "editor")]
+    pub(crate) fn let_go(&self) {
+        if self.0.stands_for.swap(NONE, Ordering::Relaxed) != NONE {
             self.0.edition.fetch_add(1, Ordering::Relaxed);
         }
     }
