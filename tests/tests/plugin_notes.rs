@@ -214,6 +214,25 @@ fn hosts_hear_when_a_note_has_ended() {
     assert!(times(62).last().is_some_and(|&at| at == 18_432), "{:?}", times(62));
 }
 
+#[test]
+fn a_note_struck_again_under_another_number_ends_with_both() {
+    let begin = |at, number| (at, Action::Begin { number, channel: 0, key: 62 });
+    let lift = |at, number| (at, Action::Lift { number });
+    let strikes = [begin(0, 1), begin(6000, 2)];
+    let performed = |lifts: &[(u64, Action)]| {
+        let score = [&strikes[..], lifts].concat();
+        let performed = Host::new().perform(RATE, &score, LENGTH, &[512], 0);
+        (rms(&performed.stereo[0][30_000..]), performed.ended)
+    };
+    for lifts in [[lift(12_000, 1), lift(18_000, 2)], [lift(12_000, 2), lift(18_000, 1)]] {
+        let (rest, ended) = performed(&lifts);
+        assert!(rest < 1e-3, "{rest}");
+        // Each number once: the first when the other came.
+        assert_eq!(ended, [(6144, 62), (18_432, 62)]);
+        assert!(performed(&lifts[..1]).0 > 1e-3, "one press is left");
+    }
+}
+
 /// However often its key went down, and whether it sounds or lies under another.
 #[test]
 fn a_choke_ends_a_note() {

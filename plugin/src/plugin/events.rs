@@ -20,15 +20,26 @@ struct Address {
 }
 
 impl Address {
-    /// All channels and keys meant; a host may name a note by its number alone. A number that nobody has any more
-    /// means nobody.
-    fn notes(&self, voices: &Voices) -> Option<(RangeInclusive<u8>, RangeInclusive<u8>)> {
-        let (channel, key) = match (self.voice, self.channel, self.key) {
-            (VoiceID::ID(id), Channel::Wildcard, _) | (VoiceID::ID(id), _, Key::Wildcard) => {
-                let (channel, key) = voices.find(id)?;
+    /// The number of a note that nothing else names.
+    fn number(&self) -> Option<i32> {
+        match (self.voice, self.channel, self.key) {
+            (VoiceID::ID(id), Channel::Wildcard, _) | (VoiceID::ID(id), _, Key::Wildcard) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// All channels and keys meant; a host may name a note by its number alone, which `find` looks up. A number that
+    /// nobody has any more means nobody.
+    fn notes(
+        &self,
+        find: impl FnOnce(i32) -> Option<(u8, u8)>,
+    ) -> Option<(RangeInclusive<u8>, RangeInclusive<u8>)> {
+        let (channel, key) = match self.number() {
+            Some(id) => {
+                let (channel, key) = find(id)?;
                 (Channel::Number(channel), Key::Number(key))
             }
-            _ => (self.channel, self.key),
+            None => (self.channel, self.key),
         };
         let channels = match channel {
             Channel::Number(number) => number..=number,
@@ -42,8 +53,8 @@ impl Address {
     }
 
     /// Says something of every note meant.
-    fn each(&self, voices: &Voices, mut say: impl FnMut(u8, u8)) {
-        let Some((channels, keys)) = self.notes(voices) else { return };
+    fn each(&self, find: impl FnOnce(i32) -> Option<(u8, u8)>, mut say: impl FnMut(u8, u8)) {
+        let Some((channels, keys)) = self.notes(find) else { return };
         channels.for_each(|channel| keys.clone().for_each(|key| say(channel, key)));
     }
 }
@@ -57,7 +68,8 @@ pub(super) fn translate(
 ) {
     let at = event.timing();
     let mut express = |voices: &Voices, address: Address, expression| {
-        address.each(voices, |channel, key| send(at, PlayerEvent::Note { channel, key, expression }));
+        let find = |id| voices.find(id);
+        address.each(find, |channel, key| send(at, PlayerEvent::Note { channel, key, expression }));
     };
     match event {
         NoteEvent::NoteOn { voice_id, channel, key: Key::Number(key), velocity, .. } => {
@@ -82,16 +94,26 @@ pub(super) fn translate(
             key: Key::Wildcard,
             ..
         } => {
+            voices.lift_keys(&(0..=15), &(0..=127));
             send(at, PlayerEvent::AllNotesOff);
         }
         NoteEvent::NoteOff { voice_id: voice, channel, key, .. } => {
+            let lifted = if let VoiceID::ID(id) = voice { voices.lift(id) } else { None };
             let address = Address { voice, channel, key };
-            address.each(voices, |channel, key| send(at, PlayerEvent::NoteOff { channel, key }));
+            address.each(|_| lifted, |channel, key| send(at, PlayerEvent::NoteOff { channel, key }));
         }
         // A string has no faster way to stop than a finger put on it, so a choke is a note-off for every press.
         NoteEvent::Choke { voice_id: voice, channel, key, .. } => {
             let address = Address { voice, channel, key };
-            address.each(voices, |channel, key| send(at, PlayerEvent::NoteEnd { channel, key }));
+            if let Some((channels, keys)) = address.notes(|id| voices.find(id)) {
+                voices.lift_keys(&channels, &keys);
+                for channel in channels {
+                    keys.clone().for_each(|key| send(at, PlayerEvent::NoteEnd { channel, key }));
+                }
+            } else if let Some((channel, key)) = address.number().and_then(|id| voices.lift(id)) {
+                // It was struck again: what sounds is another note's.
+                send(at, PlayerEvent::NoteOff { channel, key });
+            }
         }
         NoteEvent::PolyPressure { voice_id: voice, channel, key, pressure, .. } => {
             express(voices, Address { voice, channel, key }, Expression::Pressure(pressure));
@@ -190,6 +212,36 @@ mod tests {
         voices.begin(7, 2, 45);
         assert_eq!(ended(&mut voices, 8), []);
         assert_eq!(ended(&mut voices, 7), [PlayerEvent::NoteOff { channel: 2, key: 45 }]);
+    }
+
+    #[test]
+    fn a_number_that_was_struck_again_still_has_its_note_off() {
+        let lifted = [PlayerEvent::NoteOff { channel: 2, key: 45 }];
+        let mut voices = Voices::default();
+        let mut told = Vec::new();
+        let mut block = |voices: &mut Voices, sounds| {
+            voices.end(|_, _| sounds, &mut |event| {
+                told.push(event.voice_id());
+                true
+            });
+        };
+        for id in [1, 2, 3] {
+            voices.begin(id, 2, 45);
+            block(&mut voices, true);
+        }
+        // In any order, each once.
+        for id in [2, 1, 3] {
+            assert_eq!(ended(&mut voices, id), lifted, "{id}");
+            assert_eq!(ended(&mut voices, id), [], "{id} again");
+            block(&mut voices, true);
+        }
+        // Pressed by another number before the last is told of, and what is over is forgotten.
+        voices.begin(4, 2, 45);
+        block(&mut voices, true);
+        block(&mut voices, false);
+        block(&mut voices, false);
+        assert_eq!(ended(&mut voices, 4), []);
+        assert_eq!(told, [1, 2, 3, 4].map(|id| Some(VoiceID::ID(id))));
     }
 
     #[test]

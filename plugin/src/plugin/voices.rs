@@ -1,5 +1,7 @@
 //! The notes of a host that numbers them.
 
+use std::ops::RangeInclusive;
+
 use nice_plug::midi::{Channel, Key, VoiceID};
 use nice_plug::prelude::NoteEvent;
 
@@ -16,6 +18,8 @@ struct Voice {
     key: u8,
     /// How many notes began before it.
     age: u64,
+    /// Whether its note-off is yet to come.
+    down: bool,
     /// By how much parameters are moved for it alone, of the host's 0 to 1.
     moved: [Option<f32>; poly::COUNT],
 }
@@ -24,31 +28,36 @@ struct Voice {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Voices {
     notes: [Option<Voice>; REMEMBERED],
+    /// Those whose key was struck again before their note-off: the host knows that they have ended, but each is one of the
+    /// presses that keep the key down.
+    presses: [Option<Voice>; REMEMBERED],
     begun: u64,
 }
 
 impl Default for Voices {
     fn default() -> Self {
-        Self { notes: [None; REMEMBERED], begun: 0 }
+        Self { notes: [None; REMEMBERED], presses: [None; REMEMBERED], begun: 0 }
     }
 }
 
 impl Voices {
     /// A note begins. Where there is no room, the oldest is forgotten.
     pub fn begin(&mut self, id: i32, channel: u8, key: u8) {
-        let voice = Voice { id, channel, key, age: self.begun, moved: [None; poly::COUNT] };
+        let voice = Voice { id, channel, key, age: self.begun, down: true, moved: [None; poly::COUNT] };
         self.begun += 1;
-        // A free place counts as older than all.
-        if let Some(place) = self.notes.iter_mut().min_by_key(|note| note.map(|voice| voice.age)) {
-            *place = Some(voice);
-        }
+        remember(&mut self.notes, voice);
     }
 
     /// Forgets the notes that sound no more and those struck again under another number, telling of each.
     pub fn end(&mut self, sounds: impl Fn(u8, u8) -> bool, send: &mut impl FnMut(NoteEvent<()>) -> bool) {
+        for press in &mut self.presses {
+            *press = press.filter(|voice| voice.down && sounds(voice.channel, voice.key));
+        }
         for index in 0..REMEMBERED {
-            let Some(Voice { id, channel, key, .. }) = self.notes[index] else { continue };
-            if sounds(channel, key) && self.latest(channel, key) == Some(id) {
+            let Some(voice) = self.notes[index] else { continue };
+            let Voice { id, channel, key, .. } = voice;
+            let sounds = sounds(channel, key);
+            if sounds && self.latest(channel, key) == Some(id) {
                 continue;
             }
             let ended = NoteEvent::VoiceTerminated {
@@ -60,6 +69,9 @@ impl Voices {
             // A host whose queue is full is told after the next block.
             if send(ended) {
                 self.notes[index] = None;
+                if sounds && voice.down {
+                    remember(&mut self.presses, voice);
+                }
             }
         }
     }
@@ -72,6 +84,23 @@ impl Voices {
     /// Channel and key of a note; the latest if its number was used again.
     pub fn find(&self, id: i32) -> Option<(u8, u8)> {
         self.last(|voice| voice.id == id).map(|voice| (voice.channel, voice.key))
+    }
+
+    /// A note-off that names a note: gives its channel and key, once for each time it began. The press of one whose key was
+    /// struck again counts, too.
+    pub fn lift(&mut self, id: i32) -> Option<(u8, u8)> {
+        let held = |voice: &&mut Voice| voice.id == id && voice.down;
+        let all = self.notes.iter_mut().chain(&mut self.presses).flatten();
+        let voice = all.filter(held).max_by_key(|voice| voice.age)?;
+        voice.down = false;
+        Some((voice.channel, voice.key))
+    }
+
+    /// Every key of these channels is up, however often it went down.
+    pub fn lift_keys(&mut self, channels: &RangeInclusive<u8>, keys: &RangeInclusive<u8>) {
+        for voice in self.notes.iter_mut().chain(&mut self.presses).flatten() {
+            voice.down &= !(channels.contains(&voice.channel) && keys.contains(&voice.key));
+        }
     }
 
     /// A parameter is moved by so much, of the host's 0 to 1, for the note of a number alone.
@@ -94,6 +123,13 @@ impl Voices {
     /// The latest note of some kind.
     fn last(&self, wanted: impl Fn(&Voice) -> bool) -> Option<&Voice> {
         self.notes.iter().flatten().filter(|voice| wanted(voice)).max_by_key(|voice| voice.age)
+    }
+}
+
+/// Puts a note in a free place, which counts as older than all, or in that of the oldest.
+fn remember(places: &mut [Option<Voice>], voice: Voice) {
+    if let Some(place) = places.iter_mut().min_by_key(|place| place.map(|voice| voice.age)) {
+        *place = Some(voice);
     }
 }
 

@@ -26,6 +26,20 @@ pub enum Action {
         /// MIDI key, 0 to 127.
         key: u8,
     },
+    /// A key goes down, and the host gives the note a number of its own.
+    Begin {
+        /// Number of the note.
+        number: u32,
+        /// MIDI channel, 0 to 15.
+        channel: u8,
+        /// MIDI key, 0 to 127.
+        key: u8,
+    },
+    /// The key of a note goes up, which is named by its number alone.
+    Lift {
+        /// Number of the note.
+        number: u32,
+    },
     /// A note is cut short.
     Choke {
         /// MIDI channel, 0 to 15.
@@ -86,6 +100,14 @@ pub(super) fn events_between(score: &Score, start: u64, end: u64, clock: fn(u32)
             }
             Action::NoteOff { channel, key } => {
                 events.push(&NoteOffEvent::new(time, note(channel, key), 0.0));
+            }
+            Action::Begin { number, channel, key } => {
+                let address = Pckn::new(0_u16, u16::from(channel), u16::from(key), number);
+                events.push(&NoteOnEvent::new(time, address, 0.7));
+            }
+            Action::Lift { number } => {
+                use clack_host::events::Match::All;
+                events.push(&NoteOffEvent::new(time, Pckn::new(All, All, All, number), 0.0));
             }
             Action::Choke { channel, key } => events.push(&NoteChokeEvent::new(time, note(channel, key))),
             Action::ChokeAll => events.push(&NoteChokeEvent::new(time, Pckn::match_all())),
