@@ -74,8 +74,8 @@ pub struct RenderArgs {
     /// Whether that is the set-up's first string, the highest on guitars, or its last [default: first_first].
     #[arg(long, value_name = "ORDER", value_parser = render::parse_choice::<StringOrder>())]
     pub string_order: Option<StringOrder>,
-    /// How far a full turn of the pitch wheel bends, 0 to 96 semitones, unless the song says so itself [default: 2; in MPE
-    /// always 48].
+    /// How far a full turn of the pitch wheel bends, 0 to 96 semitones, unless the song says so itself [default: 2]. Not for
+    /// MPE: there it is 48, channel 1's 2, or what the song says.
     #[arg(long, value_name = "SEMITONES", value_parser = render::parse_bend)]
     pub bend_range: Option<f64>,
     /// Pass over what the song says of the bend range (registered parameter 0).
