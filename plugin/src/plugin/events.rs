@@ -194,15 +194,19 @@ mod tests {
 
     /// What becomes of a note's end that names the note by its number alone.
     fn ended(voices: &mut Voices, id: i32) -> Vec<PlayerEvent> {
-        let off = NoteEvent::NoteOff {
-            timing: 0,
-            voice_id: VoiceID::ID(id),
-            channel: Channel::Wildcard,
-            key: Key::Wildcard,
-            velocity: 0.0,
-        };
+        let (voice_id, channel, key) = (VoiceID::ID(id), Channel::Wildcard, Key::Wildcard);
+        translated(voices, NoteEvent::NoteOff { timing: 0, voice_id, channel, key, velocity: 0.0 })
+    }
+
+    /// The same of a choke.
+    fn choked(voices: &mut Voices, id: i32) -> Vec<PlayerEvent> {
+        let (voice_id, channel, key) = (VoiceID::ID(id), Channel::Wildcard, Key::Wildcard);
+        translated(voices, NoteEvent::Choke { timing: 0, voice_id, channel, key })
+    }
+
+    fn translated(voices: &mut Voices, event: NoteEvent<()>) -> Vec<PlayerEvent> {
         let mut sent = Vec::new();
-        translate(off, &LowActionParams::default(), voices, |_, event| sent.push(event));
+        translate(event, &LowActionParams::default(), voices, |_, event| sent.push(event));
         sent
     }
 
@@ -235,13 +239,29 @@ mod tests {
             assert_eq!(ended(&mut voices, id), [], "{id} again");
             block(&mut voices, true);
         }
-        // Pressed by another number before the last is told of, and what is over is forgotten.
+        // What is over is forgotten.
         voices.begin(4, 2, 45);
         block(&mut voices, true);
         block(&mut voices, false);
         block(&mut voices, false);
         assert_eq!(ended(&mut voices, 4), []);
         assert_eq!(told, [1, 2, 3, 4].map(|id| Some(VoiceID::ID(id))));
+    }
+
+    #[test]
+    fn a_choke_ends_its_own_note_alone() {
+        let mut voices = Voices::default();
+        for id in [1, 2] {
+            voices.begin(id, 2, 45);
+            voices.end(|_, _| true, &mut |_| true);
+        }
+        let mut other = voices;
+        // Of the one that was struck again, only its press is left.
+        assert_eq!(choked(&mut voices, 1), [PlayerEvent::NoteOff { channel: 2, key: 45 }]);
+        assert_eq!(ended(&mut voices, 2), [PlayerEvent::NoteOff { channel: 2, key: 45 }]);
+        // The one that sounds takes all presses with it.
+        assert_eq!(choked(&mut other, 2), [PlayerEvent::NoteEnd { channel: 2, key: 45 }]);
+        assert_eq!(ended(&mut other, 1), []);
     }
 
     #[test]

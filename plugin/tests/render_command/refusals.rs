@@ -224,6 +224,17 @@ fn a_reader_who_has_seen_enough_of_the_help_is_no_failure() {
 }
 
 #[test]
+fn the_help_says_how_far_wheels_reach() {
+    let help = String::from_utf8(Room::new().run(&["render", "--help"]).stdout).unwrap();
+    let (_, help) = help.split_once("--bend-range").unwrap();
+    let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    // As it is refused with --input mpe, and as docs/plugin.md has it.
+    for said in ["[default: 2]", "for MPE: there it is 48, channel 1's 2, or what the song says"] {
+        assert!(words.split("--ignore-rpn").next().unwrap().contains(said), "{words}");
+    }
+}
+
+#[test]
 fn without_a_command_it_says_how_to_get_the_instrument() {
     let room = Room::new();
     if !cfg!(feature = "standalone") {
