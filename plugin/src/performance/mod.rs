@@ -229,6 +229,9 @@ impl Performance {
             for (string, old) in self.strings.iter_mut().zip(&old.strings) {
                 string.take_over(old);
             }
+        } else {
+            // It may have played before.
+            self.strings.iter_mut().for_each(StringPlayer::reset);
         }
         self.pick_up_hands();
     }
