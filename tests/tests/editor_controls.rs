@@ -103,7 +103,9 @@ fn the_wheel_moves_by_steps() {
 #[test]
 fn numbers_are_typed_with_or_without_unit() {
     let mut desk = Desk::new();
-    for (text, decibels) in [("-6", -6.0), ("-12 dB", -12.0)] {
+    for (text, decibels) in
+        [("-6", -6.0), ("-12 dB", -12.0), ("-7dB", -7.0), ("-8 db", -8.0), (" -9,5 ", -9.5), ("−3DB", -3.0)]
+    {
         write_level(&mut desk, text);
         assert!(desk.host.take().is_empty(), "nothing is set before it is entered");
         desk.key(Key::Enter);
@@ -120,6 +122,12 @@ fn what_is_no_number_is_not_taken() {
     desk.key(Key::Enter);
     write(&mut desk, "and more");
     assert!(desk.host.take().is_empty());
+    for text in ["nan", "NaN dB", "inf", "-infinity"] {
+        write_level(&mut desk, text);
+        desk.key(Key::Enter);
+        assert!(desk.host.take().is_empty(), "{text}");
+        desk.wait(1.0);
+    }
     write_level(&mut desk, "-6");
     desk.key(Key::Escape);
     assert!(desk.host.take().is_empty());
@@ -149,6 +157,23 @@ fn the_keyboard_does_all_of_it() {
     desk.key(Key::Tab);
     desk.key(Key::End);
     assert_eq!(desk.params.setup.relief.value(), 2.0, "Tab goes to the next control");
+}
+
+#[test]
+fn the_space_bar_is_the_hosts() {
+    let mut desk = Desk::new();
+    let place = at(&mut desk, "Sound", "Tension modulation");
+    desk.click(place);
+    assert!(!desk.params.setup.tension_modulation.value());
+    desk.host.take();
+    desk.key(Key::Space);
+    assert_eq!(desk.host.take(), [], "it has the focus, but a host starts and stops with it");
+    // On its own the program has no transport.
+    let mut alone = Desk::alone();
+    let place = at(&mut alone, "Sound", "Tension modulation");
+    alone.click(place);
+    alone.key(Key::Space);
+    assert!(alone.params.setup.tension_modulation.value());
 }
 
 #[test]

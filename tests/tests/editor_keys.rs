@@ -5,13 +5,14 @@ use std::collections::HashSet;
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use low_action::performance::{PlayerEvent, StringDeed};
+use low_action::params::InputChoice;
+use low_action::performance::{InputMode, PlayerEvent, StringDeed};
 use low_action::plugin::layout::{KeyMap, Keyboard};
 use low_action_dsp::Setup;
 use low_action_tests::desk::{Desk, RATE};
 use low_action_tests::pitch::{cents, frequency_near};
 use low_action_tests::stage::peak;
-use nice_plug::prelude::Params;
+use nice_plug::prelude::{ParamSetter, Params};
 
 /// The rows of keys as they lie.
 const ROWS: [&str; 4] = ["1234567890", "QWERTYUIOP", "ASDFGHJKL", "ZXCVBNM"];
@@ -192,6 +193,72 @@ fn no_key_hangs() {
             }
         }
     }
+}
+
+/// As X11 tells of a key that is held, some 25 times a second.
+#[test]
+fn a_key_that_repeats_is_one_that_is_held() {
+    let stroke = |pressed| egui::Event::Key {
+        key: Key::Q,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    for map in [KeyMap::Piano, KeyMap::Frets] {
+        let mut desk = Desk::alone();
+        desk.params.layout.set_keys(Keyboard { map, ..Keyboard::default() });
+        desk.wait(0.05);
+        down(&mut desk, Key::Q, true, Modifiers::NONE);
+        desk.wait(0.3);
+        let begun = std::mem::take(&mut desk.played);
+        assert!(!begun.is_empty());
+        for _ in 0..10 {
+            desk.harness.event(stroke(false));
+            desk.harness.event(stroke(true));
+            desk.wait(0.04);
+        }
+        assert_eq!(desk.played, [], "both at one picture");
+        for _ in 0..10 {
+            down(&mut desk, Key::Q, false, Modifiers::NONE);
+            down(&mut desk, Key::Q, true, Modifiers::NONE);
+        }
+        assert_eq!(desk.played, [], "one at each of two pictures");
+        down(&mut desk, Key::Q, false, Modifiers::NONE);
+        desk.wait(0.05);
+        assert_eq!(desk.played.len(), 1, "and it ends: {:?}", desk.played);
+    }
+}
+
+/// Under Caps Lock nothing is heard of a letter but what it writes.
+#[test]
+fn caps_lock_lets_go() {
+    let mut desk = Desk::alone();
+    down(&mut desk, Key::Q, true, Modifiers::NONE);
+    desk.harness.event(egui::Event::Text("A".into()));
+    desk.picture();
+    assert!(matches!(desk.played[1..], [PlayerEvent::NoteOff { key: 60, .. }]), "{:?}", desk.played);
+}
+
+#[test]
+fn where_channels_are_strings_the_piano_plays_on_them() {
+    let mut desk = Desk::alone();
+    let setter = ParamSetter::new(&*desk.host);
+    let control = &desk.params.control;
+    setter.set_parameter(&control.input_mode, InputChoice::Strings);
+    setter.set_parameter(&control.first_channel, 11);
+    desk.engine.set_input(InputMode::Strings { first: 10, from_last: false });
+    // Middle C on the string B3, and beside it D5 and E4, which is not left to the string that has it already.
+    for key in [Key::Q, Key::Num9, Key::E] {
+        down(&mut desk, key, true, Modifiers::NONE);
+    }
+    let channels: Vec<_> = desk.played.iter().filter_map(PlayerEvent::channel).collect();
+    assert_eq!(channels, [11, 10, 12], "{:?}", desk.played);
+    desk.wait(0.2);
+    assert!(desk.sound.iter().any(|sample| sample.abs() > 1e-3), "it is heard");
+    desk.played.clear();
+    down(&mut desk, Key::Num9, false, Modifiers::NONE);
+    assert!(matches!(desk.played[..], [PlayerEvent::NoteOff { channel: 10, .. }]), "{:?}", desk.played);
 }
 
 #[test]

@@ -49,3 +49,16 @@ fn a_narrow_window_says_it_in_its_menu() {
     desk.picture();
     assert!(!is_said(&desk, LATE) && !is_said(&desk, "set-up file 3"));
 }
+
+#[test]
+fn what_was_loud_while_nobody_looked_is_not_shown() {
+    let mut desk = Desk::new();
+    let meter = |desk: &Desk| desk.harness.get_by_label("Meter").value();
+    desk.meters.see_output(&[1.0], &[1.0]);
+    desk.picture();
+    assert_eq!(meter(&desk).as_deref(), Some("0.0 dB"));
+    desk.meters.see_output(&[1.0], &[1.0]);
+    desk.harness.state_mut().open();
+    desk.picture();
+    assert_eq!(meter(&desk).as_deref(), Some("-60.0 dB"));
+}

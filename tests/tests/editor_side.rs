@@ -2,8 +2,10 @@
 //! deep the string is pressed into it and with what force, or how far it is away.
 
 use egui_kittest::kittest::{NodeT, Queryable};
+use low_action::params::InstrumentChoice;
 use low_action::performance::PlayerEvent;
 use low_action_tests::desk::Desk;
+use nice_plug::prelude::ParamSetter;
 
 /// The words beside the mouse over a fret (counted from 1) of the string in the side view.
 fn read(desk: &mut Desk, fret: usize) -> String {
@@ -49,4 +51,15 @@ fn another_string_is_shown_where_the_mouse_was() {
         let shown = desk.harness.get_by_label("Side view").value();
         assert_eq!(shown.as_deref(), Some(name));
     }
+}
+
+#[test]
+fn an_instrument_with_fewer_strings_still_shows_one() {
+    let mut desk = Desk::new();
+    desk.point(desk.at(0.5, 5.0));
+    desk.harness.event(egui::Event::PointerGone);
+    desk.wait(0.1);
+    ParamSetter::new(&*desk.host).set_parameter(&desk.params.instrument.instrument, InstrumentChoice::Bass);
+    desk.wait(0.1);
+    assert_eq!(desk.harness.get_by_label("Side view").value().as_deref(), Some("E1"));
 }

@@ -84,6 +84,11 @@ impl Header {
         }
     }
 
+    /// Has the meter begin at its lowest.
+    pub fn rest(&mut self) {
+        self.levels = [FLOOR; 2];
+    }
+
     /// What a player should know of: too little time, a file that is missing.
     fn messages(&self, given: &Given) -> Vec<String> {
         let late = given.meters.relaxed().then(|| "Over budget: contacts are solved less exactly".to_owned());
@@ -137,6 +142,12 @@ impl Header {
     /// Both channels, one over the other.
     fn show_meter(&mut self, ui: &mut Ui, given: &Given, area: Rect) {
         let response = ui.interact(area.expand(TIGHT), ui.scope_id().with("meter"), Sense::hover());
+        response.widget_info(|| {
+            let mut info = WidgetInfo::labeled(Role::Meter, true, "Meter");
+            let loudest = self.levels[0].max(self.levels[1]);
+            info.current_text_value = Some(format!("{loudest:.1} dB"));
+            info
+        });
         response.on_hover_text("Level of both channels, from 60 dB below full scale; red at full scale");
         let seconds = ui.input(|input| input.stable_dt).min(0.1);
         let painter = ui.painter();

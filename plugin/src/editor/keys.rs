@@ -2,8 +2,10 @@
 //!
 //! Of the signs on the keyboard only letters and digits arrive from the window, so both make do with those.
 
+mod channels;
 mod frets;
 mod piano;
+mod repeats;
 
 use egui::{Event, Key, Modifiers, Ui};
 use low_action_dsp::Setup;
@@ -11,19 +13,32 @@ use low_action_dsp::Setup;
 use super::Given;
 use crate::performance::{PlayerEvent, StringDeed};
 use crate::plugin::layout::{KeyMap, Keyboard};
-use crate::plugin::order::touching;
+use crate::plugin::order::{input, touching};
 pub(super) use frets::{finger_place, keys_on_strings};
 
 /// How hard notes are, 1 is the hardest.
 const VELOCITY: f32 = 0.8;
+/// How long a key has been down, s, when it may begin to repeat.
+const REPEATS: f64 = 0.25;
 
 /// What a key plays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sound {
-    /// A MIDI key; the player finds its string.
-    Note(u8),
+    /// A MIDI key on a channel; the player finds its string, unless channels are strings.
+    Note { channel: u8, key: u8 },
     /// A string, counted from 0, stopped at a fret, 0 for none.
     Stopped { string: usize, fret: usize },
+}
+
+/// A key that is down.
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    key: Key,
+    sound: Sound,
+    /// Since when, s.
+    since: f64,
+    /// Whether it went up at the last picture, unless it only repeats.
+    leaves: bool,
 }
 
 /// What the keys remember.
@@ -31,8 +46,8 @@ enum Sound {
 pub struct Keys {
     /// As it was at the last picture.
     keyboard: Keyboard,
-    /// Keys that are down and what they play, the latest last.
-    held: Vec<(Key, Sound)>,
+    /// Keys that are down, the latest last.
+    held: Vec<Held>,
 }
 
 impl Keys {
@@ -48,36 +63,58 @@ impl Keys {
             self.let_go(given);
             return;
         }
-        let events: Vec<Event> = ui.input(|input| input.events.clone());
-        for event in events {
-            if event == Event::WindowFocused(false) {
-                // Whatever goes up from now on goes up elsewhere.
-                self.let_go(given);
+        let (events, now) = ui.input(|input| (input.events.clone(), input.time));
+        let mut halves = repeats::halves(&events);
+        for (key, leaves) in self.held.iter().map(|held| (held.key, held.leaves)).collect::<Vec<_>>() {
+            match repeats::comes_down(&events, key).filter(|_| leaves) {
+                Some(down) => {
+                    halves[down] = true;
+                    self.stays(key);
+                }
+                None if leaves => self.release(given, key),
+                None => {}
             }
-            let Event::Key { key, pressed, repeat, modifiers, .. } = event else { continue };
-            if !pressed {
-                self.release(given, key);
-            } else if let Some(moved) = moved(self.keyboard, key, modifiers, setup) {
-                ui.input_mut(|input| input.consume_key(modifiers, key));
-                self.let_go(given);
-                self.keyboard = moved;
-                given.params.layout.set_keys(moved);
-            } else if !repeat && !modifiers.any() {
-                self.press(given, key, setup);
+        }
+        for (event, is_half) in events.into_iter().zip(halves) {
+            match event {
+                // Whatever goes up from now on goes up elsewhere.
+                Event::WindowFocused(false) => self.let_go(given),
+                // Without Shift only Caps Lock writes so, under which no letter is known, nor heard of when it goes up.
+                Event::Text(text) if is_capital(&text) => self.let_go(given),
+                Event::Key { key, pressed: false, .. } if !is_half => self.lift(ui, given, key, now),
+                Event::Key { key, pressed: true, repeat, modifiers, .. } => {
+                    if let Some(moved) = moved(self.keyboard, key, modifiers, setup) {
+                        ui.input_mut(|input| input.consume_key(modifiers, key));
+                        self.let_go(given);
+                        self.keyboard = moved;
+                        given.params.layout.set_keys(moved);
+                    } else if !repeat && !is_half && !modifiers.any() {
+                        self.press(given, key, setup, now);
+                    }
+                }
+                _ => {}
             }
         }
     }
 
-    fn press(&mut self, given: &Given, key: Key, setup: &Setup) {
+    fn press(&mut self, given: &Given, key: Key, setup: &Setup, now: f64) {
+        if self.held.iter().any(|held| held.key == key) {
+            return;
+        }
         let sound = match self.keyboard.map {
-            KeyMap::Piano => piano::note(self.keyboard, key).map(Sound::Note),
+            KeyMap::Piano => piano::note(self.keyboard, key).map(|key| {
+                let channel = channels::channel(input(given.params), setup, key, &self.channels());
+                Sound::Note { channel, key }
+            }),
             KeyMap::Frets => frets::stopped(self.keyboard, key, setup)
                 .map(|(string, fret)| Sound::Stopped { string, fret }),
         };
-        let Some(sound) = sound.filter(|_| self.held.iter().all(|(held, _)| *held != key)) else { return };
-        self.held.push((key, sound));
+        let Some(sound) = sound else { return };
+        self.held.push(Held { key, sound, since: now, leaves: false });
         match sound {
-            Sound::Note(key) => play(given, PlayerEvent::NoteOn { channel: 0, key, velocity: VELOCITY }),
+            Sound::Note { channel, key } => {
+                play(given, PlayerEvent::NoteOn { channel, key, velocity: VELOCITY });
+            }
             Sound::Stopped { string, fret } => {
                 put_finger(given, setup, string, fret);
                 pluck(given, setup, string);
@@ -85,13 +122,38 @@ impl Keys {
         }
     }
 
+    /// Channels of the notes that are held.
+    fn channels(&self) -> Vec<u8> {
+        let channel = |held: &Held| match held.sound {
+            Sound::Note { channel, .. } => Some(channel),
+            Sound::Stopped { .. } => None,
+        };
+        self.held.iter().filter_map(channel).collect()
+    }
+
+    /// A key goes up. One that may repeat comes down again at the next picture, if it does.
+    fn lift(&mut self, ui: &Ui, given: &Given, key: Key, now: f64) {
+        match self.held.iter_mut().find(|held| held.key == key) {
+            Some(held) if now - held.since >= REPEATS => {
+                held.leaves = true;
+                ui.ctx().request_repaint();
+            }
+            _ => self.release(given, key),
+        }
+    }
+
+    /// A key that seemed to go up is still down.
+    fn stays(&mut self, key: Key) {
+        self.held.iter_mut().filter(|held| held.key == key).for_each(|held| held.leaves = false);
+    }
+
     fn release(&mut self, given: &Given, key: Key) {
-        let Some(place) = self.held.iter().position(|(held, _)| *held == key) else { return };
-        let (_, sound) = self.held.remove(place);
+        let Some(place) = self.held.iter().position(|held| held.key == key) else { return };
+        let Held { sound, .. } = self.held.remove(place);
         let Sound::Stopped { string, .. } = sound else { return end(given, sound) };
-        let on_string = |&(_, held): &(Key, Sound)| match held {
+        let on_string = |held: &Held| match held.sound {
             Sound::Stopped { string: other, fret } => (other == string).then_some(fret),
-            Sound::Note(_) => None,
+            Sound::Note { .. } => None,
         };
         if self.held[place..].iter().any(|held| on_string(held).is_some()) {
             // A later key has the string.
@@ -105,8 +167,14 @@ impl Keys {
     }
 
     fn let_go(&mut self, given: &Given) {
-        self.held.drain(..).for_each(|(_, sound)| end(given, sound));
+        self.held.drain(..).for_each(|held| end(given, held.sound));
     }
+}
+
+/// Whether something that was written is one capital letter.
+fn is_capital(text: &str) -> bool {
+    let mut letters = text.chars();
+    matches!((letters.next(), letters.next()), (Some(letter), None) if letter.is_uppercase())
 }
 
 /// What is played after a key that moves the keyboard; nothing for others.
@@ -147,7 +215,7 @@ fn pluck(given: &Given, setup: &Setup, string: usize) {
 /// What a key played is over.
 fn end(given: &Given, sound: Sound) {
     match sound {
-        Sound::Note(key) => play(given, PlayerEvent::NoteOff { channel: 0, key }),
+        Sound::Note { channel, key } => play(given, PlayerEvent::NoteOff { channel, key }),
         Sound::Stopped { string, .. } => do_to(given, string, StringDeed::Damp),
     }
 }

@@ -11,6 +11,7 @@
 //! parameters ask for, and the way back to the audio thread. What a view remembers for itself is a struct of its own
 //! that [`Editor`] keeps.
 
+mod capture;
 mod compare;
 pub mod control;
 mod given;
@@ -27,7 +28,7 @@ pub mod theme;
 
 use std::sync::Arc;
 
-use egui::{Key, Modifiers, Rect, Ui, UiBuilder, ViewportCommand, pos2};
+use egui::{Event, Key, Modifiers, Rect, Ui, UiBuilder, ViewportCommand, pos2};
 use nice_plug::context::PluginApi;
 use nice_plug::context::gui::GuiContext;
 use nice_plug::prelude::ParamSetter;
@@ -112,6 +113,9 @@ impl Editor {
             gui,
             keyboard: (gui.plugin_api() == PluginApi::Standalone).then(|| self.params.layout.seen().keys),
         };
+        if given.keyboard.is_none() {
+            leave_space(ui);
+        }
         silence(ui, &given, self.typing);
         follow_shortcuts(ui, &given);
         self.keys.follow(ui, &given);
@@ -135,6 +139,9 @@ impl Editor {
     /// A window opens, which is to become as it was left.
     pub fn open(&mut self) {
         self.opening = true;
+        // What was loud while nobody looked is over.
+        self.meters.take_peaks();
+        self.header.rest();
     }
 
     /// Goes on where the session left off; the window itself becomes as large as it was when it is opened.
@@ -178,10 +185,21 @@ impl NiceEguiApp for Editor {
         Ok(())
     }
 
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut nice_plug_egui::Frame) {
+    fn ui(&mut self, ui: &mut Ui, frame: &mut nice_plug_egui::Frame) {
         if let Some(gui) = self.gui.clone() {
             self.show(ui, &gui);
+            if gui.plugin_api() != PluginApi::Standalone {
+                frame.set_key_capture(capture::kept(self.typing, ui.input(|input| input.modifiers.command)));
+            }
         }
+    }
+}
+
+/// In a host the space bar is the transport's, unless something is typed: it must not press what was clicked last.
+fn leave_space(ui: &Ui) {
+    if !ui.ctx().text_edit_focused() {
+        let is_space = |event: &Event| matches!(event, Event::Key { key: Key::Space, .. });
+        ui.input_mut(|input| input.events.retain(|event| !is_space(event)));
     }
 }
 

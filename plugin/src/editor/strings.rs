@@ -62,6 +62,8 @@ impl Strings {
         if let Some(at) = response.hover_pos().filter(|_| !self.play.is_busy()) {
             self.watched = sight.nearest(at.y);
         }
+        // An instrument with fewer strings may have come.
+        self.watched = self.watched.min(setup.string.len().saturating_sub(1));
         self.play.follow(ui, &response, &sight, setup, given);
         handles::show(ui, given, &sight, setup);
     }

@@ -195,7 +195,10 @@ fn shift(name: &str, min: f32, max: f32, unit: &'static str, step: f32) -> Float
 }
 
 /// The value of a parameter as the number its decimal notation means, so that 0.3 set in a host and
-/// 0.3 given on the command line are the same bits. No parameter has steps under a hundredth.
+/// 0.3 given on the command line are the same bits. No parameter has steps under a hundredth. Should a host send what is no
+/// number, the usual value takes its place: nothing that is built from it would ever be what was asked for.
 pub fn exact(param: &FloatParam) -> f64 {
-    (f64::from(param.value()) * 1e3).round() / 1e3
+    let value = param.value();
+    let value = if value.is_nan() { param.default_plain_value() } else { value };
+    (f64::from(value) * 1e3).round() / 1e3
 }

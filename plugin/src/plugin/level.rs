@@ -65,8 +65,11 @@ fn scaled(sample: f32, gain: f32) -> f32 {
     if scaled.is_subnormal() { 0.0 } else { scaled }
 }
 
-/// A factor of the amplitude out of decibels; exactly 1 at 0 dB.
+/// A factor of the amplitude out of decibels; exactly 1 at 0 dB, and where a host sends what is no number.
 fn decibels_to_gain(decibels: f32) -> f32 {
+    if decibels.is_nan() {
+        return 1.0;
+    }
     libm::powf(10.0, decibels / 20.0)
 }
 
@@ -84,5 +87,6 @@ mod tests {
     fn no_decibels_are_a_factor_of_one() {
         assert_eq!(decibels_to_gain(0.0), 1.0);
         assert!((decibels_to_gain(-20.0) - 0.1).abs() < 1e-7);
+        assert_eq!(decibels_to_gain(f32::NAN), 1.0);
     }
 }

@@ -116,7 +116,7 @@ pub(crate) fn touching(params: &LowActionParams) -> Touching {
 }
 
 /// What the parameters have channels mean.
-pub(super) fn input(params: &LowActionParams) -> InputMode {
+pub(crate) fn input(params: &LowActionParams) -> InputMode {
     let ControlParams { input_mode, first_channel, string_order, .. } = &params.control;
     let first_channel = u8::try_from(first_channel.value()).unwrap_or(1);
     input_mode.value().mode(first_channel, string_order.value())
@@ -211,6 +211,23 @@ mod tests {
             // SAFETY: as above.
             set(unsafe { param.default_normalized_value() });
         }
+    }
+
+    #[test]
+    fn what_is_no_number_is_the_usual() {
+        let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
+        let usual = (Order::of(&params, 48_000.0, false), touching(&params));
+        for (_, param, _) in params.param_map() {
+            // SAFETY: the pointers lead into `params`.
+            unsafe { param._internal_set_normalized_value(f32::NAN) };
+        }
+        let (order, touching) = (Order::of(&params, 48_000.0, false), touching(&params));
+        assert!(order == order && touching == touching, "or it would be built again and again");
+        assert_eq!(
+            (order.luthier.action, order.luthier.relief),
+            (usual.0.luthier.action, usual.0.luthier.relief)
+        );
+        assert_eq!(touching.pluck_force, usual.1.pluck_force);
     }
 
     #[test]

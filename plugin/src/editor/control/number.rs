@@ -31,6 +31,18 @@ pub(super) fn show<P: Param>(ui: &mut Ui, given: &Given, param: &P, row: Rect, s
     }
 }
 
+/// The value, 0 to 1, that a text means: as the parameter writes it, or with its unit in other letters and without the space,
+/// and with a comma for the point. What is no number, though it can be parsed as one, is none.
+fn read<P: Param>(param: &P, text: &str) -> Option<f32> {
+    let plain = text.trim().replace(',', ".").replace('−', "-").to_lowercase();
+    let unit = param.unit().trim().to_lowercase();
+    let bare = plain.strip_suffix(unit.as_str()).unwrap_or(&plain).trim_end();
+    if bare.parse::<f32>().is_ok_and(|number| !number.is_finite()) {
+        return None;
+    }
+    param.string_to_normalized_value(text).or_else(|| param.string_to_normalized_value(bare))
+}
+
 /// A number that is being typed.
 struct Field<'a> {
     row: Rect,
@@ -41,7 +53,7 @@ struct Field<'a> {
 
 fn edit<P: Param>(ui: &mut Ui, given: &Given, param: &P, field: Field) {
     let Field { row, id, mut text, slider } = field;
-    let value = param.string_to_normalized_value(&text);
+    let value = read(param, &text);
     let area = Rect::from_min_max(pos2(row.center().x, row.top()), row.right_bottom() + vec2(4.0, 0.0));
     let own = id.with("field");
     let known = TextEdit::load_state(ui.ctx(), own).is_some();
