@@ -5,7 +5,8 @@ use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, 
 use egui_kittest::kittest::Queryable;
 use low_action::engine::Quality;
 use low_action::params::words::heard_of;
-use low_action_tests::desk::{Desk, is_gesture};
+use low_action_tests::desk::{Desk, Told, is_gesture};
+use nice_plug::prelude::ParamSetter;
 
 /// Opens a panel and points at one of its controls.
 fn at(desk: &mut Desk, tab: &str, name: &str) -> egui::Pos2 {
@@ -78,18 +79,67 @@ fn nothing_leaves_its_range_and_a_double_click_brings_back() {
     assert!(is_gesture(&desk.host.take(), "pluck_force"));
 }
 
+fn wheel(unit: MouseWheelUnit, delta: egui::Vec2) -> Event {
+    let (phase, source) = (TouchPhase::Move, MouseWheelSource::Wheel);
+    Event::MouseWheel { unit, delta, phase, source, modifiers: Modifiers::NONE }
+}
+
+/// A host sets what it is told at the end of a block, which may be some pictures later.
+#[test]
+fn no_step_is_lost_on_the_way() {
+    let mut desk = Desk::new();
+    let place = at(&mut desk, "Sound", "Level");
+    desk.point(place);
+    let value = |desk: &Desk| desk.params.output.level.value();
+    let notch = |desk: &mut Desk| {
+        desk.harness.event(wheel(MouseWheelUnit::Line, vec2(0.0, -1.0)));
+        desk.picture();
+    };
+    notch(&mut desk);
+    let one = value(&desk);
+    assert!(one < 0.0);
+    desk.host.be_late();
+    for _ in 0..2 {
+        for _ in 0..3 {
+            notch(&mut desk);
+        }
+        desk.host.catch_up();
+    }
+    assert!((value(&desk) - 7.0 * one).abs() < 0.01, "{} dB, {one} dB each", value(&desk));
+    // What a host does not grant is not waited for.
+    notch(&mut desk);
+    desk.wait(1.0);
+    notch(&mut desk);
+    let asked = desk.host.take().into_iter().filter(|told| matches!(told, Told::Set(..)));
+    let asked: Vec<Told> = asked.collect();
+    assert_eq!(asked[asked.len() - 1], asked[asked.len() - 2]);
+    // And what it has moved itself stays so.
+    ParamSetter::new(&*desk.host).set_parameter(&desk.params.output.level, -20.0);
+    desk.host.catch_up();
+    desk.wait(0.1);
+    notch(&mut desk);
+    desk.host.catch_up();
+    assert!((value(&desk) - (one - 20.0)).abs() < 0.01, "{} dB", value(&desk));
+}
+
+/// In a narrow window the panel is scrolled so.
+#[test]
+fn a_swipe_to_the_side_sets_nothing() {
+    let mut desk = Desk::sized(0.8, 1.0);
+    let place = at(&mut desk, "Sound", "Level");
+    desk.point(place);
+    desk.host.take();
+    desk.harness.event(wheel(MouseWheelUnit::Point, vec2(60.0, 0.0)));
+    desk.wait(0.1);
+    assert_eq!(desk.host.take(), []);
+}
+
 #[test]
 fn the_wheel_moves_by_steps() {
     let mut desk = Desk::new();
     let place = at(&mut desk, "Sound", "Level");
     desk.point(place);
-    let notch = |lines: f32| Event::MouseWheel {
-        unit: MouseWheelUnit::Line,
-        delta: vec2(0.0, lines),
-        phase: TouchPhase::Move,
-        source: MouseWheelSource::Wheel,
-        modifiers: Modifiers::NONE,
-    };
+    let notch = |lines: f32| wheel(MouseWheelUnit::Line, vec2(0.0, lines));
     desk.harness.event(notch(-2.0));
     desk.picture();
     let down = desk.params.output.level.value();

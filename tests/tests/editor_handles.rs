@@ -2,7 +2,9 @@
 //! begins and ends, what is set is where the mouse is, and nothing leaves its range.
 
 use egui::{Event, Key, Modifiers, Pos2, vec2};
+use low_action::params::InstrumentChoice;
 use low_action_tests::desk::{Desk, Told, is_gesture};
+use nice_plug::prelude::{Enum, ParamSetter};
 
 /// Drags something with a name by so much.
 fn drag(desk: &mut Desk, name: &str, way: egui::Vec2) -> Vec<Told> {
@@ -45,6 +47,39 @@ fn action_and_relief_are_moved_in_the_side_view() {
     assert!((0.5..1.5).contains(&desk.params.setup.relief.value()), "{}", desk.params.setup.relief.value());
     drag(&mut desk, "Action", vec2(0.0, -15.0));
     assert!(desk.params.setup.action.value() < 1.4);
+}
+
+/// What is held may go: another instrument has no coil, or the window is closed.
+#[test]
+fn what_is_dropped_has_ended() {
+    let mut desk = Desk::new();
+    let host = desk.host.clone();
+    let setter = ParamSetter::new(&*host);
+    let from = desk.named("Pickup position");
+    desk.point(from);
+    desk.press(from, true, Modifiers::NONE);
+    desk.point(from - vec2(30.0, 0.0));
+    desk.point(from - vec2(60.0, 0.0));
+    let moved = desk.params.setup.pickup_position.value();
+    setter.set_parameter(&desk.params.instrument.instrument, InstrumentChoice::from_index(1));
+    desk.host.take();
+    desk.wait(0.05);
+    assert_eq!(desk.host.take(), [Told::End("pickup_position".into())]);
+    desk.press(from - vec2(60.0, 0.0), false, Modifiers::NONE);
+    setter.set_parameter(&desk.params.instrument.instrument, InstrumentChoice::from_index(0));
+    desk.wait(1.0);
+    // Two more, and each is one step back.
+    for _ in 0..2 {
+        drag(&mut desk, "Pickup position", vec2(-30.0, 0.0));
+    }
+    let undo = |desk: &mut Desk| {
+        desk.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        desk.wait(0.05);
+        desk.params.setup.pickup_position.value()
+    };
+    assert!(undo(&mut desk) > moved);
+    assert_eq!(undo(&mut desk), moved);
+    assert_eq!(undo(&mut desk), 0.0);
 }
 
 #[test]

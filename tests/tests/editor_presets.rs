@@ -117,6 +117,42 @@ fn what_is_saved_is_what_was_heard() {
     assert_eq!(desk.params.instrument.file.value(), number);
     let text = fs::read_to_string(folder().join("Mine 1.toml")).expect("it was written");
     assert_eq!(Setup::from_toml(&text).expect("it is a set-up").neck.action, expected.neck.action * 0.5);
+    // Back comes what was heard: the file as it was, with what was changed of it, and not that change twice. In the folder it
+    // stays as it was saved.
+    let heard = |desk: &Desk| -> (f64, f32) {
+        let kept: Value =
+            serde_json::from_str(&desk.params.serialize_fields()["instrument_file"]).expect("JSON");
+        let setup = Setup::from_toml(kept["text"].as_str().expect("a text")).expect("it is a set-up");
+        (setup.neck.action, action(desk))
+    };
+    assert_eq!(heard(&desk), (expected.neck.action * 0.5, 1.0));
+    undo(&mut desk);
+    assert_eq!(desk.params.instrument.file.value(), number);
+    assert_eq!(heard(&desk), (expected.neck.action, 0.5));
+    redo(&mut desk);
+    assert_eq!(heard(&desk), (expected.neck.action * 0.5, 1.0));
+    assert_eq!(fs::read_to_string(folder().join("Mine 1.toml")).expect("it was written"), text);
+}
+
+/// Were the file another before the changes are taken off it, they would be heard twice.
+#[test]
+fn what_is_replaced_waits_for_its_values() {
+    let mut desk = Desk::new();
+    save(&mut desk, "Mine 2");
+    enter(&mut desk, "Luthier", "Action", "150");
+    let text = |desk: &Desk| {
+        let kept: Value =
+            serde_json::from_str(&desk.params.serialize_fields()["instrument_file"]).expect("JSON");
+        kept["text"].as_str().expect("a text").to_owned()
+    };
+    let before = text(&desk);
+    desk.host.be_late();
+    save(&mut desk, "Mine 2");
+    assert_eq!((text(&desk), action(&desk)), (before.clone(), 1.5));
+    desk.host.catch_up();
+    desk.wait(0.05);
+    assert_ne!(text(&desk), before);
+    assert_eq!(action(&desk), 1.0);
 }
 
 #[test]
@@ -129,6 +165,22 @@ fn names_that_cannot_be_are_told() {
         assert_eq!(desk.params.instrument.file.value(), 0);
     }
     assert!(!folder().join("electric.toml").exists());
+    // What was typed is there to be put right, and has the keyboard.
+    desk.harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    desk.harness.event(Event::Text("My/guitar".into()));
+    desk.key(Key::Enter);
+    desk.wait(0.1);
+    desk.harness.event(Event::Text(" 2".into()));
+    desk.wait(0.1);
+    let typed = desk.harness.get_by_role(egui::accesskit::Role::TextInput).value();
+    assert_eq!(typed.as_deref(), Some("My/guitar 2"));
+    assert!(desk.harness.query_by_label_contains("named \"My/guitar\"").is_some());
+    // Asked anew it is forgotten.
+    desk.key(Key::Escape);
+    desk.wait(0.1);
+    desk.click(desk.named("Save"));
+    desk.wait(0.1);
+    assert!(desk.harness.query_by_label_contains("named").is_none());
 }
 
 #[test]
@@ -172,7 +224,44 @@ fn what_a_session_keeps_gives_way_to_what_is_chosen() {
     assert_eq!(desk.params.shelf.name(number).as_deref(), Some("Kept cc"));
     let found = parsed(&field(&desk));
     assert_eq!((&found["name"], &found["text"]), (&json!("Kept cc"), &json!("based_on = \"steel\"\n")));
+    // Back comes what the session kept, and so does what A was.
+    undo(&mut desk);
+    assert_eq!(parsed(&field(&desk)), parsed(&kept));
+    redo(&mut desk);
+    assert_eq!(parsed(&field(&desk)), found);
+    undo(&mut desk);
+    desk.click(desk.named("B"));
+    desk.wait(0.05);
+    for (button, expected) in [("›", &found), ("A", &parsed(&kept)), ("B", &found)] {
+        desk.click(desk.named(button));
+        desk.wait(0.1);
+        assert_eq!(parsed(&field(&desk)), *expected, "{button}");
+    }
+    // From another instrument altogether, and with a host that takes its time.
+    desk.click(desk.named("A"));
+    desk.wait(0.1);
+    desk.host.be_late();
+    desk.click(desk.named("Kept aa"));
+    desk.wait(0.1);
+    desk.click(desk.named("Steel"));
+    for late in 0..2 {
+        desk.wait(0.1);
+        desk.host.catch_up();
+        desk.wait(0.1);
+        if late == 0 {
+            assert_eq!(desk.params.instrument.file.value(), 0);
+            undo(&mut desk);
+        }
+    }
+    assert_eq!(parsed(&field(&desk)), parsed(&kept));
+    assert_eq!(desk.params.shelf.name(number).as_deref(), Some("Kept aa"));
+    desk.click(desk.named("B"));
+    desk.wait(0.1);
+    desk.host.catch_up();
+    desk.wait(0.1);
     desk.click(desk.named("‹"));
+    desk.wait(0.1);
+    desk.host.catch_up();
     desk.wait(0.1);
     assert_eq!(desk.params.instrument.file.value(), place(&desk, "Kept aa").expect("it is there") as i32 + 1);
 }
@@ -197,6 +286,39 @@ fn every_gesture_is_one_step_back() {
     enter(&mut desk, "Luthier", "Action", "70");
     redo(&mut desk);
     assert_eq!(action(&desk), 0.7, "what was undone is gone when something else is done");
+}
+
+#[test]
+fn steps_at_once_are_one_step_back() {
+    let mut desk = Desk::new();
+    desk.open("Luthier");
+    desk.click(desk.control("Action").expect("it is there"));
+    for pause in [0.1, 1.0] {
+        for _ in 0..3 {
+            desk.wait(pause);
+            desk.key(Key::ArrowUp);
+        }
+    }
+    let steps: Vec<f32> = (0..5)
+        .map(|_| {
+            undo(&mut desk);
+            action(&desk)
+        })
+        .collect();
+    assert!(steps[0] > steps[1] && steps[1] > steps[2] && steps[2] > 1.0, "{steps:?}");
+    assert_eq!(steps[3..], [1.0, 1.0], "the first three were one");
+}
+
+#[test]
+fn two_clicks_go_two_instruments_on() {
+    let mut desk = Desk::new();
+    desk.host.be_late();
+    let next = desk.named("›");
+    desk.click(next);
+    desk.click(next);
+    desk.host.catch_up();
+    desk.wait(0.1);
+    assert_eq!(desk.params.instrument.instrument.to_string(), "Steel");
 }
 
 #[test]

@@ -4,10 +4,21 @@ use nice_plug::params::internals::ParamPtr;
 use nice_plug::prelude::Params;
 
 use super::Given;
-use super::history::put;
+use super::noted::put;
+use crate::plugin::shelf::Kept;
 
 /// Parameters and their values, 0 to 1.
 pub type Values = Vec<(ParamPtr, f32)>;
+
+/// A set-up file to be played: its number, and what that stands for if it is not what the folder has.
+pub type File = (u32, Option<Kept>);
+
+/// A whole set of values.
+#[derive(Debug)]
+struct Set {
+    values: Values,
+    file: File,
+}
 
 /// Two sets of values, of which one is heard.
 #[derive(Debug, Default)]
@@ -15,7 +26,7 @@ pub struct Compare {
     /// Whether B is heard.
     pub is_b: bool,
     /// The one that is not heard; none if it is the same.
-    other: Option<Values>,
+    other: Option<Set>,
 }
 
 impl Compare {
@@ -25,9 +36,9 @@ impl Compare {
             return;
         }
         self.is_b = b;
-        let present = values(given);
-        if let Some(other) = self.other.replace(present) {
-            change(given, &other);
+        let present = Set::present(given);
+        if let Some(Set { values, file }) = self.other.replace(present) {
+            change(given, &values, file);
         }
     }
 
@@ -37,20 +48,23 @@ impl Compare {
     }
 }
 
-/// All values as they are.
-fn values(given: &Given) -> Values {
-    let map = given.params.param_map().into_iter();
-    // SAFETY: the pointers lead into the parameters, which outlive this.
-    map.map(|(_, param, _)| (param, unsafe { param.unmodulated_normalized_value() })).collect()
+impl Set {
+    /// All values as they are.
+    fn present(given: &Given) -> Self {
+        let number = given.history.number();
+        let map = given.params.param_map().into_iter();
+        let values = map.map(|(_, param, _)| (param, given.history.asked.value(param))).collect();
+        Self { values, file: (number, given.params.shelf.held(number)) }
+    }
 }
 
-/// Sets those that are different, as one entry of the history.
-pub fn change(given: &Given, values: &[(ParamPtr, f32)]) {
+/// Sets those that are different and plays a file, as one entry of the history.
+pub fn change(given: &Given, values: &[(ParamPtr, f32)], (number, file): File) {
     let host = given.setter.raw_context;
     given.history.together(|| {
+        given.history.play_file(number, file);
         for &(param, value) in values {
-            // SAFETY: the pointers lead into the parameters, which outlive this.
-            if unsafe { param.unmodulated_normalized_value() } != value {
+            if given.history.asked.value(param) != value {
                 put(host, param, value);
             }
         }

@@ -38,7 +38,7 @@ fn set<P: Param>(given: &Given, param: &P, normalized: f32) {
 
 /// Moves a parameter by so many steps, up or down.
 fn step<P: Param>(given: &Given, param: &P, steps: i32, fine: bool) {
-    let mut value = param.unmodulated_normalized_value();
+    let mut value = given.value(param);
     for _ in 0..steps.abs() {
         value = if steps > 0 {
             param.next_normalized_step(value, fine)
@@ -47,7 +47,7 @@ fn step<P: Param>(given: &Given, param: &P, steps: i32, fine: bool) {
         };
     }
     if steps != 0 {
-        set(given, param, value);
+        given.history.stepping(|| set(given, param, value));
     }
 }
 
@@ -70,6 +70,7 @@ fn drag<P: Param>(
         ui.data_mut(|data| data.insert_temp(id, value + growth.dot(before)));
     }
     if response.dragged() {
+        given.history.hold(param.as_ptr());
         let held = ui.data(|data| data.get_temp(id)).unwrap_or(value) + growth.dot(response.drag_delta());
         // Beyond the end the mouse has to come back before anything moves again.
         ui.data_mut(|data| data.insert_temp(id, held));
@@ -126,10 +127,10 @@ fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response,
 fn explain<P: Param>(given: &Given, param: &P, response: Response) -> Response {
     response.on_hover_ui(|ui| {
         ui.set_max_width(280.0);
-        ui.label(format!("{}: {}", param.name(), shown(param)));
+        ui.label(format!("{}: {}", param.name(), shown(given, param)));
         ui.colored_label(theme::SOFT_TEXT, given.words.heard(param));
         let steps = param.step_count().unwrap_or_default() as f32;
-        let index = (param.unmodulated_normalized_value() * steps).round() as usize;
+        let index = (given.value(param) * steps).round() as usize;
         if let Some(heard) = given.words.heard_of(param, index) {
             ui.colored_label(theme::SOFT_TEXT, heard);
         }
@@ -137,8 +138,8 @@ fn explain<P: Param>(given: &Given, param: &P, response: Response) -> Response {
 }
 
 /// The value with its unit.
-fn shown<P: Param>(param: &P) -> String {
-    param.normalized_value_to_string(param.unmodulated_normalized_value(), true)
+fn shown<P: Param>(given: &Given, param: &P) -> String {
+    param.normalized_value_to_string(given.value(param), true)
 }
 
 /// The name in its row, and a ring around all of it while it has the focus.

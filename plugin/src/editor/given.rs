@@ -3,7 +3,7 @@
 use low_action_dsp::Setup;
 use low_action_dsp::setup::Player;
 use nice_plug::context::gui::GuiContext;
-use nice_plug::prelude::ParamSetter;
+use nice_plug::prelude::{Param, ParamSetter};
 
 use super::history::History;
 use crate::display::Snapshot;
@@ -38,6 +38,18 @@ pub struct Given<'a> {
     pub words: &'a Words,
     /// What the computer's keys play, where there is no host that wants them for itself.
     pub keyboard: Option<Keyboard>,
+}
+
+impl Given<'_> {
+    /// The value, 0 to 1, that a parameter has or that the host was asked for.
+    pub fn value<P: Param>(&self, param: &P) -> f32 {
+        self.history.asked.value(param.as_ptr())
+    }
+
+    /// The same as the parameter has it.
+    pub fn plain<P: Param>(&self, param: &P) -> P::Plain {
+        param.preview_plain(self.value(param))
+    }
 }
 
 /// The set-up that the parameters ask for, whether it sounds already or not.

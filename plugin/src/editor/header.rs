@@ -59,7 +59,7 @@ impl Header {
         let meter = Rect::from_min_size(pos2(area.right() - width, middle - 6.0), vec2(width, 12.0));
         self.show_meter(ui, given, meter);
         let row = Rect::from_min_max(pos2(left, area.top()), pos2(meter.left() - GAP, area.bottom()));
-        let messages = self.messages(given);
+        let messages = Self::messages(given);
         let builder = UiBuilder::new().max_rect(row).layout(Layout::left_to_right(Align::Center));
         let taken = ui.scope_builder(builder, |ui| {
             ui.spacing_mut().item_spacing.x = TIGHT;
@@ -90,10 +90,9 @@ impl Header {
     }
 
     /// What a player should know of: too little time, a file that is missing.
-    fn messages(&self, given: &Given) -> Vec<String> {
+    fn messages(given: &Given) -> Vec<String> {
         let late = given.meters.relaxed().then(|| "Over budget: contacts are solved less exactly".to_owned());
-        let problem = self.presets.problem().map(str::to_owned);
-        [late, problem, given.params.shelf.message()].into_iter().flatten().collect()
+        [late, given.params.shelf.message()].into_iter().flatten().collect()
     }
 
     /// A button, and behind it what has no room beside it; it stays open, since one compares more than once. Gives back
@@ -142,13 +141,6 @@ impl Header {
     /// Both channels, one over the other.
     fn show_meter(&mut self, ui: &mut Ui, given: &Given, area: Rect) {
         let response = ui.interact(area.expand(TIGHT), ui.scope_id().with("meter"), Sense::hover());
-        response.widget_info(|| {
-            let mut info = WidgetInfo::labeled(Role::Meter, true, "Meter");
-            let loudest = self.levels[0].max(self.levels[1]);
-            info.current_text_value = Some(format!("{loudest:.1} dB"));
-            info
-        });
-        response.on_hover_text("Level of both channels, from 60 dB below full scale; red at full scale");
         let seconds = ui.input(|input| input.stable_dt).min(0.1);
         let painter = ui.painter();
         for (row, (level, peak)) in self.levels.iter_mut().zip(given.meters.take_peaks()).enumerate() {
@@ -165,6 +157,13 @@ impl Header {
                 ui.ctx().request_repaint();
             }
         }
+        response.widget_info(|| {
+            let mut info = WidgetInfo::labeled(Role::Meter, true, "Meter");
+            let loudest = self.levels[0].max(self.levels[1]);
+            info.current_text_value = Some(format!("{loudest:.1} dB"));
+            info
+        });
+        response.on_hover_text("Level of both channels, from 60 dB below full scale; red at full scale");
     }
 }
 

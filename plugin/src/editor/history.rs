@@ -1,20 +1,23 @@
 //! Undo and redo: one entry for each gesture that is finished in the editor, whichever view made it.
 //!
-//! [`Noted`] stands between the views and the host, passes everything on and notes it. What a host does by itself is
-//! no gesture of the editor's, and is not undone.
+//! What a host does by itself is no gesture of the editor's, and is not undone.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use nice_plug::context::PluginApi;
-use nice_plug::context::gui::{GuiContext, GuiContextInner};
+use nice_plug::context::gui::GuiContext;
 use nice_plug::params::internals::ParamPtr;
-use nice_plug::prelude::PluginState;
+use nice_plug::prelude::Param;
 
+use super::asked::Asked;
+use super::noted::put;
 use crate::params::LowActionParams;
+use crate::plugin::shelf::{Kept, NONE};
 
 /// Entries that are kept.
 const MOST: usize = 100;
+/// Steps of one parameter, by wheel or arrows, are one entry while less time lies between them, s.
+const PAUSE: f64 = 0.5;
 
 /// A parameter before and after, 0 to 1.
 #[derive(Debug, Clone, Copy)]
@@ -24,36 +27,86 @@ struct Change {
     after: f32,
 }
 
+/// One that is under way.
+#[derive(Debug)]
+struct Gesture {
+    change: Change,
+    /// Whether somebody had hold of it at this picture.
+    is_held: bool,
+    /// The set-up file that was played before, where another may come.
+    file: Option<Option<Kept>>,
+}
+
+/// What is undone at once.
+#[derive(Debug, Default)]
+struct Entry {
+    changes: Vec<Change>,
+    /// Where the set-up file is concerned, the one that is played on the other side of the entry: a number alone does not tell
+    /// it, as a session may keep another than the folder has.
+    file: Option<Option<Kept>>,
+    /// When it was last a step, s.
+    stepped: Option<f64>,
+}
+
 #[derive(Debug, Default)]
 struct Inside {
     /// Gestures that have begun.
-    under_way: Vec<Change>,
+    under_way: Vec<Gesture>,
     /// What is one entry together, while it is being done.
-    together: Option<Vec<Change>>,
-    done: VecDeque<Vec<Change>>,
-    undone: Vec<Vec<Change>>,
+    together: Option<Entry>,
+    /// Whether what is done is a step.
+    stepping: bool,
+    done: VecDeque<Entry>,
+    undone: Vec<Entry>,
 }
 
 /// What has been done in an editor.
 pub struct History {
-    /// Keeps what the pointers lead to.
-    _params: Arc<LowActionParams>,
+    params: Arc<LowActionParams>,
+    /// What the host has yet to do of it.
+    pub asked: Asked,
     inside: Mutex<Inside>,
 }
 
 impl History {
     /// Of these parameters, so far empty.
     pub fn new(params: Arc<LowActionParams>) -> Self {
-        Self { _params: params, inside: Mutex::default() }
+        Self { params, asked: Asked::default(), inside: Mutex::default() }
+    }
+
+    /// A new picture at a time, s. Gives back whether all that was asked for is there.
+    pub fn look(&self, now: f64) -> bool {
+        self.asked.look(now);
+        let is_settled = self.asked.is_settled();
+        if is_settled {
+            self.params.shelf.keep_promise();
+        }
+        is_settled
     }
 
     /// All gestures that are made meanwhile are one entry.
     pub fn together(&self, act: impl FnOnce()) {
-        self.inside().together = Some(Vec::new());
+        self.inside().together = Some(Entry::default());
         act();
         let mut inside = self.inside();
-        if let Some(changes) = inside.together.take() {
-            inside.keep(changes);
+        if let Some(entry) = inside.together.take() {
+            inside.keep(entry);
+        }
+    }
+
+    /// All gestures that are made meanwhile are steps, which are one entry with those just before.
+    pub fn stepping(&self, act: impl FnOnce()) {
+        self.inside().stepping = true;
+        act();
+        self.inside().stepping = false;
+    }
+
+    /// Has a number stand for a file, or for what the folder has under it; part of what is done together.
+    pub(crate) fn play_file(&self, number: u32, file: Option<Kept>) {
+        let concerned = number != NONE || self.number() != NONE;
+        let before = self.put_file(number, file);
+        if let Some(together) = self.inside().together.as_mut().filter(|_| concerned) {
+            together.file.get_or_insert(before);
         }
     }
 
@@ -65,44 +118,98 @@ impl History {
 
     /// Takes the last entry back.
     pub fn undo(&self, gui: &GuiContext) {
-        let Some(entry) = self.inside().done.pop_back() else { return };
-        // Past the history, which notes nothing of it.
-        let host = gui.param_setter().raw_context;
-        for change in entry.iter().rev() {
-            put(host, change.param, change.before);
-        }
+        let Some(mut entry) = self.inside().done.pop_back() else { return };
+        let back: Vec<_> = entry.changes.iter().rev().map(|change| (change.param, change.before)).collect();
+        self.cross(&mut entry, &back, gui);
         self.inside().undone.push(entry);
     }
 
     /// Does again what was taken back last.
     pub fn redo(&self, gui: &GuiContext) {
-        let Some(entry) = self.inside().undone.pop() else { return };
-        let host = gui.param_setter().raw_context;
-        for change in &entry {
-            put(host, change.param, change.after);
-        }
+        let Some(mut entry) = self.inside().undone.pop() else { return };
+        let again: Vec<_> = entry.changes.iter().map(|change| (change.param, change.after)).collect();
+        self.cross(&mut entry, &again, gui);
         self.inside().done.push_back(entry);
     }
 
-    fn begin(&self, param: ParamPtr) {
-        // SAFETY: only parameters of `_params` are set in the editor, and they live as long as this.
-        let before = unsafe { param.unmodulated_normalized_value() };
-        self.inside().under_way.push(Change { param, before, after: before });
-    }
-
-    fn set(&self, param: ParamPtr, value: f32) {
-        let mut inside = self.inside();
-        if let Some(change) = inside.under_way.iter_mut().find(|change| change.param == param) {
-            change.after = value;
+    /// Goes over an entry, one way or the other, past what notes gestures.
+    fn cross(&self, entry: &mut Entry, values: &[(ParamPtr, f32)], gui: &GuiContext) {
+        if let Some(file) = entry.file.take() {
+            let own = self.params.instrument.file.as_ptr();
+            let value = values.iter().rfind(|(param, _)| *param == own).map(|(_, value)| *value);
+            let number = value.map_or_else(|| self.number(), |value| self.as_number(value));
+            entry.file = Some(self.put_file(number, file));
+        }
+        for &(param, value) in values {
+            self.asked.ask(param, value);
+            put(gui.param_setter().raw_context, param, value);
         }
     }
 
-    fn end(&self, param: ParamPtr) {
+    /// Has a number stand for a file from when it is there on, and gives back what is played now.
+    fn put_file(&self, number: u32, file: Option<Kept>) -> Option<Kept> {
+        let present = self.number();
+        let before = self.params.shelf.held(present);
+        if number != present || file != before {
+            self.params.shelf.promise(number, file);
+        }
+        before
+    }
+
+    /// The number of the file that is played, or is to be.
+    pub fn number(&self) -> u32 {
+        self.as_number(self.asked.value(self.params.instrument.file.as_ptr()))
+    }
+
+    fn as_number(&self, value: f32) -> u32 {
+        self.params.instrument.file.preview_plain(value).unsigned_abs()
+    }
+
+    /// Somebody has hold of a parameter at this picture.
+    pub fn hold(&self, param: ParamPtr) {
         let mut inside = self.inside();
-        if let Some(place) = inside.under_way.iter().position(|change| change.param == param) {
-            let change = inside.under_way.remove(place);
+        inside.under_way.iter_mut().filter(|gesture| gesture.change.param == param).for_each(|gesture| {
+            gesture.is_held = true;
+        });
+    }
+
+    /// The parameters that nobody has hold of any more though nobody has let go of them either: what had hold of them is
+    /// gone. For the rest another picture begins.
+    pub fn dropped(&self) -> Vec<ParamPtr> {
+        let mut inside = self.inside();
+        let dropped = inside.under_way.iter().filter(|gesture| !gesture.is_held);
+        let dropped = dropped.map(|gesture| gesture.change.param).collect();
+        inside.under_way.iter_mut().for_each(|gesture| gesture.is_held = false);
+        dropped
+    }
+
+    pub(super) fn begin(&self, param: ParamPtr) {
+        let before = self.asked.value(param);
+        let concerns_file = param == self.params.instrument.file.as_ptr();
+        let file = concerns_file.then(|| self.params.shelf.held(self.number()));
+        let mut inside = self.inside();
+        // One that never ended would take what is set now for its own.
+        inside.under_way.retain(|gesture| gesture.change.param != param);
+        let change = Change { param, before, after: before };
+        inside.under_way.push(Gesture { change, is_held: true, file });
+    }
+
+    pub(super) fn set(&self, param: ParamPtr, value: f32) {
+        self.asked.ask(param, value);
+        let mut inside = self.inside();
+        if let Some(gesture) = inside.under_way.iter_mut().find(|gesture| gesture.change.param == param) {
+            gesture.change.after = value;
+        }
+    }
+
+    pub(super) fn end(&self, param: ParamPtr) {
+        let now = self.asked.now();
+        let mut inside = self.inside();
+        if let Some(place) = inside.under_way.iter().position(|gesture| gesture.change.param == param) {
+            let Gesture { change, file, .. } = inside.under_way.remove(place);
             if change.before != change.after {
-                inside.keep(vec![change]);
+                let stepped = inside.stepping.then_some(now);
+                inside.keep(Entry { changes: vec![change], file, stepped });
             }
         }
     }
@@ -114,72 +221,33 @@ impl History {
 }
 
 impl Inside {
-    fn keep(&mut self, changes: Vec<Change>) {
-        if changes.is_empty() {
+    fn keep(&mut self, entry: Entry) {
+        if entry.changes.is_empty() && entry.file.is_none() {
             return;
         }
         if let Some(together) = &mut self.together {
-            together.extend(changes);
+            together.changes.extend(entry.changes);
+            together.file = together.file.take().or(entry.file);
             return;
         }
         self.undone.clear();
+        if let Some(last) = self.done.back_mut().filter(|last| last.goes_on_with(&entry)) {
+            last.changes[0].after = entry.changes[0].after;
+            last.stepped = entry.stepped;
+            return;
+        }
         if self.done.len() == MOST {
             self.done.pop_front();
         }
-        self.done.push_back(changes);
+        self.done.push_back(entry);
     }
 }
 
-/// Sets one of the plugin's parameters in one gesture, 0 to 1.
-pub fn put(host: &dyn GuiContextInner, param: ParamPtr, value: f32) {
-    // SAFETY: the parameter is the plugin's, and lives as long as its history.
-    unsafe {
-        host.raw_begin_set_parameter(param);
-        host.raw_set_parameter_normalized(param, value);
-        host.raw_end_set_parameter(param);
-    }
-}
-
-/// The way to the host, past the history.
-pub struct Noted {
-    /// The host.
-    pub gui: GuiContext,
-    /// What notes all that goes there.
-    pub history: Arc<History>,
-}
-
-impl GuiContextInner for Noted {
-    fn plugin_api(&self) -> PluginApi {
-        self.gui.plugin_api()
-    }
-
-    unsafe fn raw_begin_set_parameter(&self, param: ParamPtr) {
-        self.history.begin(param);
-        // SAFETY: as promised by the caller.
-        unsafe { self.gui.raw_begin_set_parameter(param) };
-    }
-
-    unsafe fn raw_set_parameter_normalized(&self, param: ParamPtr, normalized: f32) {
-        self.history.set(param, normalized);
-        // SAFETY: as promised by the caller.
-        unsafe { self.gui.raw_set_parameter_normalized(param, normalized) };
-    }
-
-    unsafe fn raw_end_set_parameter(&self, param: ParamPtr) {
-        // SAFETY: as promised by the caller.
-        unsafe { self.gui.raw_end_set_parameter(param) };
-        self.history.end(param);
-    }
-
-    fn get_state(&self) -> PluginState {
-        self.gui.get_state()
-    }
-
-    fn set_state(&self, state: PluginState) {
-        self.gui.set_state(state);
-    }
-
-    fn request_restart(&self) {
-        self.gui.request_restart();
+impl Entry {
+    /// Whether another is one more step of the same.
+    fn goes_on_with(&self, next: &Self) -> bool {
+        let (Some(before), Some(now)) = (self.stepped, next.stepped) else { return false };
+        let (&[own], &[other]) = (&self.changes[..], &next.changes[..]) else { return false };
+        own.param == other.param && now - before < PAUSE
     }
 }

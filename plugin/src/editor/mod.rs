@@ -11,6 +11,7 @@
 //! parameters ask for, and the way back to the audio thread. What a view remembers for itself is a struct of its own
 //! that [`Editor`] keeps.
 
+mod asked;
 mod capture;
 mod compare;
 pub mod control;
@@ -19,31 +20,34 @@ mod header;
 mod history;
 mod keys;
 mod link;
+mod noted;
 pub mod panels;
 mod presets;
 mod shapes;
+mod shortcuts;
 mod side;
 mod strings;
 pub mod theme;
 
 use std::sync::Arc;
 
-use egui::{Event, Key, Modifiers, Rect, Ui, UiBuilder, ViewportCommand, pos2};
+use egui::{Rect, Ui, UiBuilder, ViewportCommand, pos2};
 use nice_plug::context::PluginApi;
-use nice_plug::context::gui::GuiContext;
+use nice_plug::context::gui::{GuiContext, GuiContextInner};
+use nice_plug::params::internals::ParamPtr;
 use nice_plug::prelude::ParamSetter;
 use nice_plug_egui::NiceEguiApp;
 
 use crate::display::Reader;
 use crate::params::LowActionParams;
 use crate::params::words::Words;
-use crate::performance::PlayerEvent;
 use crate::plugin::layout::{SIZES, Seen};
 use crate::plugin::meters::Meters;
 use crate::pointer::Pointer;
 pub use given::{Given, Plan};
-use history::{History, Noted};
+use history::History;
 pub use link::{Link, SIZE, Window};
+use noted::Noted;
 use panels::{TABS, Tab};
 pub use strings::Sight;
 use theme::{GAP, HEADER, PANELS, SIDE};
@@ -97,6 +101,9 @@ impl Editor {
     /// Draws everything and takes what the mouse does. `gui` is the way to the host.
     pub fn show(&mut self, ui: &mut Ui, gui: &GuiContext) {
         let fresh = self.reader.fetch();
+        if !self.history.look(ui.input(|input| input.time)) {
+            ui.ctx().request_repaint();
+        }
         self.plan.follow(&self.params);
         self.resume(ui);
         let noted = Noted { gui: gui.clone(), history: self.history.clone() };
@@ -113,11 +120,7 @@ impl Editor {
             gui,
             keyboard: (gui.plugin_api() == PluginApi::Standalone).then(|| self.params.layout.seen().keys),
         };
-        if given.keyboard.is_none() {
-            leave_space(ui);
-        }
-        silence(ui, &given, self.typing);
-        follow_shortcuts(ui, &given);
+        shortcuts::follow(ui, &given, self.typing);
         self.keys.follow(ui, &given);
         let window = ui.ctx().content_rect();
         let Areas { header, strings, side, panels } = Areas::of(window, self.panels.open);
@@ -134,6 +137,7 @@ impl Editor {
         let seen = self.params.layout.seen();
         self.params.layout.keep(Seen { panel, string: self.strings.watched(), size, zoom, ..seen });
         self.typing = ui.ctx().text_edit_focused();
+        end(&noted, &self.history.dropped());
     }
 
     /// A window opens, which is to become as it was left.
@@ -165,6 +169,14 @@ impl Editor {
     }
 }
 
+/// Ends gestures that nobody will end.
+fn end(noted: &Noted, params: &[ParamPtr]) {
+    for &param in params {
+        // SAFETY: only the plugin's parameters are set in its editor, and they outlive it.
+        unsafe { noted.raw_end_set_parameter(param) };
+    }
+}
+
 impl NiceEguiApp for Editor {
     fn build(
         &mut self,
@@ -193,47 +205,16 @@ impl NiceEguiApp for Editor {
             }
         }
     }
-}
 
-/// In a host the space bar is the transport's, unless something is typed: it must not press what was clicked last.
-fn leave_space(ui: &Ui) {
-    if !ui.ctx().text_edit_focused() {
-        let is_space = |event: &Event| matches!(event, Event::Key { key: Key::Space, .. });
-        ui.input_mut(|input| input.events.retain(|event| !is_space(event)));
-    }
-}
-
-/// Escape silences all strings, unless it ends typing or closes a list. A field has lost the keyboard to it by now, so it
-/// counts what was typed into before.
-fn silence(ui: &Ui, given: &Given, typing: bool) {
-    let meant_for_others = typing || egui::Popup::is_any_open(ui.ctx());
-    if !meant_for_others && ui.input(|input| input.key_pressed(Key::Escape)) {
-        given.pointer.play(PlayerEvent::AllNotesOff);
-    }
-}
-
-/// Undo, redo and zoom.
-fn follow_shortcuts(ui: &Ui, given: &Given) {
-    if ui.ctx().text_edit_focused() {
-        return;
-    }
-    let pressed = |modifiers, key| ui.input_mut(|input| input.consume_key(modifiers, key));
-    // The longer one first: Ctrl+Z would take it as well.
-    if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) || pressed(Modifiers::COMMAND, Key::Y) {
-        given.history.redo(given.gui);
-    } else if pressed(Modifiers::COMMAND, Key::Z) {
-        given.history.undo(given.gui);
-    }
-    for (key, change) in [(Key::ArrowUp, ZOOM), (Key::ArrowDown, -ZOOM)] {
-        if pressed(Modifiers::COMMAND, key) {
-            let zoom = ui.ctx().zoom_factor() + change;
-            ui.ctx().set_zoom_factor(zoom.clamp(SIZES[0], SIZES[1]));
+    fn editor_closed(&mut self) {
+        if let Some(gui) = self.gui.clone() {
+            let noted = Noted { gui, history: self.history.clone() };
+            // What was held in the last picture, too.
+            end(&noted, &self.history.dropped());
+            end(&noted, &self.history.dropped());
         }
     }
 }
-
-/// By how much everything becomes larger or smaller at once.
-const ZOOM: f32 = 0.1;
 
 /// Where the parts of the window are.
 struct Areas {

@@ -30,16 +30,11 @@ pub struct Presets {
     name: String,
     /// Whether it is only now being asked for.
     asking: bool,
-    /// Why nothing was saved, if so.
+    /// Why nothing was saved under it, if so.
     problem: Option<String>,
 }
 
 impl Presets {
-    /// Why nothing was saved the last time, in one line.
-    pub fn problem(&self) -> Option<&str> {
-        self.problem.as_deref()
-    }
-
     /// Shows what is played, what is beside it in the list, the list itself and the way to save, in a row of so many
     /// points.
     pub fn show(&mut self, ui: &mut Ui, given: &Given, room: f32) {
@@ -48,7 +43,7 @@ impl Presets {
             choose(given, chosen.map_or(0, |index| (index + count - 1) % count));
         }
         let mut title = title(given, chosen);
-        if is_changed(given.params) {
+        if is_changed(given) {
             title += " *";
         }
         let width = (room - BESIDE).clamp(NARROWEST, WIDTH);
@@ -63,13 +58,22 @@ impl Presets {
         }
         let save =
             ui.button("Save").on_hover_text("Save this instrument, with all that was changed, under a name");
-        if save.clicked() {
+        let was_refused =
+            self.problem.is_some() && Popup::is_id_open(ui.ctx(), Popup::default_response_id(&save));
+        if save.clicked() && !was_refused {
             self.name = given.params.shelf.name(number(given)).unwrap_or_default();
-            self.asking = true;
+            self.problem = None;
         }
         Popup::menu(&save)
             .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
             .show(|ui| self.ask(ui, given));
+        if save.clicked() {
+            self.asking = true;
+            if was_refused {
+                // What was typed is there to be put right.
+                Popup::open_id(ui.ctx(), Popup::default_response_id(&save));
+            }
+        }
     }
 
     /// Asks for a name.
@@ -87,7 +91,14 @@ impl Presets {
         let pressed = ui.add(button).clicked();
         if pressed || entered {
             self.problem = save(given, self.name.trim()).err();
-            ui.close();
+            if self.problem.is_none() {
+                ui.close();
+            }
+            self.asking = self.problem.is_some();
+        }
+        if let Some(problem) = &self.problem {
+            ui.set_max_width(LIST);
+            ui.colored_label(theme::ALARM, problem);
         }
         if let Some(folder) = setups::folder() {
             ui.colored_label(theme::SOFT_TEXT, format!("in {}", folder.display()));
@@ -129,7 +140,7 @@ fn list(ui: &mut Ui, given: &Given, chosen: Option<usize>) {
 
 /// The number of the user's file that is played, 0 for none.
 fn number(given: &Given) -> u32 {
-    given.params.instrument.file.unmodulated_plain_value().unsigned_abs()
+    given.history.number()
 }
 
 /// Where in the list what is played stands, if it does: a session's own file by its name, as the folder may have another
@@ -137,7 +148,7 @@ fn number(given: &Given) -> u32 {
 fn chosen(given: &Given) -> Option<usize> {
     let (number, shelf) = (number(given), &given.params.shelf);
     if number == 0 {
-        return Some(given.params.instrument.instrument.unmodulated_plain_value().to_index());
+        return Some(given.plain(&given.params.instrument.instrument).to_index());
     }
     let name = shelf.name(number)?;
     Some(SHIPPED.len() + shelf.names().iter().position(|listed| *listed == name)?)
@@ -162,12 +173,9 @@ fn choose(given: &Given, index: usize) {
         }
         Some(file) => file as i32 + 1,
     };
-    // Of another number the shelf hears by itself.
-    if file != 0 && file.unsigned_abs() == number(given) {
-        given.params.shelf.let_go();
-    }
     values.push((instrument.file.as_ptr(), instrument.file.preview_normalized(file)));
-    change(given, &values);
+    // The one in the folder, whatever the session keeps under its number.
+    change(given, &values, (file.unsigned_abs(), None));
 }
 
 /// Whether something of the user's has this name: a file that was there in the beginning, or one that somebody else has
@@ -185,11 +193,13 @@ fn save(given: &Given, name: &str) -> Result<(), String> {
     let folder = setups::folder().ok_or("this system has no folder for a user's data")?;
     let setup = Setup { name: name.into(), player: player.clone(), ..setup.clone() };
     let file = setups::save(&setup, &folder).map_err(|error| format!("{error:#}"))?;
-    let number = given.params.shelf.add(file)?;
+    let text = setups::read(&file.path).map_err(|error| format!("{error:#}"))?;
+    let kept = given.params.shelf.add(file, text)?;
+    let number = kept.number();
     let param = &given.params.instrument.file;
     let mut values = usual(given.params);
     values.push((param.as_ptr(), param.preview_normalized(number as i32)));
-    change(given, &values);
+    change(given, &values, (number, Some(kept)));
     Ok(())
 }
 
@@ -227,10 +237,11 @@ fn usual(params: &LowActionParams) -> Values {
 }
 
 /// Whether anything is changed of the instrument that was chosen.
-fn is_changed(params: &LowActionParams) -> bool {
+fn is_changed(given: &Given) -> bool {
+    let asked = &given.history.asked;
     // What hosts round is the same again as a plain value.
-    // SAFETY: the pointers lead into `params`.
-    usual(params)
+    // SAFETY: the pointers lead into the parameters, which outlive this.
+    usual(given.params)
         .iter()
-        .any(|(param, _)| unsafe { param.unmodulated_plain_value() != param.default_plain_value() })
+        .any(|(param, _)| unsafe { param.preview_plain(asked.value(*param)) != param.default_plain_value() })
 }

@@ -5,16 +5,18 @@
 //! the project sounds the same on another machine and after the file was changed. Choosing another number lets go of
 //! it, as does choosing anything in the editor's list. The audio thread sees nothing but numbers.
 
+mod kept;
+
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use low_action_dsp::Setup;
-use nice_plug::params::persist::PersistentField;
 use nice_plug::prelude::nice_error;
-use serde::{Deserialize, Serialize};
 
 use crate::cli::one_line;
 use crate::setups::{self, SetupFile};
+pub(crate) use kept::Kept;
+pub use kept::Saved;
 
 /// Files that can be chosen; those beyond are passed over.
 pub const MOST_FILES: usize = 64;
@@ -23,23 +25,10 @@ pub const MOST_FILES: usize = 64;
 pub(crate) const KEPT: &str = "instrument_file";
 
 /// The number that chooses no file.
-pub(super) const NONE: u32 = 0;
+pub(crate) const NONE: u32 = 0;
 
 /// The name of a number without a file.
 const NO_FILE: &str = "no such file";
-
-/// A set-up file that is kept with the session.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-struct Kept {
-    number: u32,
-    name: String,
-    text: String,
-}
-
-/// What a session saves of the shelf.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Saved(Option<Kept>);
 
 #[derive(Debug)]
 struct Inside {
@@ -47,6 +36,8 @@ struct Inside {
     kept: Mutex<Option<Kept>>,
     /// The number for which the kept file stands, [`NONE`] if for none.
     stands_for: AtomicU32,
+    /// A number, and what it is to stand for when it is chosen: a file, or what the folder has.
+    promised: Mutex<Option<(u32, Option<Kept>)>>,
     chosen: AtomicU32,
     /// Grows when the same number comes to mean something else.
     edition: AtomicU32,
@@ -74,6 +65,7 @@ impl Shelf {
             files: Mutex::new(files),
             kept: Mutex::new(None),
             stands_for: AtomicU32::new(NONE),
+            promised: Mutex::new(None),
             chosen: AtomicU32::new(NONE),
             edition: AtomicU32::new(0),
             message: Mutex::new(None),
@@ -97,34 +89,28 @@ impl Shelf {
 
     /// The name of a number's file; none for 0 or if there is no such file.
     pub fn name(&self, number: u32) -> Option<String> {
-        let kept = lock(&self.0.kept);
-        let kept =
-            kept.as_ref().filter(|_| number != NONE && self.0.stands_for.load(Ordering::Relaxed) == number);
-        kept.map(|kept| kept.name.clone()).or_else(|| Some(self.file(number)?.name))
+        let kept = self.held(number).or_else(|| self.promised(number));
+        kept.map(|kept| kept.name).or_else(|| Some(self.file(number)?.name))
     }
 
-    /// Takes in a file that has been written to the user's folder, and gives back its number: that of the file of this
-    /// name, which is read anew, or the next one.
+    /// Takes in a file that has been written to the user's folder with such a text, and gives it back with its number: that
+    /// of the file of this name, or the next one.
     ///
     /// # Errors
     /// When there are as many files as can be chosen.
-    pub fn add(&self, file: SetupFile) -> Result<u32, String> {
+    #[cfg(feature = "editor")]
+    pub(crate) fn add(&self, file: SetupFile, text: String) -> Result<Kept, String> {
         let mut files = lock(&self.0.files);
         let place = files.iter().position(|known| known.name == file.name).unwrap_or(files.len());
         if place == MOST_FILES {
             return Err(format!("{}: saved, but only {MOST_FILES} files can be chosen", file.name));
         }
+        let kept = Kept { number: place as u32 + 1, name: file.name.clone(), text };
         match files.get_mut(place) {
             Some(known) => *known = file,
             None => files.push(file),
         }
-        drop(files);
-        let number = place as u32 + 1;
-        if self.0.stands_for.load(Ordering::Relaxed) == number {
-            self.0.stands_for.store(NONE, Ordering::Relaxed);
-        }
-        self.0.edition.fetch_add(1, Ordering::Relaxed);
-        Ok(number)
+        Ok(kept)
     }
 
     /// A file is chosen by its number. Called wherever parameters change: neither waits nor allocates.
@@ -137,10 +123,39 @@ impl Shelf {
         }
     }
 
-    /// Lets go of the kept file: its number means the file of the folder again.
+    /// The file that is kept for a number, if one is.
+    pub(crate) fn held(&self, number: u32) -> Option<Kept> {
+        let kept = lock(&self.0.kept);
+        let stands = number != NONE && self.0.stands_for.load(Ordering::Relaxed) == number;
+        kept.clone().filter(|_| stands)
+    }
+
+    /// Has a number stand for a file that was kept before, or for what the folder has: once it is chosen, and where it is
+    /// already, once [all that belongs to it](Self::keep_promise) is there.
     #[cfg(feature = "editor")]
-    pub(crate) fn let_go(&self) {
-        if self.0.stands_for.swap(NONE, Ordering::Relaxed) != NONE {
+    pub(crate) fn promise(&self, number: u32, file: Option<Kept>) {
+        *lock(&self.0.promised) = Some((number, file));
+    }
+
+    fn promised(&self, number: u32) -> Option<Kept> {
+        let promised = lock(&self.0.promised);
+        promised.as_ref().filter(|(known, _)| *known == number && number != NONE)?.1.clone()
+    }
+
+    /// All values that were asked for with a promise are there: it counts now, or no more.
+    #[cfg(feature = "editor")]
+    pub(crate) fn keep_promise(&self) {
+        let mut kept = lock(&self.0.kept);
+        let Some((number, file)) = lock(&self.0.promised).take() else { return };
+        if number == NONE || self.0.chosen.load(Ordering::Relaxed) != number {
+            return;
+        }
+        let stands_for = if file.is_some() { number } else { NONE };
+        if file.is_some() {
+            *kept = file;
+        }
+        if self.0.stands_for.swap(stands_for, Ordering::Relaxed) == number {
+            // Whoever has read it has read another.
             self.0.edition.fetch_add(1, Ordering::Relaxed);
         }
     }
@@ -179,14 +194,24 @@ impl Shelf {
         {
             return Ok(kept.clone());
         }
-        let file = self.file(number).ok_or_else(|| format!("there is no set-up file {number}"))?;
-        let text = setups::read(&file.path).map_err(|error| one_line(&format!("{error:#}")))?;
-        let found = Kept { number, name: file.name.clone(), text };
+        let found = match self.promised(number) {
+            Some(promised) => promised,
+            None => self.read(number)?,
+        };
         if self.0.chosen.load(Ordering::Relaxed) == number {
             *kept = Some(found.clone());
             self.0.stands_for.store(number, Ordering::Relaxed);
+            lock(&self.0.promised).take_if(|(known, file)| *known == number && file.is_some());
         }
         Ok(found)
+    }
+
+    /// The file that the folder has under a number.
+    fn read(&self, number: u32) -> Result<Kept, String> {
+        let SetupFile { name, path } =
+            self.file(number).ok_or_else(|| format!("there is no set-up file {number}"))?;
+        let text = setups::read(&path).map_err(|error| one_line(&format!("{error:#}")))?;
+        Ok(Kept { number, name, text })
     }
 
     fn file(&self, number: u32) -> Option<SetupFile> {
@@ -227,32 +252,6 @@ impl Shelf {
         let place =
             lock(&self.0.files).iter().position(|file| file.name == title).map(|place| place as i32 + 1);
         place.or_else(|| title.split(':').next()?.trim().parse().ok())
-    }
-}
-
-impl<'a> PersistentField<'a, Saved> for Shelf {
-    fn set(&self, Saved(saved): Saved) {
-        let mut kept = lock(&self.0.kept);
-        let number = saved.as_ref().map_or(NONE, |saved| saved.number);
-        *kept = saved;
-        self.0.stands_for.store(number, Ordering::Relaxed);
-        self.0.edition.fetch_add(1, Ordering::Relaxed);
-    }
-
-    fn map<F, R>(&self, read: F) -> R
-    where
-        F: Fn(&Saved) -> R,
-    {
-        let number = self.0.chosen.load(Ordering::Relaxed);
-        if number == NONE {
-            return read(&Saved(None));
-        }
-        // What cannot be read is saved by its name, so that whoever opens the session learns what is missing.
-        let missing = |_| {
-            let name = self.file(number).map_or_else(|| NO_FILE.into(), |file| file.name);
-            Kept { number, name, text: String::new() }
-        };
-        read(&Saved(Some(self.take_up(number).unwrap_or_else(missing))))
     }
 }
 

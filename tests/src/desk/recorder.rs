@@ -28,24 +28,40 @@ pub fn is_gesture(told: &[Told], id: &str) -> bool {
     begun == id && ended == id && !inside.is_empty() && inside.iter().all(is_set)
 }
 
-/// A host that sets what it is told at once.
+/// A host that sets what it is told at once, or, if it is late, when it is asked to.
 pub struct Recorder {
     params: Arc<LowActionParams>,
     api: PluginApi,
     names: HashMap<ParamPtr, String>,
     told: Mutex<Vec<Told>>,
+    /// What it has yet to set, if it is late.
+    waiting: Mutex<Option<Vec<(ParamPtr, f32)>>>,
 }
 
 impl Recorder {
     /// A host of these parameters.
     pub fn new(params: Arc<LowActionParams>, api: PluginApi) -> Self {
         let names = params.param_map().into_iter().map(|(id, param, _)| (param, id)).collect();
-        Self { params, api, names, told: Mutex::new(Vec::new()) }
+        Self { params, api, names, told: Mutex::default(), waiting: Mutex::default() }
     }
 
     /// All that it was told since this was last asked.
     pub fn take(&self) -> Vec<Told> {
         std::mem::take(&mut *self.told.lock().expect("nobody panicked"))
+    }
+
+    /// From now on it sets nothing before it is asked to, as hosts set nothing before the end of a block.
+    pub fn be_late(&self) {
+        self.waiting.lock().expect("nobody panicked").get_or_insert_default();
+    }
+
+    /// Sets what waits.
+    pub fn catch_up(&self) {
+        let mut waiting = self.waiting.lock().expect("nobody panicked");
+        for (param, value) in waiting.iter_mut().flat_map(|waiting| waiting.drain(..)) {
+            // SAFETY: the pointer leads into the parameters, which this host keeps.
+            unsafe { param._internal_set_normalized_value(value) };
+        }
     }
 
     fn name(&self, param: ParamPtr) -> String {
@@ -68,6 +84,10 @@ impl GuiContextInner for Recorder {
 
     unsafe fn raw_set_parameter_normalized(&self, param: ParamPtr, normalized: f32) {
         self.write(Told::Set(self.name(param), normalized));
+        if let Some(waiting) = &mut *self.waiting.lock().expect("nobody panicked") {
+            waiting.push((param, normalized));
+            return;
+        }
         // SAFETY: the pointer leads into the parameters, which this host keeps.
         unsafe { param._internal_set_normalized_value(normalized) };
     }

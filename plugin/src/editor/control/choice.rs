@@ -18,14 +18,14 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
     let response = ui.interact(area, id, Sense::click());
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::labeled(egui::Role::ComboBox, true, param.name());
-        info.current_text_value = Some(shown(param));
+        info.current_text_value = Some(shown(given, param));
         info
     });
     follow_keys(ui, given, param, &response, Arrows::default());
     paint_name(ui, param, area, &response);
-    paint_value(ui, &shown(param), area, &response);
+    paint_value(ui, &shown(given, param), area, &response);
     let steps = param.step_count().unwrap_or(1).max(1) as f32;
-    let chosen = param.unmodulated_normalized_value();
+    let chosen = given.value(param);
     Popup::menu(&response).width(area.width()).show(|ui| {
         ScrollArea::vertical().max_height(HIGHEST).show(ui, |ui| {
             for index in 0..count {

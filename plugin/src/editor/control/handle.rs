@@ -20,7 +20,7 @@ impl Handle<'_> {
         let id = ui.scope_id().with(self.param.name());
         let response = ui.interact(area, id, Sense::click_and_drag());
         let param = self.param;
-        let value = param.unmodulated_plain_value();
+        let value = given.plain(param);
         response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(value), param.name()));
         let ends = [param.preview_plain(0.0), param.preview_plain(1.0)];
         drag(ui, given, param, &response, (value, self.growth), |held| {

@@ -13,7 +13,7 @@ pub(super) fn show<P: Param>(ui: &mut Ui, given: &Given, param: &P, row: Rect, s
         edit(ui, given, param, Field { row, id, text, slider });
         return;
     }
-    let galley = ui.painter().layout_no_wrap(shown(param), theme::SMALL, theme::TEXT);
+    let galley = ui.painter().layout_no_wrap(shown(given, param), theme::SMALL, theme::TEXT);
     let area = Align2::RIGHT_CENTER.anchor_size(row.right_center(), galley.size());
     // Not to be reached by Tab: Enter on the slider types as well.
     let number = ui.interact(area.expand2(vec2(4.0, 1.0)), id, Sense::CLICK);
@@ -26,7 +26,7 @@ pub(super) fn show<P: Param>(ui: &mut Ui, given: &Given, param: &P, row: Rect, s
     ui.painter().galley(pos2(area.left(), area.top()), galley, theme::TEXT);
     let enter = slider.has_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if number.clicked() || enter {
-        ui.data_mut(|data| data.insert_temp(id, shown(param)));
+        ui.data_mut(|data| data.insert_temp(id, shown(given, param)));
         ui.memory_mut(|memory| memory.request_focus(id.with("field")));
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The wheel moves it by steps. A click on the number, or Enter, types one.
 
-use egui::{CursorIcon, Event, Id, MouseWheelUnit, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
+use egui::{CursorIcon, Event, Id, MouseWheelUnit, Rect, Response, Sense, Stroke, Ui, Vec2, pos2, vec2};
 use nice_plug::prelude::Param;
 
 use super::{Arrows, NAME, drag, explain, follow_keys, is_taken, number, paint_name, set, step, strength};
@@ -15,7 +15,7 @@ const NOTCH: f32 = 24.0;
 pub fn slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect) -> Response {
     let id = ui.scope_id().with(param.name());
     let mut response = ui.interact(area, id, Sense::click_and_drag());
-    let value = param.unmodulated_normalized_value();
+    let value = given.value(param);
     response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(value), param.name()));
     let growth = vec2(1.0 / area.width().max(1.0), 0.0);
     drag(ui, given, param, &response, (value, growth), |held| {
@@ -27,7 +27,7 @@ pub fn slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect) -> Re
     step(given, param, notches(ui, id, area), ui.input(|input| input.modifiers.shift));
     follow_keys(ui, given, param, &response, Arrows::default());
     paint_name(ui, param, area, &response);
-    paint_line(ui, param, area, &response);
+    paint_line(ui, (param, value), area, &response);
     response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
     let response = explain(given, param, response);
     let row = Rect::from_min_size(area.min, vec2(area.width(), NAME));
@@ -41,9 +41,13 @@ fn notches(ui: &Ui, id: Id, area: Rect) -> i32 {
         return 0;
     }
     let turned: f32 = ui.input(|input| {
+        // To the side it scrolls a narrow window's panel, but systems also turn it there with Shift.
+        let along = |delta: Vec2, shift: bool| if shift { delta.x + delta.y } else { delta.y };
         let turn = |event: &Event| match event {
-            Event::MouseWheel { unit: MouseWheelUnit::Point, delta, .. } => (delta.x + delta.y) / NOTCH,
-            Event::MouseWheel { delta, .. } => delta.x + delta.y,
+            Event::MouseWheel { unit, delta, modifiers, .. } => {
+                let turned = along(*delta, modifiers.shift || input.modifiers.shift);
+                if *unit == MouseWheelUnit::Point { turned / NOTCH } else { turned }
+            }
             _ => 0.0,
         };
         input.events.iter().map(turn).sum()
@@ -55,12 +59,12 @@ fn notches(ui: &Ui, id: Id, area: Rect) -> i32 {
 }
 
 /// The line, full from the usual value to the present one, and where a host's modulation has it.
-fn paint_line<P: Param>(ui: &Ui, param: &P, area: Rect, response: &Response) {
+fn paint_line<P: Param>(ui: &Ui, (param, value): (&P, f32), area: Rect, response: &Response) {
     let painter = ui.painter();
     let y = area.top() + NAME + 8.0;
     let line = Rect::from_min_max(pos2(area.left(), y - 2.0), pos2(area.right(), y + 2.0));
     let at = |value: f32| line.left() + value * line.width();
-    let (value, usual) = (param.unmodulated_normalized_value(), param.default_normalized_value());
+    let usual = param.default_normalized_value();
     painter.rect_filled(line, 2.0, if is_taken(response) { theme::LIFTED } else { theme::RAISED });
     let (from, to) = (at(value.min(usual)), at(value.max(usual)));
     painter.rect_filled(line.with_min_x(from).with_max_x(to), 2.0, strength(response));
@@ -71,7 +75,7 @@ fn paint_line<P: Param>(ui: &Ui, param: &P, area: Rect, response: &Response) {
         if is_taken(response) { theme::TEXT } else { theme::BONE },
     );
     let modulated = param.modulated_normalized_value();
-    if modulated != value {
+    if modulated != param.unmodulated_normalized_value() {
         painter.circle_stroke(pos2(at(modulated), y), 4.0, Stroke::new(1.5, theme::PLUCK));
     }
 }

@@ -10,7 +10,7 @@ use crate::editor::{Given, theme};
 pub fn switch(ui: &mut Ui, given: &Given, param: &BoolParam, area: Rect) -> Response {
     let id = ui.scope_id().with(param.name());
     let response = ui.interact(area, id, Sense::click());
-    let on = param.unmodulated_plain_value();
+    let on = given.plain(param);
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, on, param.name()));
     if response.clicked() {
         set(given, param, if on { 0.0 } else { 1.0 });
@@ -28,6 +28,6 @@ pub fn switch(ui: &mut Ui, given: &Given, param: &BoolParam, area: Rect) -> Resp
     let knob = pos2(if on { slot.right() - 7.0 } else { slot.left() + 7.0 }, slot.center().y);
     painter.circle_filled(knob, 5.0, if on { theme::GROUND } else { theme::SOFT_TEXT });
     let place = pos2(slot.right() + theme::NEAR, slot.center().y);
-    painter.text(place, Align2::LEFT_CENTER, shown(param), theme::SMALL, theme::TEXT);
+    painter.text(place, Align2::LEFT_CENTER, shown(given, param), theme::SMALL, theme::TEXT);
     explain(given, param, response.on_hover_cursor(CursorIcon::PointingHand))
 }
