@@ -7,6 +7,9 @@ use low_action_dsp::setup::{Pickup, Player};
 use crate::engine::{EngineOptions, Quality};
 use crate::performance::NEAREST_PLUCK;
 
+/// The highest that strings are over fret 12, m.
+pub const HIGHEST_ACTION: f64 = 0.05;
+
 /// What cannot be changed without compiling the strings anew. All values are relative to a set-up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Luthier {
@@ -61,14 +64,13 @@ impl Luthier {
     pub fn work_on(&self, setup: &mut Setup) {
         let neck = &mut setup.neck;
         neck.nut_clearance = (neck.nut_clearance * self.action).clamp(1e-5, 0.02);
-        neck.action = (neck.action * self.action).clamp(neck.nut_clearance, 0.05);
+        neck.action = (neck.action * self.action).clamp(neck.nut_clearance, HIGHEST_ACTION);
         neck.relief = (neck.relief + self.relief).clamp(0.0, neck.most_relief());
         neck.fret_height = (neck.fret_height * self.fret_height).clamp(0.0, 0.02);
         let scale = neck.scale_length;
         if let Pickup::Magnetic { position, aperture, .. } = &mut setup.pickup {
-            // Half the field must stay on the string.
-            let nearest = 0.51 * *aperture + 1e-3;
-            *position = (*position + self.pickup_position).min(scale - nearest).max(nearest);
+            let [nearest, farthest] = coil_places(*aperture, scale);
+            *position = (*position + self.pickup_position).min(farthest).max(nearest);
         }
         setup.blend = setup.blend.max(self.pickup_blend);
         setup.tension_modulation &= self.tension_modulation;
@@ -87,6 +89,19 @@ impl Luthier {
         let iterations = (self.iterations > 0).then_some(self.iterations);
         EngineOptions { quality: self.quality, iterations, ..EngineOptions::new(setup, sample_rate) }
     }
+}
+
+/// The nearest and the farthest place of a coil of such an aperture on strings of such a scale, m from the saddle: half its
+/// field must stay on the string.
+pub fn coil_places(aperture: f64, scale: f64) -> [f64; 2] {
+    let nearest = 0.51 * aperture + 1e-3;
+    [nearest, scale - nearest]
+}
+
+/// The nearest and the farthest place of a pluck, m from the saddle, on strings of such a scale. Fingers have a width, but what
+/// a set-up itself has is left to it.
+pub fn pluck_places(own: f64, scale: f64) -> [f64; 2] {
+    [NEAREST_PLUCK.min(own), (scale - NEAREST_PLUCK).max(own)]
 }
 
 /// How the hands act: what can change from one pluck to the next.
@@ -159,9 +174,8 @@ impl Touching {
     /// set-up file goes as far as it can.
     pub fn hands(&self, hands: &Player, scale: f64) -> Player {
         let mut hands = hands.clone();
-        // Fingers have a width, but what the set-up itself has is left to it.
         let own = hands.pluck_position;
-        let (nearest, farthest) = (NEAREST_PLUCK.min(own), (scale - NEAREST_PLUCK).max(own));
+        let [nearest, farthest] = pluck_places(own, scale);
         hands.pluck_position = (own + self.pluck_position).min(farthest).max(nearest);
         hands.pluck_force *= self.pluck_force;
         hands.pluck_duration *= self.pluck_duration;

@@ -91,6 +91,25 @@ fn nothing_leaves_its_range() {
     assert_eq!(desk.params.player.pluck_position.value(), 200.0);
 }
 
+/// The parameters go farther than the strings of one instrument.
+#[test]
+fn there_is_no_way_to_come_back_beyond_the_string() {
+    let mut desk = Desk::new();
+    for (name, way) in
+        [("Pluck position", vec2(1.0, 0.0)), ("Pickup position", vec2(1.0, 0.0)), ("Relief", vec2(0.0, -1.0))]
+    {
+        drag(&mut desk, name, 400.0 * way);
+        desk.wait(0.1);
+        let before = desk.named(name);
+        drag(&mut desk, name, -20.0 * way);
+        desk.wait(0.1);
+        let back = (before - desk.named(name)).dot(way);
+        // The middle of the neck sinks by less than the relief, which is counted from fret to fret.
+        let least = if name == "Relief" { 5.0 } else { 17.0 };
+        assert!((least..23.0).contains(&back), "{name} came back by {back} points");
+    }
+}
+
 #[test]
 fn shift_is_finer_and_a_double_click_brings_back() {
     let mut desk = Desk::new();

@@ -52,10 +52,20 @@ impl Given<'_> {
     }
 }
 
+#[derive(Debug)]
+struct Made {
+    order: Order,
+    /// As it comes.
+    own: Setup,
+    /// With all that a luthier has done to it.
+    setup: Setup,
+    player: Player,
+}
+
 /// The set-up that the parameters ask for, whether it sounds already or not.
 #[derive(Debug, Default)]
 pub struct Plan {
-    made: Option<(Order, Setup, Player)>,
+    made: Option<Made>,
 }
 
 impl Plan {
@@ -65,11 +75,13 @@ impl Plan {
         let order = Order::of(params, 0.0, false);
         let hands = |setup: &Setup| order::touching(params).hands(&setup.player, setup.neck.scale_length);
         match &mut self.made {
-            Some((made, setup, player)) if *made == order => *player = hands(setup),
+            Some(made) if made.order == order => made.player = hands(&made.setup),
             made => {
-                if let Some(setup) = order.planned(&params.shelf) {
+                if let Some(own) = order.planned(&params.shelf) {
+                    let mut setup = own.clone();
+                    order.luthier.work_on(&mut setup);
                     let player = hands(&setup);
-                    *made = Some((order, setup, player));
+                    *made = Some(Made { order, own, setup, player });
                 }
             }
         }
@@ -77,11 +89,16 @@ impl Plan {
 
     /// The set-up with all that a luthier has done to it; none before the first look at the parameters.
     pub fn setup(&self) -> Option<&Setup> {
-        self.made.as_ref().map(|(_, setup, _)| setup)
+        self.made.as_ref().map(|made| &made.setup)
+    }
+
+    /// The set-up as it comes; none before the first look at the parameters.
+    pub fn own(&self) -> Option<&Setup> {
+        self.made.as_ref().map(|made| &made.own)
     }
 
     /// The hands as they act now.
     pub fn player(&self) -> Option<&Player> {
-        self.made.as_ref().map(|(_, _, player)| player)
+        self.made.as_ref().map(|made| &made.player)
     }
 }

@@ -7,6 +7,7 @@ use super::Given;
 use super::control::Handle;
 use super::shapes::{band, fit_text};
 use super::theme::{self, GAP, LEFT, NEAR, RIGHT, TIGHT};
+use crate::controls::HIGHEST_ACTION;
 use crate::display::{POINTS, StringSeen};
 
 /// The highest and the lowest that is seen, m over the string at rest.
@@ -140,11 +141,14 @@ fn show_handles(ui: &mut Ui, given: &Given, profile: &Profile, setup: &Setup) {
     let action = &given.params.setup.action;
     // A point down is so many metres; the action is a factor of the set-up's own.
     let metres = 1.0 / profile.lift;
-    let own = neck.action as f32 / action.value().max(1e-3);
-    let handle = Handle { param: action, growth: vec2(0.0, metres / own.max(1e-5)) };
+    let own = &given.plan.own().unwrap_or(setup).neck;
+    let height = own.action.max(1e-5);
+    let growth = vec2(0.0, metres / height as f32);
+    let handle = Handle { param: action, growth, reach: [0.0, HIGHEST_ACTION / height] };
     let text = format!("action {:.2} mm", 1e3 * neck.action);
     show_handle(ui, given, profile, setup, &handle, neck.equal_place(12.0), text);
-    let handle = Handle { param: &given.params.setup.relief, growth: vec2(0.0, 1e3 * metres) };
+    let reach = [0.0, neck.most_relief()].map(|end| 1e3 * (end - own.relief));
+    let handle = Handle { param: &given.params.setup.relief, growth: vec2(0.0, 1e3 * metres), reach };
     let text = format!("relief {:.2} mm", 1e3 * neck.relief);
     show_handle(ui, given, profile, setup, &handle, neck.equal_place(5.5), text);
 }

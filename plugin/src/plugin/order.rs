@@ -72,17 +72,15 @@ impl Order {
         make(Setup::shipped(name).ok_or_else(|| format!("there is no set-up {name}"))?)
     }
 
-    /// The set-up that is asked for, with all that is done to it, for pictures: nothing is built, and nobody is told
-    /// what is wrong with a file.
+    /// The set-up that is asked for, as it comes, for pictures: nothing is built, and nobody is told what is wrong with a
+    /// file.
     #[cfg(feature = "editor")]
     pub fn planned(&self, shelf: &Shelf) -> Option<Setup> {
         let file = match self.file {
             (shelf::NONE, _) => None,
             (number, _) => shelf.setup(number).ok(),
         };
-        let mut setup = file.or_else(|| Setup::shipped(self.instrument.id()))?;
-        self.luthier.work_on(&mut setup);
-        Some(setup)
+        file.or_else(|| Setup::shipped(self.instrument.id()))
     }
 
     /// The same, but as the set-up comes.

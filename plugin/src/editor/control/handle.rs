@@ -12,6 +12,9 @@ pub struct Handle<'a> {
     pub param: &'a FloatParam,
     /// How much the parameter grows for a point to the right and for a point down.
     pub growth: Vec2,
+    /// The least and the largest value by which something still moves on this instrument: beyond, the mouse would move a
+    /// number and nothing that is seen.
+    pub reach: [f64; 2],
 }
 
 impl Handle<'_> {
@@ -21,10 +24,10 @@ impl Handle<'_> {
         let response = ui.interact(area, id, Sense::click_and_drag());
         let param = self.param;
         let value = given.plain(param);
+        let [least, most] = self.ends();
         response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(value), param.name()));
-        let ends = [param.preview_plain(0.0), param.preview_plain(1.0)];
-        drag(ui, given, param, &response, (value, self.growth), |held| {
-            param.preview_normalized(held.clamp(ends[0], ends[1]))
+        drag(ui, given, param, &response, (value.max(least).min(most), self.growth), |held| {
+            param.preview_normalized(held.max(least).min(most))
         });
         if response.double_clicked() {
             set(given, param, param.default_normalized_value());
@@ -32,5 +35,11 @@ impl Handle<'_> {
         let arrows = Arrows { right_is_less: self.growth.x < 0.0, up_is_less: self.growth.y > 0.0 };
         follow_keys(ui, given, param, &response, arrows);
         explain(given, param, response)
+    }
+
+    /// How far the parameter goes within reach.
+    fn ends(&self) -> [f32; 2] {
+        let [least, most] = [0.0, 1.0].map(|end| self.param.preview_plain(end));
+        self.reach.map(|reach| (reach as f32).max(least).min(most))
     }
 }

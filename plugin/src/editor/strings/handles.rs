@@ -5,6 +5,7 @@ use low_action_dsp::Setup;
 use low_action_dsp::setup::Pickup;
 
 use super::Sight;
+use crate::controls::{coil_places, pluck_places};
 use crate::editor::control::Handle;
 use crate::editor::{Given, theme};
 
@@ -43,13 +44,19 @@ pub(super) fn show(ui: &mut Ui, given: &Given, sight: &Sight, setup: &Setup) {
         let off = if other.is_some_and(|other| (x - other).abs() < CLOSE) { OFF } else { -OVER };
         Mark { text, colour, x, beside: if to_the_left { x - off } else { x + off }, to_the_left }
     };
-    let params = given.params;
+    let (params, own) = (given.params, given.plan.own().unwrap_or(setup));
+    // The parameters count from where the set-up has them.
+    let from = |place: f64, ends: [f64; 2]| ends.map(|end| 1e3 * (end - place));
+    let scale = setup.neck.scale_length;
     if let Some(x) = pluck {
-        let handle = Handle { param: &params.player.pluck_position, growth };
+        let place = own.player.pluck_position;
+        let reach = from(place, pluck_places(place, scale));
+        let handle = Handle { param: &params.player.pluck_position, growth, reach };
         show_mark(ui, given, sight, &handle, &mark(PLUCK, theme::PLUCK, x, pickup));
     }
-    if let Some(x) = pickup {
-        let handle = Handle { param: &params.setup.pickup_position, growth };
+    if let (Some(x), Pickup::Magnetic { position, aperture, .. }) = (pickup, &own.pickup) {
+        let reach = from(*position, coil_places(*aperture, scale));
+        let handle = Handle { param: &params.setup.pickup_position, growth, reach };
         show_mark(ui, given, sight, &handle, &mark(PICKUP, theme::STEEL, x, pluck));
     }
 }
