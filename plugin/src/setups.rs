@@ -76,6 +76,14 @@ pub fn installed() -> Vec<SetupFile> {
     folder().map(|folder| files_in(&folder)).unwrap_or_default()
 }
 
+/// Whether two names are one file's: where the system tells letters apart by more than their size, only if they are the same.
+pub(crate) fn is_same_name(one: &str, other: &str) -> bool {
+    match cfg!(any(windows, target_os = "macos")) {
+        true => one.to_lowercase() == other.to_lowercase(),
+        false => one == other,
+    }
+}
+
 /// Where the set-up of a name is in a folder, or would be.
 pub(crate) fn place(name: &str, folder: &Path) -> PathBuf {
     folder.join(format!("{name}.{EXTENSION}"))

@@ -62,3 +62,21 @@ fn what_was_loud_while_nobody_looked_is_not_shown() {
     desk.picture();
     assert_eq!(meter(&desk).as_deref(), Some("-60.0 dB"));
 }
+
+#[test]
+fn full_scale_is_told_until_it_was_seen() {
+    let mut desk = Desk::new();
+    let meter = desk.harness.get_by_label("Meter").rect().center();
+    let says = |desk: &mut Desk, what: &str| {
+        desk.point(meter);
+        desk.wait(1.0);
+        desk.harness.query_by_label_contains(&format!("Highest so far: {what} dB")).is_some()
+    };
+    desk.meters.see_output(&[0.5, 2.0], &[0.1]);
+    desk.wait(4.0);
+    assert!(says(&mut desk, "6.0"), "long after");
+    desk.click(meter);
+    desk.point(egui::pos2(2.0, 2.0));
+    desk.wait(0.1);
+    assert!(says(&mut desk, "-60.0"));
+}

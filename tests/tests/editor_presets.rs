@@ -267,6 +267,37 @@ fn what_a_session_keeps_gives_way_to_what_is_chosen() {
 }
 
 #[test]
+fn what_the_luthier_chooses_is_played_in_place_of_a_file() {
+    let mut desk = Desk::new();
+    save(&mut desk, "Mine 3");
+    let file = desk.params.instrument.file.value();
+    desk.open("Luthier");
+    // Also the one that would be played without the file.
+    for title in ["Steel", "Electric"] {
+        desk.click(desk.control("Instrument").expect("it is there"));
+        desk.wait(0.1);
+        desk.click(desk.named(title));
+        desk.wait(0.1);
+        assert_eq!(desk.params.instrument.instrument.to_string(), title);
+        assert_eq!(desk.params.instrument.file.value(), 0);
+        assert!(desk.harness.query_by_label("Mine 3").is_none(), "it is not the title");
+        undo(&mut desk);
+        assert_eq!(desk.params.instrument.instrument.to_string(), "Electric");
+        assert_eq!(desk.params.instrument.file.value(), file, "one step back");
+    }
+}
+
+#[test]
+fn buttons_say_their_keys_also_while_there_is_nothing_to_do() {
+    let mut desk = Desk::new();
+    let place = desk.named("Undo");
+    desk.point(place);
+    desk.wait(1.0);
+    let keys = if cfg!(target_os = "macos") { "Cmd+Z" } else { "Ctrl+Z" };
+    assert!(desk.harness.query_by_label(keys).is_some());
+}
+
+#[test]
 fn every_gesture_is_one_step_back() {
     let mut desk = Desk::new();
     for value in ["150", "60", "200"] {

@@ -9,6 +9,7 @@ use egui::{
 use super::Given;
 use super::compare::Compare;
 use super::presets::Presets;
+use super::shortcuts::COMMAND;
 use super::theme::{self, GAP, NEAR, TIGHT};
 
 /// What the header remembers.
@@ -16,6 +17,8 @@ use super::theme::{self, GAP, NEAR, TIGHT};
 pub struct Header {
     /// Levels as they are shown: they fall slowly.
     levels: [f32; 2],
+    /// The highest since somebody has said that they have seen it.
+    highest: [f32; 2],
     presets: Presets,
     compare: Compare,
 }
@@ -35,12 +38,19 @@ const MESSAGE: f32 = 200.0;
 const FOR_TITLE: f32 = 440.0;
 /// Lowest level shown, dB under full scale.
 const FLOOR: f32 = -60.0;
+/// Width of the end that says that full scale was reached, points.
+const CLIPPED: f32 = 4.0;
 /// How fast the meter falls, dB a second.
 const FALL: f32 = 24.0;
 
 impl Default for Header {
     fn default() -> Self {
-        Self { levels: [FLOOR; 2], presets: Presets::default(), compare: Compare::default() }
+        Self {
+            levels: [FLOOR; 2],
+            highest: [FLOOR; 2],
+            presets: Presets::default(),
+            compare: Compare::default(),
+        }
     }
 }
 
@@ -87,6 +97,7 @@ impl Header {
     /// Has the meter begin at its lowest.
     pub fn rest(&mut self) {
         self.levels = [FLOOR; 2];
+        self.highest = [FLOOR; 2];
     }
 
     /// What a player should know of: too little time, a file that is missing.
@@ -140,19 +151,28 @@ impl Header {
 
     /// Both channels, one over the other.
     fn show_meter(&mut self, ui: &mut Ui, given: &Given, area: Rect) {
-        let response = ui.interact(area.expand(TIGHT), ui.scope_id().with("meter"), Sense::hover());
+        // Not to be reached by Tab: there is nothing to set.
+        let response = ui.interact(area.expand(TIGHT), ui.scope_id().with("meter"), Sense::CLICK);
+        if response.clicked() {
+            self.highest = [FLOOR; 2];
+        }
         let seconds = ui.input(|input| input.stable_dt).min(0.1);
         let painter = ui.painter();
-        for (row, (level, peak)) in self.levels.iter_mut().zip(given.meters.take_peaks()).enumerate() {
+        let rows = self.levels.iter_mut().zip(&mut self.highest).zip(given.meters.take_peaks());
+        for (row, ((level, highest), peak)) in rows.enumerate() {
             let now = 20.0 * peak.max(1e-6).log10();
             *level = now.max(*level - FALL * seconds).max(FLOOR);
+            *highest = now.max(*highest);
             let height = (area.height() - 2.0) / 2.0;
             let top = area.top() + row as f32 * (height + 2.0);
             let bar = Rect::from_min_size(pos2(area.left(), top), vec2(area.width(), height));
             painter.rect_filled(bar, 1.0, theme::RAISED);
             let part = 1.0 - *level / FLOOR;
-            let colour = if *level > -0.1 { theme::ALARM } else { theme::CALM };
+            let colour = if *level >= 0.0 { theme::ALARM } else { theme::CALM };
             painter.rect_filled(bar.with_max_x(bar.left() + part * bar.width()), 1.0, colour);
+            if *highest >= 0.0 {
+                painter.rect_filled(bar.with_min_x(bar.right() - CLIPPED), 1.0, theme::ALARM);
+            }
             if *level > FLOOR {
                 ui.ctx().request_repaint();
             }
@@ -163,7 +183,11 @@ impl Header {
             info.current_text_value = Some(format!("{loudest:.1} dB"));
             info
         });
-        response.on_hover_text("Level of both channels, from 60 dB below full scale; red at full scale");
+        let highest = self.highest[0].max(self.highest[1]);
+        response.on_hover_text(format!(
+            "Level of both channels, from 60 dB below full scale; red at full scale, and the end stays so. Highest so far: \
+             {highest:.1} dB. A click begins anew"
+        ));
     }
 }
 
@@ -192,10 +216,14 @@ fn show_light(ui: &Ui, at: Pos2) {
 /// Undo and redo.
 fn show_history(ui: &mut Ui, given: &Given) {
     let [undo, redo] = given.history.can();
-    if ui.add_enabled(undo, Button::new("Undo")).on_hover_text("Ctrl+Z").clicked() {
+    let mut button = |can: bool, name: &str, key: char| {
+        let keys = format!("{COMMAND}+{key}");
+        ui.add_enabled(can, Button::new(name)).on_hover_text(&keys).on_disabled_hover_text(&keys).clicked()
+    };
+    if button(undo, "Undo", 'Z') {
         given.history.undo(given.gui);
     }
-    if ui.add_enabled(redo, Button::new("Redo")).on_hover_text("Ctrl+Y").clicked() {
+    if button(redo, "Redo", 'Y') {
         given.history.redo(given.gui);
     }
 }

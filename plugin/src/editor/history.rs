@@ -12,7 +12,7 @@ use nice_plug::prelude::Param;
 use super::asked::Asked;
 use super::noted::put;
 use crate::params::LowActionParams;
-use crate::plugin::shelf::{Kept, NONE};
+use crate::plugin::shelf::Kept;
 
 /// Entries that are kept.
 const MOST: usize = 100;
@@ -84,8 +84,11 @@ impl History {
         is_settled
     }
 
-    /// All gestures that are made meanwhile are one entry.
+    /// All gestures that are made meanwhile are one entry, and so are those of parts that are such themselves.
     pub fn together(&self, act: impl FnOnce()) {
+        if self.inside().together.is_some() {
+            return act();
+        }
         self.inside().together = Some(Entry::default());
         act();
         let mut inside = self.inside();
@@ -103,9 +106,10 @@ impl History {
 
     /// Has a number stand for a file, or for what the folder has under it; part of what is done together.
     pub(crate) fn play_file(&self, number: u32, file: Option<Kept>) {
-        let concerned = number != NONE || self.number() != NONE;
+        let present = self.number();
+        let is_another = number != present || file != self.params.shelf.held(present);
         let before = self.put_file(number, file);
-        if let Some(together) = self.inside().together.as_mut().filter(|_| concerned) {
+        if let Some(together) = self.inside().together.as_mut().filter(|_| is_another) {
             together.file.get_or_insert(before);
         }
     }

@@ -181,7 +181,7 @@ fn choose(given: &Given, index: usize) {
 /// Whether something of the user's has this name: a file that was there in the beginning, or one that somebody else has
 /// put there since.
 fn is_taken(given: &Given, name: &str) -> bool {
-    given.params.shelf.names().iter().any(|known| known == name)
+    given.params.shelf.names().iter().any(|known| setups::is_same_name(known, name))
         || setups::folder().is_some_and(|folder| setups::place(name, &folder).exists())
 }
 

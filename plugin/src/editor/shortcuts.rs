@@ -6,6 +6,8 @@ use super::Given;
 use crate::performance::PlayerEvent;
 use crate::plugin::layout::SIZES;
 
+/// The key that goes with them.
+pub(super) const COMMAND: &str = if cfg!(target_os = "macos") { "Cmd" } else { "Ctrl" };
 /// By how much everything becomes larger or smaller at once.
 const ZOOM: f32 = 0.1;
 

@@ -89,8 +89,9 @@ impl Shelf {
 
     /// The name of a number's file; none for 0 or if there is no such file.
     pub fn name(&self, number: u32) -> Option<String> {
-        let kept = self.held(number).or_else(|| self.promised(number));
-        kept.map(|kept| kept.name).or_else(|| Some(self.file(number)?.name))
+        let name = |kept: &Kept| kept.name.clone();
+        let known = self.of_held(number, name).or_else(|| self.of_promised(number, name));
+        known.or_else(|| Some(self.file(number)?.name))
     }
 
     /// Takes in a file that has been written to the user's folder with such a text, and gives it back with its number: that
@@ -101,7 +102,10 @@ impl Shelf {
     #[cfg(feature = "editor")]
     pub(crate) fn add(&self, file: SetupFile, text: String) -> Result<Kept, String> {
         let mut files = lock(&self.0.files);
-        let place = files.iter().position(|known| known.name == file.name).unwrap_or(files.len());
+        let place = files
+            .iter()
+            .position(|known| setups::is_same_name(&known.name, &file.name))
+            .unwrap_or(files.len());
         if place == MOST_FILES {
             return Err(format!("{}: saved, but only {MOST_FILES} files can be chosen", file.name));
         }
@@ -124,10 +128,15 @@ impl Shelf {
     }
 
     /// The file that is kept for a number, if one is.
+    #[cfg(feature = "editor")]
     pub(crate) fn held(&self, number: u32) -> Option<Kept> {
+        self.of_held(number, Kept::clone)
+    }
+
+    fn of_held<T>(&self, number: u32, read: impl FnOnce(&Kept) -> T) -> Option<T> {
         let kept = lock(&self.0.kept);
         let stands = number != NONE && self.0.stands_for.load(Ordering::Relaxed) == number;
-        kept.clone().filter(|_| stands)
+        kept.as_ref().filter(|_| stands).map(read)
     }
 
     /// Has a number stand for a file that was kept before, or for what the folder has: once it is chosen, and where it is
@@ -137,9 +146,10 @@ impl Shelf {
         *lock(&self.0.promised) = Some((number, file));
     }
 
-    fn promised(&self, number: u32) -> Option<Kept> {
+    fn of_promised<T>(&self, number: u32, read: impl FnOnce(&Kept) -> T) -> Option<T> {
         let promised = lock(&self.0.promised);
-        promised.as_ref().filter(|(known, _)| *known == number && number != NONE)?.1.clone()
+        let (_, file) = promised.as_ref().filter(|(known, _)| *known == number && number != NONE)?;
+        file.as_ref().map(read)
     }
 
     /// All values that were asked for with a promise are there: it counts now, or no more.
@@ -194,7 +204,7 @@ impl Shelf {
         {
             return Ok(kept.clone());
         }
-        let found = match self.promised(number) {
+        let found = match self.of_promised(number, Kept::clone) {
             Some(promised) => promised,
             None => self.read(number)?,
         };

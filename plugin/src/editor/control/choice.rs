@@ -12,10 +12,11 @@ use crate::editor::{Given, theme};
 /// Highest that a list is, points; what is longer scrolls.
 const HIGHEST: f32 = 320.0;
 
-/// Shows it: the first `count` values of the parameter can be chosen.
+/// Shows it: the first `count` values of the parameter can be chosen. Its answer is changed where one is, be it the same.
 pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count: usize) -> Response {
     let id = ui.scope_id().with(param.name());
-    let response = ui.interact(area, id, Sense::click());
+    let mut response = ui.interact(area, id, Sense::click());
+    let before = given.value(param);
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::labeled(egui::Role::ComboBox, true, param.name());
         info.current_text_value = Some(shown(given, param));
@@ -26,6 +27,7 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
     paint_value(ui, &shown(given, param), area, &response);
     let steps = param.step_count().unwrap_or(1).max(1) as f32;
     let chosen = given.value(param);
+    let mut is_chosen_anew = false;
     Popup::menu(&response).width(area.width()).show(|ui| {
         ScrollArea::vertical().max_height(HIGHEST).show(ui, |ui| {
             for index in 0..count {
@@ -41,11 +43,15 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
                 }
                 if line.clicked() {
                     set(given, param, value);
+                    is_chosen_anew = true;
                     ui.close();
                 }
             }
         });
     });
+    if is_chosen_anew || given.value(param) != before {
+        response.mark_changed();
+    }
     explain(given, param, response.on_hover_cursor(CursorIcon::PointingHand))
 }
 

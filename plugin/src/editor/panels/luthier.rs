@@ -1,19 +1,28 @@
 //! What a luthier changes: the instrument, action, relief, frets, pickup and the tuning of the strings.
 
 use egui::{Ui, text::LayoutJob, vec2};
-use nice_plug::prelude::Enum;
+use nice_plug::prelude::{Enum, Param};
 
 use super::cells::Cells;
+use crate::editor::compare::change;
 use crate::editor::control::{choice, slider};
 use crate::editor::{Given, theme};
 use crate::params::InstrumentChoice;
+use crate::plugin::shelf::NONE;
 
 /// Draws the panel.
 pub fn show(ui: &mut Ui, given: &Given) {
     let (instrument, setup) = (&given.params.instrument, &given.params.setup);
     let mut cells = Cells::new(ui.max_rect(), 6);
     cells.group(ui, "INSTRUMENT", 2);
-    choice(ui, given, &instrument.instrument, cells.next(), InstrumentChoice::variants().len());
+    given.history.together(|| {
+        let count = InstrumentChoice::variants().len();
+        if choice(ui, given, &instrument.instrument, cells.next(), count).changed() {
+            // A file takes its place, so that nothing would come of the choice.
+            let none = instrument.file.preview_normalized(NONE as i32);
+            change(given, &[(instrument.file.as_ptr(), none)], (NONE, None));
+        }
+    });
     choice(ui, given, &instrument.file, cells.next(), 1 + given.params.shelf.count());
     let rest = cells.rest();
     if let Some(setup) = given.plan.setup() {

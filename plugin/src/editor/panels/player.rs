@@ -66,8 +66,8 @@ const MAPS: [(KeyMap, &str, &str); 2] = [
     (
         KeyMap::Frets,
         "Frets",
-        "Four rows are four strings, the keys along them frets. Page Up and Page Down: other strings. Ctrl with \
-         the arrows to the sides: other frets.",
+        "Four rows are four strings, the keys along them frets. Page Up and Page Down: other strings. Ctrl (on a Mac \
+         Cmd) with the arrows to the sides: other frets.",
     ),
 ];
 
