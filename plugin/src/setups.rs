@@ -76,7 +76,8 @@ pub fn installed() -> Vec<SetupFile> {
     folder().map(|folder| files_in(&folder)).unwrap_or_default()
 }
 
-/// Whether two names are one file's: where the system tells letters apart by more than their size, only if they are the same.
+/// Whether two names are one file's. Windows and macOS find a file by its name in large letters and in small ones alike.
+#[cfg(feature = "editor")]
 pub(crate) fn is_same_name(one: &str, other: &str) -> bool {
     match cfg!(any(windows, target_os = "macos")) {
         true => one.to_lowercase() == other.to_lowercase(),
