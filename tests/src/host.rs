@@ -48,6 +48,8 @@ pub struct Performed {
     pub ended: Vec<(u64, u8)>,
     /// How long the plugin says at the end that it still sounds, samples; the largest number is endless.
     pub tail: u32,
+    /// For how many samples a sleepy host has asked for nothing.
+    pub slept: usize,
 }
 
 /// Somebody who looks at both channels, up to where they have sounded.
@@ -60,7 +62,7 @@ pub struct Host {
     pub mistaken: Option<fn(u32) -> u32>,
     /// Looks at all that has sounded after every block; may take its time.
     pub watch: Option<Watch>,
-    /// Whether the host stops asking a plugin for sound that says it is at rest, until there are events.
+    /// Whether the host asks a plugin that says it is at rest for nothing until there are events, and plays silence.
     pub sleepy: bool,
 }
 
@@ -130,7 +132,7 @@ impl Host {
         let mut block_sizes = blocks.iter().cycle();
         let mut start = 0;
         let mut running = None;
-        let mut rests = false;
+        let (mut rests, mut slept) = (false, 0);
         while start < length {
             let size = *block_sizes.next().expect("a cycle has no end") as usize;
             let end = length.min(start + size);
@@ -143,6 +145,11 @@ impl Host {
                 {
                     running = Some(playing);
                 }
+            }
+            if self.sleepy && rests && events.is_empty() {
+                slept += end - start;
+                start = end;
+                continue;
             }
             let mut parts: Vec<Vec<&mut [f32]>> =
                 vec![stereo.iter_mut().map(|channel| &mut channel[start..end]).collect()];
@@ -162,7 +169,7 @@ impl Host {
                     block_transport.as_ref(),
                 )
                 .expect("processing succeeds");
-            // A host may put a plugin to sleep that says so, until there are events.
+            // A host may put a plugin to sleep that says so, until there are events; this one has not.
             if rests && events.is_empty() {
                 let quiet = stereo.iter().all(|channel| channel[start..end].iter().all(|&x| x == 0.0));
                 assert!(quiet, "sound between samples {start} and {end}, while the plugin could have slept");
@@ -189,7 +196,7 @@ impl Host {
             TailLength::Infinite => u32::MAX,
         };
         self.instance.deactivate(processor.stop_processing());
-        Performed { stereo, stems, ended, tail }
+        Performed { stereo, stems, ended, tail, slept }
     }
 
     /// Chooses one of the plugin's port layouts; counts from the next activation on.

@@ -34,11 +34,14 @@ fn a_host_that_lets_it_sleep_loses_nothing() {
         let awake = Host::new().play(RATE, &score, 260_000, &[block]);
         let mut host = Host::new();
         host.sleepy = true;
-        assert!(host.play(RATE, &score, 260_000, &[block]) == awake, "blocks of {block}");
+        let asleep = host.perform(RATE, &score, 260_000, &[block], 0);
+        assert!(asleep.stereo == awake, "blocks of {block}");
+        // It sleeps as long as nothing sounds, but for parts of blocks and for hands that leave a string that is still.
+        let silent = awake[0].iter().filter(|sample| **sample == 0.0).count();
+        println!("slept for {} of {silent} silent samples in blocks of {block}", asleep.slept);
+        assert!(silent > 100_000, "it never comes to rest");
+        assert!(10 * asleep.slept >= 9 * silent, "slept for {} of {silent} samples", asleep.slept);
     }
-    // That it may sleep at all: what the plugin says is checked on the way.
-    let [left, _] = Host::new().play(RATE, &score, 225_000, &[512]);
-    assert!(left[220_000..].iter().all(|&sample| sample == 0.0), "it never comes to rest");
 }
 
 #[test]
