@@ -23,10 +23,11 @@ fn player(neck: usize, input: InputMode, touching: &Touching) -> Performance {
 const CONTROLLERS: [u8; 22] =
     [1, 2, 5, 6, 11, 20, 21, 22, 23, 24, 25, 26, 27, 64, 65, 66, 68, 74, 100, 101, 121, 123];
 
-/// What somebody may do who sees a string: at any place, on it or not, and as hard as one likes.
+/// What somebody may do who sees a string: at any place, on it or not, as hard as one likes, or by numbers that
+/// are none.
 fn any_deed() -> impl Strategy<Value = StringDeed> {
-    let place = prop_oneof![6 => -0.2_f32..1.2, 1 => any::<f32>()];
-    let force = prop_oneof![6 => -60.0_f32..60.0, 1 => any::<f32>()];
+    let place = prop_oneof![6 => -0.2_f32..1.2, 1 => prop::num::f32::ANY];
+    let force = prop_oneof![6 => -60.0_f32..60.0, 1 => prop::num::f32::ANY];
     prop_oneof![
         3 => (place.clone(), force).prop_map(|(position, force)| StringDeed::Pluck { position, force }),
         3 => place.prop_map(|position| StringDeed::Press { position }),
@@ -35,10 +36,25 @@ fn any_deed() -> impl Strategy<Value = StringDeed> {
     ]
 }
 
+/// What a note can have for itself, but for forces, which a host may ask for without documented bounds.
+fn any_expression(
+    unit: impl Strategy<Value = f32> + Clone,
+    turn: impl Strategy<Value = f32>,
+) -> impl Strategy<Value = Expression> {
+    prop_oneof![
+        unit.clone().prop_map(Expression::Vibrato),
+        unit.clone().prop_map(Expression::Pressure),
+        unit.prop_map(Expression::Brightness),
+        turn.prop_map(|semitones| Expression::Tuning(3.0 * semitones)),
+    ]
+}
+
 /// Any event: many controllers, and among notes many that are held over one another.
 fn any_event() -> impl Strategy<Value = PlayerEvent> {
     let channel = 0..4_u8;
-    let unit = 0.0_f32..=1.0;
+    // Now and then as a host with a fault would have it: far out, endless, or no number.
+    let unit = prop_oneof![12 => 0.0_f32..=1.0, 1 => prop::num::f32::ANY];
+    let turn = prop_oneof![12 => -1.0_f32..=1.0, 1 => prop::num::f32::ANY];
     prop_oneof![
         8 => (channel.clone(), 24..90_u8, unit.clone())
             .prop_map(|(channel, key, velocity)| PlayerEvent::NoteOn { channel, key, velocity }),
@@ -48,11 +64,10 @@ fn any_event() -> impl Strategy<Value = PlayerEvent> {
             .prop_map(|(channel, number, value)| {
                 PlayerEvent::Controller { channel, number, value: f32::from(value) / 127.0 }
             }),
-        2 => (channel.clone(), -1.0_f32..=1.0)
+        2 => (channel.clone(), turn.clone())
             .prop_map(|(channel, value)| PlayerEvent::PitchBend { channel, value }),
-        1 => (channel.clone(), 24..90_u8, unit.clone()).prop_map(|(channel, key, value)| {
-            PlayerEvent::Note { channel, key, expression: Expression::Vibrato(value) }
-        }),
+        1 => (channel.clone(), 24..90_u8, any_expression(unit.clone(), turn))
+            .prop_map(|(channel, key, expression)| PlayerEvent::Note { channel, key, expression }),
         1 => (channel, unit).prop_map(|(channel, pressure)| PlayerEvent::ChannelPressure { channel, pressure }),
         // There are four to six strings; others are ignored.
         3 => (0..7_u8, any_deed()).prop_map(|(string, deed)| PlayerEvent::Touched { string, deed }),

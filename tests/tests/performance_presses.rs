@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 
 use low_action::performance::{Performance, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::cases::cases;
 use low_action_tests::hands::{EXACT, Neck, any_left, play as play_by};
 use low_action_tests::stage::{cc, off, on};
 use proptest::prelude::*;
@@ -129,7 +130,7 @@ fn score() -> impl Strategy<Value = Vec<(u64, PlayerEvent)>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(256))]
 
     #[test]
     fn nothing_is_left_where_each_note_on_has_its_note_off(events in score(), legato: bool) {

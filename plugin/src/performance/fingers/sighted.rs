@@ -2,7 +2,7 @@
 
 use low_action_dsp::Gesture;
 
-use super::{Fingers, lifting};
+use super::Fingers;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
@@ -12,7 +12,7 @@ impl Fingers {
         self.make_way(at);
         self.lay_capo(at);
         if let Some(old) = self.fretting.take_if(|finger| finger.eased) {
-            at.does(lifting(old.slot, old.touch, QUICK_LIFT));
+            at.does(old.gives_way());
         }
     }
 
@@ -27,7 +27,7 @@ impl Fingers {
         self.make_way(at);
         self.lay_capo(at);
         for old in [self.anchor.take(), self.fretting.take()].into_iter().flatten() {
-            at.does(lifting(old.slot, old.touch, QUICK_LIFT));
+            at.does(old.gives_way());
         }
         self.come_down_at(fret, position, HAMMER_SPEED.0 + HAMMER_SPEED.1 * POINTED, at);
         if let Some(finger) = &mut self.fretting {
@@ -38,7 +38,7 @@ impl Fingers {
     /// The finger that came so leaves.
     pub(crate) fn lift_from(&mut self, at: &mut Moment<impl GestureSink>) {
         if let Some(finger) = self.fretting.take_if(|finger| finger.free.is_some()) {
-            at.does(lifting(finger.slot, finger.touch, QUICK_LIFT));
+            at.does(finger.gives_way());
         }
     }
 
