@@ -91,8 +91,14 @@ fn a_strum_goes_over_the_strings_at_one_speed() {
     assert_eq!(three.iter().map(|pluck| pluck.0).collect::<Vec<_>>(), [0, 3840, 7680]);
     // The accent makes it grow or fall.
     let forces = |accent| strum(&[(21, 64), (24, accent)], &chord).iter().map(|p| p.2).collect::<Vec<f64>>();
-    assert!(forces(127).is_sorted() && forces(127)[0] < 0.5 * forces(127)[5]);
-    assert!(forces(0).iter().rev().is_sorted());
+    let even = forces(64)[0];
+    for (accent, way) in [(127, 0.7), (0, -0.7)] {
+        for (n, force) in forces(accent).into_iter().enumerate() {
+            // From 0.7 less than the middle one's on the first string to 0.7 more on the last, or the other way.
+            let expected = even * (1.0 + way * (2.0 * n as f64 / 5.0 - 1.0));
+            assert!((force / expected - 1.0).abs() < 1e-12, "CC 24 = {accent}, string {n}: {force} N");
+        }
+    }
     assert!(forces(64).iter().all(|force| (force / forces(64)[0] - 1.0).abs() < 1e-12));
 }
 

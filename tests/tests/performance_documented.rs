@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use low_action::controls::Touching;
 use low_action::performance::PlayerEvent;
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, RATE, play};
@@ -96,6 +97,30 @@ fn a_thumb_of_12_grams_is_thrown_past_the_last_fret() {
 fn a_tap_lands_at_0_15_to_1_75_metres_a_second() {
     let [soft, hard] = [1, 127].map(|velocity| throw(7, 69, velocity).4);
     assert!((0.15..0.16).contains(&soft) && near(hard, 1.75), "{soft} and {hard} m/s");
+}
+
+#[test]
+fn pitch_changes_by_100_semitones_a_second_at_most() {
+    let bends = |gestures: &[TimedGesture]| -> Vec<f64> {
+        let duration = |timed: &TimedGesture| match timed.gesture {
+            Gesture::Bend { duration, .. } => Some(duration),
+            _ => None,
+        };
+        gestures.iter().filter_map(duration).collect()
+    };
+    let wheel = |time, value| (time, PlayerEvent::PitchBend { channel: 0, value });
+    // Down by 2 semitones, then up by 4.
+    let turned = bends(&gestures(&[(0, on(64, 80)), wheel(4800, -1.0), wheel(9600, 1.0)]));
+    assert!(matches!(turned[..], [down, up] if near(down, 0.02) && near(up, 0.04)), "{turned:?} s");
+    // The arm, by 12 on the string that sounds.
+    let mut player = GUITAR.player(EXACT);
+    play(&mut player, &[(0, on(64, 80))]);
+    let mut done = Vec::new();
+    player.touch(96_000, &Touching { tremolo_arm: -12.0, ..Touching::new(0.0, 2.0) }, &mut done);
+    player.advance(100_800, &mut done);
+    done.retain(|timed| timed.string == 0);
+    let armed = bends(&done);
+    assert!(matches!(armed[..], [down] if near(down, 0.12)), "{armed:?} s");
 }
 
 #[test]
