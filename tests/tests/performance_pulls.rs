@@ -2,6 +2,7 @@
 //! from it that are heard, and both follow velocity.
 
 use low_action_dsp::Gesture;
+use low_action_tests::numbers::largest;
 use low_action_tests::stage::{Stage, cc, hertz, level, off, on};
 
 const RATE: f64 = 48_000.0;
@@ -51,14 +52,20 @@ fn louder_than_plucked(velocity: u8) -> Vec<(String, f64)> {
 /// string let go of at once is up to 20 dB louder than soft notes.)
 #[test]
 fn a_pull_off_is_as_loud_as_the_note_plucked_as_hard() {
-    for velocity in [10, 20, 40, 64, 100] {
+    // And as the page says.
+    let (page, mut wrong) = (include_str!("../../docs/gestures.md"), Vec::new());
+    for velocity in [10, 20, 30, 45, 64, 100] {
         let found = louder_than_plucked(velocity);
         for (which, louder) in &found {
             assert!(*louder < 9.5, "{which}, velocity {velocity}: {louder} dB louder than plucked");
         }
         let mean = found.iter().map(|(_, louder)| louder).sum::<f64>() / found.len() as f64;
         assert!(mean.abs() < 4.8, "velocity {velocity}: {mean} dB louder than plucked, on average");
+        let most = largest(found.iter().map(|(_, louder)| *louder));
+        let row = format!("| {velocity} | {mean:.1} dB | {most:.1} dB | ");
+        wrong.extend((!page.contains(&row)).then_some(row));
     }
+    assert!(wrong.is_empty(), "docs/gestures.md has other numbers than {wrong:#?}");
 }
 
 /// A trill goes back by the same pull: the finger leaves in 1 ms after the hardest hammer, and in most of a period of the open
