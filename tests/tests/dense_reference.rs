@@ -116,8 +116,8 @@ fn the_reference_keeps_its_energy_balance() {
     }
 }
 
-/// The setup as a scene file for the fast string, with the tightest tolerance. The frets must be those of
-/// equal temperament, which the scene leaves to the fast string to place.
+/// The setup as a scene file for the fast string, solved to a tolerance. The frets must be those of equal
+/// temperament, which the scene leaves to the fast string to place.
 fn scene(setup: &Setup, tolerance: f64) -> Scene {
     let stencil = match setup.stencil {
         Stencil::Paper => "paper",

@@ -35,7 +35,7 @@ fn play(name: &str, setup: &Setup, mut instrument: Instrument) {
     let (mut left, mut right) = (vec![0.0; 512], vec![0.0; 512]);
     let touch = setup.player.fretting.touch;
     // How many gestures of each kind were taken, and how loud it was.
-    let (mut taken, mut loudest) = ([0; 6], 0.0);
+    let (mut taken, mut loudest) = ([0; 7], 0.0);
     assert_no_alloc(|| {
         for block in 0..100u64 {
             for (string, geometry) in geometry.iter().enumerate() {
@@ -49,6 +49,7 @@ fn play(name: &str, setup: &Setup, mut instrument: Instrument) {
                     Gesture::Slide { finger, position: position + 0.01, duration: 0.01 },
                     Gesture::Bend { tension_ratio: 1.1, duration: 0.01 },
                     Gesture::Lift { finger, force: 3.0, duration: 0.002 },
+                    Gesture::Throw { finger: 4, touch, position: away, clearance: 1e-4, speed: 1.0 },
                 ];
                 for (index, gesture) in gestures.into_iter().enumerate() {
                     let time = instrument.now() + 80 * index as u64;

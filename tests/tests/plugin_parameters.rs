@@ -1,5 +1,5 @@
 //! Promise: every parameter of the plugin does what it says, from one end of its range to the other, at the
-//! sample at which it is set; and what is in its documentation is what hosts see.
+//! sample at which it is set.
 //!
 //! Where a parameter stands for a value of the set-up, the sound must be that of an engine built from a
 //! set-up in which that value was changed by hand. Elsewhere what is heard must change as predicted.
