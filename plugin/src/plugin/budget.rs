@@ -50,6 +50,7 @@ impl Budget {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::Quality;
 
     #[test]
     fn relaxes_when_late_and_recovers_when_easy() {
@@ -63,6 +64,27 @@ mod tests {
         assert!((0..200).all(|_| block(&mut budget, 0.6)));
         let until_exact = (0..300).position(|_| !block(&mut budget, 0.1)).expect("it recovers");
         assert!((95..150).contains(&until_exact), "{until_exact} blocks of 10 ms");
+    }
+
+    /// The limits that are documented: late is more than 85 % of the time, easy is less than half of it for a second.
+    #[test]
+    fn late_and_easy_are_what_they_are_said_to_be() {
+        // Long blocks of these loads: whether it is relaxed at the end, having been so before or not.
+        let after = |load: f64, relaxed: bool| {
+            let mut budget = Budget { relaxed, ..Budget::new(48_000.0) };
+            (0..20).map(|_| budget.spent(load * 0.1, 4800)).last()
+        };
+        assert_eq!([0.84, 0.86].map(|load| after(load, false)), [Some(false), Some(true)]);
+        assert_eq!([0.49, 0.51].map(|load| after(load, true)), [Some(false), Some(true)]);
+        let mut budget = Budget { relaxed: true, ..Budget::new(48_000.0) };
+        let blocks = [(); 9].map(|()| budget.spent(0.01, 6000));
+        assert_eq!(
+            blocks.iter().position(|relaxed| !relaxed),
+            Some(7),
+            "the eighth block of 1/8 s ends the second"
+        );
+        // Then contacts are solved with at most 4 iterations, to 1e-8 m.
+        assert_eq!(Quality::RELAXED, (4, 1e-8));
     }
 
     #[test]

@@ -162,8 +162,14 @@ impl Playing {
 
     /// Ends it; if the time is too short contacts are solved less exactly from now on.
     pub fn stop_clock(&mut self, started: Option<Instant>, samples: usize, may_relax: bool) {
-        let Some(started) = started else { return };
-        let relaxed = self.budget.spent(started.elapsed().as_secs_f64(), samples) && may_relax;
+        if let Some(started) = started {
+            self.spend(started.elapsed().as_secs_f64(), samples, may_relax);
+        }
+    }
+
+    /// So many seconds went into so many samples.
+    fn spend(&mut self, seconds: f64, samples: usize, may_relax: bool) {
+        let relaxed = self.budget.spent(seconds, samples) && may_relax;
         self.meters.see_load(self.budget.load(), relaxed);
         if relaxed != self.relaxed {
             self.set_effort(relaxed);
@@ -236,5 +242,52 @@ mod tests {
         assert_eq!(live.status(true), ProcessStatus::KeepAlive);
         // A rendering ends all the same.
         assert_eq!(playing(order(), true, &meters).status(true), ProcessStatus::Normal);
+    }
+
+    /// A hard chord, and a second in which every block is said to have taken so many times as long as it lasts.
+    fn chord(load: f64, may_relax: bool, meters: &Arc<Meters>) -> (Playing, Vec<f32>) {
+        let mut playing = playing(order(), false, meters);
+        for key in [40, 45, 50, 55, 59, 64] {
+            playing.touch(PlayerEvent::NoteOn { channel: 0, key, velocity: 1.0 });
+        }
+        let mut sound = Vec::new();
+        for _ in 0..100 {
+            let (mut left, mut right) = ([0.0; 480], [0.0; 480]);
+            playing.play(&LowActionParams::default(), &mut left, &mut right, &mut []);
+            playing.spend(load * 0.01, 480, may_relax);
+            sound.extend(left);
+        }
+        (playing, sound)
+    }
+
+    #[test]
+    fn what_takes_too_long_is_solved_less_exactly_if_it_may_be() {
+        let meters = Arc::new(Meters::default());
+        let (_, exact) = chord(0.1, true, &meters);
+        assert!(!meters.relaxed());
+        let (_, kept) = chord(2.0, false, &meters);
+        assert!(kept == exact && !meters.relaxed(), "relaxed though it is not allowed");
+        let (mut late, relaxed) = chord(2.0, true, &meters);
+        assert!(relaxed != exact && meters.relaxed(), "never relaxed");
+        // It is the same music, whole.
+        let level = |sound: &[f32]| 10.0 * sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>().log10();
+        for (one, other) in exact.chunks(4800).zip(relaxed.chunks(4800)) {
+            let [one, other] = [one, other].map(level);
+            assert!((one - other).abs() < 1.0, "{one} and {other} dB");
+        }
+        // A second of ease, after the time in which the load comes down.
+        (0..130).for_each(|_| late.spend(0.001, 480, true));
+        assert!(!meters.relaxed(), "it never recovers");
+        // And so it is at once where it is not allowed any more.
+        let (mut late, _) = chord(2.0, true, &meters);
+        late.spend(0.02, 480, false);
+        assert!(!meters.relaxed());
+    }
+
+    #[test]
+    fn only_what_plays_in_real_time_looks_at_the_clock() {
+        let meters = Arc::new(Meters::default());
+        assert!(playing(order(), false, &meters).start_clock().is_some());
+        assert!(playing(order(), true, &meters).start_clock().is_none());
     }
 }
