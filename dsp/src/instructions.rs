@@ -18,6 +18,12 @@ impl Instructions {
         Instructions(Arch::Scalar)
     }
 
+    /// Whether they are those that any processor has.
+    #[cfg(test)]
+    pub fn is_any(self) -> bool {
+        matches!(self.0, Arch::Scalar)
+    }
+
     /// All that this machine has.
     #[cfg(test)]
     pub fn all() -> Vec<Self> {
