@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
@@ -87,6 +88,30 @@ fn begin(room: &Path, ignored: &[&str], arguments: &[&str], begun: impl Fn() -> 
     child
 }
 
+/// How many bytes there are in the files of a folder and of those in it.
+fn bytes_in(folder: &Path) -> u64 {
+    let size = |file: fs::DirEntry| match file.metadata() {
+        Ok(about) if about.is_dir() => bytes_in(&file.path()),
+        about => about.map_or(0, |about| about.len()),
+    };
+    fs::read_dir(folder).map_or(0, |files| files.flatten().map(size).sum())
+}
+
+/// Whether a command writes more from now on, or ends.
+fn goes_on(room: &Path, child: &mut Child) -> bool {
+    // What was under way when this was asked may still come: more than a block of it does not.
+    let (before, more) = (bytes_in(room), 100_000);
+    let started = Instant::now();
+    while bytes_in(room) <= before + more {
+        if child.try_wait().unwrap().is_some() {
+            return false;
+        }
+        assert!(started.elapsed() < Duration::from_secs(60), "nothing happens");
+        sleep(Duration::from_millis(1));
+    }
+    true
+}
+
 /// Runs a command and stops it by a signal, at the moment at which something is there. It is started with others ignored,
 /// and sent those before.
 fn is_stopped(signal: &str, ignored: &[&str], arguments: &[&str], begun: impl Fn(&Path) -> bool) {
@@ -99,8 +124,8 @@ fn is_stopped(signal: &str, ignored: &[&str], arguments: &[&str], begun: impl Fn
     let mut child = begin(room.path(), ignored, arguments, begun);
     for ignored in ignored {
         send(ignored, &mut child);
-        // Time enough to clean up, for one that does so.
-        sleep(Duration::from_millis(200));
+        // It goes on with its work.
+        assert!(goes_on(room.path(), &mut child), "{ignored} is ignored");
         assert!(begun(), "{ignored} is ignored");
     }
     send(signal, &mut child);
@@ -151,19 +176,22 @@ fn set_ups_are_installed_all_or_none() {
     }
     let room = room();
     let files: Vec<String> = (10..60).map(|number| format!("own{number}.toml")).collect();
-    for file in &files {
-        fs::write(room.path().join(file), "name = \"own\"\nbased_on = \"electric\"\n").unwrap();
-    }
+    let text = |base: &str| format!("name = \"own\"\nbased_on = \"{base}\"\n");
     let install: Vec<&str> =
         ["instruments", "--install"].into_iter().chain(files.iter().map(String::as_str)).collect();
     let folder = room.path().join("instruments");
     // Where there is no folder yet, and over what is there.
-    for _ in 0..2 {
+    for base in ["electric", "classical"] {
+        files.iter().for_each(|file| fs::write(room.path().join(file), text(base)).unwrap());
         let mut child = begin(room.path(), &[], &install, || has_part(&folder));
         send("INT", &mut child);
         // It may have come to its end as well.
         assert!(matches!(child.wait().unwrap().code(), Some(0 | 130)));
         assert_eq!(names(&folder), files);
+        // Once begun it goes through.
+        for file in &files {
+            assert_eq!(fs::read_to_string(folder.join(file)).unwrap(), text(base), "{file}");
+        }
     }
 }
 
@@ -177,7 +205,9 @@ fn where_nothing_is_to_be_cleaned_up_the_signal_itself_ends_the_program() {
     let mut command = Command::new(env!("CARGO_BIN_EXE_low-action"));
     // It waits for a scene that never comes.
     let mut child = command.args(["scene", "-"]).stdin(Stdio::piped()).spawn().unwrap();
-    sleep(Duration::from_millis(200));
+    // More than a pipe holds: when it has gone in, it has begun to read.
+    let mut pipe = child.stdin.take().unwrap();
+    pipe.write_all("# nothing yet\n".repeat(20_000).as_bytes()).unwrap();
     send("TERM", &mut child);
     assert_eq!(child.wait().unwrap().signal(), Some(15));
 }
