@@ -2,7 +2,6 @@
 //! that names the thing, the value and what is accepted, with the right exit code and nothing left behind.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 use low_action_tests::command::{Finished, Workplace};
 
@@ -48,15 +47,14 @@ fn assert_refused(done: &Finished, code: i32, words: &[&str]) {
     assert!(done.output.is_empty(), "{}", done.text());
 }
 
-/// That the scene with a part replaced is refused, quickly and with nothing written.
+/// That the scene with a part replaced is refused before anything is computed (some of these would take years), and with
+/// nothing written.
 fn assert_scene_refused(from: &str, to: &str, words: &[&str]) {
     assert!(SCENE.contains(from), "{from} is not in the scene");
     let place = workplace();
     place.write("scene.toml", SCENE.replacen(from, to, 1));
-    let started = Instant::now();
     let done = place.run(&["scene", "scene.toml", "--wav", "out.wav", "--trace", "out.npz"]);
     assert_refused(&done, 1, &[&["scene.toml"], words].concat());
-    assert!(started.elapsed() < Duration::from_secs(10), "{to}");
     assert_eq!(place.names(), ["scene.toml"], "{to}");
 }
 
