@@ -20,6 +20,7 @@ mod voices;
 mod workshop;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use nice_plug::prelude::*;
 
@@ -27,7 +28,7 @@ use crate::display::{Health, Writer, display};
 #[cfg(feature = "editor")]
 use crate::editor::Link;
 use crate::engine::Engine;
-use crate::params::LowActionParams;
+use crate::params::{LowActionParams, start};
 use crate::pointer::{Played, pointer};
 pub use clap::clap_entry;
 use level::Output;
@@ -60,6 +61,8 @@ pub struct LowAction {
     display: Writer,
     /// What is played in those pictures.
     played: Played,
+    /// Blocks asked for so far, for whoever wants to know whether there are any.
+    blocks: Arc<AtomicU64>,
     #[cfg(feature = "editor")]
     editor: Link,
 }
@@ -79,6 +82,7 @@ impl Default for LowAction {
             transport_ran: false,
             display,
             played,
+            blocks: start().blocks,
         }
     }
 }
@@ -211,6 +215,7 @@ impl Plugin for LowAction {
         let [left, right] = buffer.as_slice() else {
             return ProcessStatus::Error("processing without a stereo output");
         };
+        self.blocks.fetch_add(1, Ordering::Relaxed);
         let looked_at = self.is_looked_at();
         let Some(playing) = &mut self.playing else {
             left.fill(0.0);

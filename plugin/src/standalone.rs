@@ -1,13 +1,14 @@
 //! The instrument as a program of its own, playing through the sound card.
 //!
 //! The plugin framework opens the devices and plays. Here it is told which, and what to begin with; where it would
-//! go on without any sound, this ends with an error.
+//! go on without any sound, this ends with an error (`pulse`).
 
+mod keyboards;
+mod pulse;
 pub(crate) mod window;
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, bail};
 use cpal::traits::{DeviceTrait, HostTrait};
-use midir::MidiInput;
 use nice_plug::prelude::nice_export_standalone_with_args;
 
 use crate::cli::say;
@@ -29,9 +30,6 @@ const NONE: &str = "none";
 const NOTHING: &str = "dummy";
 /// What stands for JACK if a server runs, and for the system's own way otherwise.
 const AUTO: &str = "auto";
-
-/// A port that leads programs to each other and is no keyboard.
-const THROUGH: &str = "Midi Through";
 
 /// Which devices are to be used.
 #[derive(Debug, Clone, Default)]
@@ -57,10 +55,11 @@ pub struct Devices {
 pub fn open(mut start: Start, devices: &Devices) -> Result<()> {
     let windowed = cfg!(feature = "editor") && window::prepare(&mut start);
     let until = if windowed { "until its window is closed" } else { "until Ctrl+C" };
-    let layout = start.layout.clone();
+    let (layout, blocks) = (start.layout.clone(), start.blocks.clone());
     begin_with(start);
+    let jack = keyboards::of_jack();
     let way = match devices.backend.as_deref().unwrap_or(AUTO) {
-        AUTO if jack_runs() => JACK,
+        AUTO if jack.is_some() => JACK,
         AUTO => NATIVE,
         NONE => NOTHING,
         named => named,
@@ -73,22 +72,26 @@ pub fn open(mut start: Start, devices: &Devices) -> Result<()> {
         arguments.push(format!("--sample-rate={}", devices.sample_rate));
         arguments.push(format!("--period-size={}", devices.period));
     }
-    if way == JACK {
-        say("low-action", &format!("plays what arrives at its JACK port, {until}"));
-    } else if way == NOTHING {
+    if way == NOTHING {
         say("low-action", &format!("plays to nobody, {until}"));
     } else {
-        arguments.extend(devices.output.as_ref().map(|name| format!("--output-device={name}")));
-        match keyboard(devices)? {
+        let (known, option) = if way == JACK {
+            (jack.unwrap_or_default(), "--connect-jack-midi-input")
+        } else {
+            arguments.extend(devices.output.as_ref().map(|name| format!("--output-device={name}")));
+            (keyboards::of_system(), "--midi-input")
+        };
+        match keyboards::choose(&known, devices.keyboard.as_deref())? {
             Some(name) => {
                 say("low-action", &format!("plays what {name} sends, {until}"));
-                arguments.push(format!("--midi-input={name}"));
+                arguments.push(format!("{option}={name}"));
             }
             None if windowed => say("warning", "there is no MIDI keyboard: mouse and computer keys play"),
             None => say("warning", "there is no MIDI keyboard: nothing will be heard"),
         }
     }
     arguments.extend(devices.others.iter().cloned());
+    pulse::watch(blocks, way);
     if nice_export_standalone_with_args::<LowAction, _>(arguments) {
         if windowed {
             window::keep(&layout);
@@ -100,48 +103,17 @@ pub fn open(mut start: Start, devices: &Devices) -> Result<()> {
 
 /// That devices were named where the way to them takes no names, if so.
 fn given_in_vain(way: &str, devices: &Devices) -> Option<String> {
-    let backend = match way {
-        JACK => JACK,
-        NOTHING => NONE,
+    let output = ("--output-device", &devices.output);
+    let (backend, options) = match way {
+        JACK => (JACK, vec![output]),
+        NOTHING => (NONE, vec![output, ("--midi-input", &devices.keyboard)]),
         _ => return None,
     };
-    let options = [("--output-device", &devices.output), ("--midi-input", &devices.keyboard)];
     let given =
         options.into_iter().filter_map(|(option, name)| Some(format!("{option} {:?}", name.as_ref()?)));
     let given: Vec<String> = given.collect();
-    (!given.is_empty()).then(|| {
-        format!("--backend {backend} does not take {}: only --backend {NATIVE} does", given.join(" or "))
-    })
-}
-
-/// Whether a JACK server runs; none is started.
-fn jack_runs() -> bool {
-    jack::Client::new("Low Action", jack::ClientOptions::NO_START_SERVER).is_ok()
-}
-
-/// The name of the keyboard that is to play, if there is one.
-fn keyboard(devices: &Devices) -> Result<Option<String>> {
-    let known = keyboards().unwrap_or_default();
-    match &devices.keyboard {
-        Some(name) => {
-            ensure!(
-                known.contains(name),
-                "there is no MIDI input {name:?}: {}",
-                match known.as_slice() {
-                    [] => "there is none at all".to_owned(),
-                    known => format!("it must be {}", known.join(" or ")),
-                }
-            );
-            Ok(Some(name.clone()))
-        }
-        None => Ok(known.into_iter().find(|name| !name.contains(THROUGH))),
-    }
-}
-
-/// The names of all MIDI inputs.
-fn keyboards() -> Option<Vec<String>> {
-    let midi = MidiInput::new("Low Action").ok()?;
-    Some(midi.ports().iter().filter_map(|port| midi.port_name(port).ok()).collect())
+    (!given.is_empty())
+        .then(|| format!("--backend {backend} does not take {}: --backend {NATIVE} does", given.join(" or ")))
 }
 
 /// What there is to choose from, for people to read.
@@ -162,12 +134,14 @@ pub fn list() -> String {
     }
     text += &lines.concat();
     text += "MIDI inputs (--midi-input NAME; the first keyboard if none is named):\n";
-    let keyboards = keyboards().unwrap_or_default();
-    if keyboards.is_empty() {
-        text += "  none\n";
+    text += &keyboards::listed(&keyboards::of_system());
+    match keyboards::of_jack() {
+        Some(known) => {
+            text += "A JACK server runs, which --backend auto takes. Its MIDI inputs (--midi-input NAME):\n";
+            text += &keyboards::listed(&known);
+        }
+        None => text += "With a JACK server running, outputs and inputs are its own: --backend jack.\n",
     }
-    keyboards.iter().for_each(|name| text += &format!("  {name}\n"));
-    text += "With a JACK server running, outputs and inputs are its own: --backend jack.\n";
     text
 }
 
@@ -180,10 +154,10 @@ mod tests {
         let named =
             Devices { output: Some("USB".into()), keyboard: Some("Keys".into()), ..Devices::default() };
         let told = given_in_vain(JACK, &named);
-        let both = format!(
-            "--backend jack does not take --output-device \"USB\" or --midi-input \"Keys\": only --backend {NATIVE} does"
-        );
-        assert_eq!(told, Some(both));
+        let one = format!("--backend jack does not take --output-device \"USB\": --backend {NATIVE} does");
+        assert_eq!(told, Some(one));
+        let told = given_in_vain(NOTHING, &named);
+        assert!(told.is_some_and(|told| told.contains("\"USB\" or --midi-input \"Keys\"")));
         let told = given_in_vain(NOTHING, &Devices { output: None, ..named.clone() });
         assert!(
             told.is_some_and(|told| told.starts_with("--backend none does not take --midi-input \"Keys\":"))

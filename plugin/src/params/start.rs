@@ -1,6 +1,7 @@
 //! What the parameters begin with, where there is no host to set them.
 
-use std::sync::OnceLock;
+use std::sync::atomic::AtomicU64;
+use std::sync::{Arc, OnceLock};
 
 use super::InstrumentChoice;
 use crate::engine::Quality;
@@ -19,6 +20,8 @@ pub struct Start {
     pub windowless: bool,
     /// How the window was left; all that are made share it.
     pub layout: Layout,
+    /// How many blocks of sound have been asked for; all that are made count them together.
+    pub blocks: Arc<AtomicU64>,
 }
 
 static START: OnceLock<Start> = OnceLock::new();

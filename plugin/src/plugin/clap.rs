@@ -1,136 +1,36 @@
 //! The door through which CLAP hosts come in.
 //!
-//! CLAP promises that the events of a block come in the order of their times, and that those lie within the
-//! block. The plugin framework relies on it: `handle_input_event` of nice-plug 0.4.2
-//! (`wrapper/clap/wrapper.rs`) subtracts times without looking, and `process` there cuts the block at whatever
-//! time an event has. Events of a host that does not keep the promise are put right here, before the framework
-//! sees them: in their order, and none later than the last sample. Those of all others pass untouched.
+//! What the plugin framework leaves undone is done here, around its functions: events are put in their order
+//! (`in_order`), and a host that sleeps is woken when the editor is shown (`shown`).
+
+mod in_order;
+mod shown;
 
 use std::ffi::{CStr, c_char, c_void};
-use std::mem::size_of;
 use std::sync::{Arc, OnceLock};
 
 use clap_sys::entry::clap_plugin_entry;
-use clap_sys::events::{clap_event_header, clap_input_events};
+use clap_sys::ext::gui::CLAP_EXT_GUI;
 use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
 use clap_sys::host::clap_host;
 use clap_sys::plugin::{clap_plugin, clap_plugin_descriptor};
 use clap_sys::process::{CLAP_PROCESS_ERROR, clap_process, clap_process_status};
 use clap_sys::version::CLAP_VERSION;
-use nice_plug::prelude::Plugin;
 use nice_plug::wrapper::clap::{PluginDescriptor, Wrapper};
 use nice_plug::wrapper::setup_logger;
 
 use super::LowAction;
-
-/// Events of one block that can be put in order; a wrong block's events beyond are dropped.
-const MOST_EVENTS: usize = LowAction::INPUT_EVENT_CAPACITY;
-/// Events of one block that can be given another time, and room for the largest kind there is.
-const MOST_MOVED: usize = 1024;
-const ROOM: usize = 16;
-
-/// An event, and where it belongs: at which sample, and there after which others.
-#[derive(Clone, Copy)]
-struct Entry {
-    time: u32,
-    place: u32,
-    event: *const clap_event_header,
-}
-
-/// A block's events, put right.
-struct Order {
-    entries: Vec<Entry>,
-    /// Copies of events that came too late, with another time.
-    moved: Vec<[u64; ROOM]>,
-}
-
-impl Order {
-    fn new() -> Self {
-        Self { entries: Vec::with_capacity(MOST_EVENTS), moved: Vec::with_capacity(MOST_MOVED) }
-    }
-
-    /// Takes the events of a block in. Nothing is allocated.
-    ///
-    /// # Safety
-    /// The list must be a host's, with all its functions.
-    unsafe fn put_right(&mut self, list: &clap_input_events, last: u32) {
-        self.entries.clear();
-        self.moved.clear();
-        // SAFETY: as above.
-        for (place, event) in unsafe { events(list) }.enumerate().take(MOST_EVENTS) {
-            // SAFETY: hosts give pointers to events, or none.
-            let Some(header) = (unsafe { event.as_ref() }) else { continue };
-            let mut entry = Entry { time: header.time.min(last), place: place as u32, event };
-            if header.time > last {
-                let size = header.size as usize;
-                if self.moved.len() == MOST_MOVED
-                    || !(size_of::<clap_event_header>()..=8 * ROOM).contains(&size)
-                {
-                    continue;
-                }
-                let mut copy = [0_u64; ROOM];
-                // SAFETY: the event has as many bytes as it says, and the room is large enough. It is
-                // aligned for every event.
-                unsafe {
-                    std::ptr::copy_nonoverlapping(event.cast::<u8>(), copy.as_mut_ptr().cast(), size);
-                    (*copy.as_mut_ptr().cast::<clap_event_header>()).time = last;
-                }
-                // Within the capacity, so that those already there stay where they are.
-                self.moved.push(copy);
-                if let Some(copy) = self.moved.last() {
-                    entry.event = copy.as_ptr().cast();
-                }
-            }
-            self.entries.push(entry);
-        }
-        self.entries.sort_unstable_by_key(|entry| (entry.time, entry.place));
-    }
-
-    unsafe extern "C" fn size(list: *const clap_input_events) -> u32 {
-        // SAFETY: only `process` makes such lists, of an order that outlives them.
-        unsafe { (*(*list).ctx.cast::<Self>()).entries.len() as u32 }
-    }
-
-    unsafe extern "C" fn get(list: *const clap_input_events, index: u32) -> *const clap_event_header {
-        // SAFETY: as above.
-        let order = unsafe { &*(*list).ctx.cast::<Self>() };
-        order.entries.get(index as usize).map_or(std::ptr::null(), |entry| entry.event)
-    }
-}
-
-/// The events of a host's list, one after the other.
-///
-/// # Safety
-/// The list must be a host's.
-unsafe fn events(list: &clap_input_events) -> impl Iterator<Item = *const clap_event_header> {
-    // SAFETY: as above.
-    let count = list.size.map_or(0, |size| unsafe { size(list) });
-    // SAFETY: as above, and the index is below the count.
-    (0..count).filter_map(move |index| list.get.map(|get| unsafe { get(list, index) }))
-}
-
-/// Whether the events of a block are in order and none comes after its last sample.
-///
-/// # Safety
-/// The list must be a host's.
-unsafe fn is_right(list: &clap_input_events, last: u32) -> bool {
-    let mut latest = 0;
-    // SAFETY: as above; hosts give pointers to events, or none.
-    unsafe { events(list) }.filter_map(|event| unsafe { event.as_ref() }).all(|header| {
-        let right = (latest..=last).contains(&header.time);
-        latest = header.time;
-        right
-    })
-}
+use in_order::InOrder;
 
 /// The plugin as the host sees it, and as the framework does.
 #[repr(C)]
 struct Instance {
-    /// The host's side: the framework's functions, but for two. It stands first, so that a pointer to it is one
+    /// The host's side: the framework's functions, but for three. It stands first, so that a pointer to it is one
     /// to the whole.
     outside: clap_plugin,
     inside: *const clap_plugin,
-    order: Order,
+    host: *const clap_host,
+    in_order: InOrder,
 }
 
 impl Instance {
@@ -148,17 +48,28 @@ impl Instance {
             let Some(next) = (*inside).process else { return CLAP_PROCESS_ERROR };
             let last = (*process).frames_count.saturating_sub(1);
             match (*process).in_events.as_ref() {
-                Some(list) if !is_right(list, last) => {
-                    let order = &raw mut (*instance).order;
-                    (*order).put_right(list, last);
-                    let list = clap_input_events {
-                        ctx: order.cast::<c_void>(),
-                        size: Some(Order::size),
-                        get: Some(Order::get),
-                    };
+                Some(list) if !in_order::is_right(list, last) => {
+                    let list = InOrder::put_right(&raw mut (*instance).in_order, list, last);
                     next(inside, &clap_process { in_events: &list, ..*process })
                 }
                 _ => next(inside, process),
+            }
+        }
+    }
+
+    unsafe extern "C" fn get_extension(plugin: *const clap_plugin, id: *const c_char) -> *const c_void {
+        if plugin.is_null() || id.is_null() {
+            return std::ptr::null();
+        }
+        // SAFETY: the host gives back what `create_plugin` gave it; it names extensions by strings that end in zero.
+        unsafe {
+            let inside = (*plugin.cast::<Self>()).inside;
+            let Some(get) = (*inside).get_extension else { return std::ptr::null() };
+            let extension = get(inside, id);
+            if CStr::from_ptr(id) == CLAP_EXT_GUI {
+                shown::around(extension.cast()).cast()
+            } else {
+                extension
             }
         }
     }
@@ -208,10 +119,11 @@ unsafe extern "C" fn create_plugin(
     // SAFETY: as above. All functions find their way by `plugin_data`, so that they can be called with either.
     let outside = clap_plugin {
         process: Some(Instance::process),
+        get_extension: Some(Instance::get_extension),
         destroy: Some(Instance::destroy),
         ..unsafe { *inside }
     };
-    Box::into_raw(Box::new(Instance { outside, inside, order: Order::new() })).cast()
+    Box::into_raw(Box::new(Instance { outside, inside, host, in_order: InOrder::new() })).cast()
 }
 
 static FACTORY: clap_plugin_factory = clap_plugin_factory {

@@ -1,0 +1,148 @@
+//! The host goes on when the editor is shown.
+//!
+//! While the editor is open the plugin never says that it rests, so that what is done there is heard. A host that had
+//! stopped before has to be asked to go on, which the framework (nice-plug 0.4.2) never does.
+
+use std::sync::OnceLock;
+
+use clap_sys::ext::gui::{clap_plugin_gui, clap_window};
+use clap_sys::plugin::clap_plugin;
+
+use super::Instance;
+
+/// The framework's functions for windows, and ours around them: the same for all instances.
+static FUNCTIONS: OnceLock<[clap_plugin_gui; 2]> = OnceLock::new();
+
+/// The extension for windows, with the host woken by what shows one; nothing for nothing.
+///
+/// # Safety
+/// It must be null or the framework's, whose functions are the same each time.
+pub(super) unsafe fn around(extension: *const clap_plugin_gui) -> *const clap_plugin_gui {
+    // SAFETY: as above.
+    let Some(inner) = (unsafe { extension.as_ref() }) else { return std::ptr::null() };
+    let [_, outer] = FUNCTIONS.get_or_init(|| {
+        [*inner, clap_plugin_gui { set_parent: Some(set_parent), show: Some(show), ..*inner }]
+    });
+    outer
+}
+
+fn inner() -> Option<&'static clap_plugin_gui> {
+    FUNCTIONS.get().map(|[inner, _]| inner)
+}
+
+unsafe extern "C" fn set_parent(plugin: *const clap_plugin, window: *const clap_window) -> bool {
+    let Some(inner) = inner().and_then(|gui| gui.set_parent) else { return false };
+    // SAFETY: the host gives back what it was given, and a window.
+    unsafe { inner(plugin, window) && wake(plugin) }
+}
+
+unsafe extern "C" fn show(plugin: *const clap_plugin) -> bool {
+    let Some(inner) = inner().and_then(|gui| gui.show) else { return false };
+    // SAFETY: as above.
+    unsafe { inner(plugin) && wake(plugin) }
+}
+
+/// Asks the host to go on, or to begin again.
+///
+/// # Safety
+/// The plugin must be an [`Instance`].
+unsafe fn wake(plugin: *const clap_plugin) -> bool {
+    // SAFETY: as above; the host outlives its plugins, and this may be asked on any thread.
+    unsafe {
+        if let Some(host) = (*plugin.cast::<Instance>()).host.as_ref()
+            && let Some(request) = host.request_process
+        {
+            request(host);
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ffi::{CStr, c_char, c_void};
+    use std::sync::atomic::{AtomicU32, Ordering};
+
+    use clap_sys::ext::gui::CLAP_EXT_GUI;
+    use clap_sys::host::clap_host;
+    use clap_sys::version::CLAP_VERSION;
+
+    use super::super::{InOrder, descriptor};
+    use super::*;
+
+    static ASKED: AtomicU32 = AtomicU32::new(0);
+
+    unsafe extern "C" fn request_process(_: *const clap_host) {
+        ASKED.fetch_add(1, Ordering::Relaxed);
+    }
+    unsafe extern "C" fn shows(_: *const clap_plugin) -> bool {
+        true
+    }
+    unsafe extern "C" fn refuses(_: *const clap_plugin, _: *const clap_window) -> bool {
+        false
+    }
+    unsafe extern "C" fn extension(_: *const clap_plugin, id: *const c_char) -> *const c_void {
+        static GUI: clap_plugin_gui = clap_plugin_gui {
+            is_api_supported: None,
+            get_preferred_api: None,
+            create: None,
+            destroy: None,
+            set_scale: None,
+            get_size: None,
+            can_resize: None,
+            get_resize_hints: None,
+            adjust_size: None,
+            set_size: None,
+            set_parent: Some(refuses),
+            set_transient: None,
+            suggest_title: None,
+            show: Some(shows),
+            hide: None,
+        };
+        // SAFETY: only the test below asks.
+        if unsafe { CStr::from_ptr(id) } == CLAP_EXT_GUI { (&raw const GUI).cast() } else { std::ptr::null() }
+    }
+
+    #[test]
+    fn a_host_is_woken_when_the_window_is_shown() {
+        let host = clap_host {
+            clap_version: CLAP_VERSION,
+            host_data: std::ptr::null_mut(),
+            name: c"a host".as_ptr(),
+            vendor: c"".as_ptr(),
+            url: c"".as_ptr(),
+            version: c"".as_ptr(),
+            get_extension: None,
+            request_restart: None,
+            request_process: Some(request_process),
+            request_callback: None,
+        };
+        let inside = clap_plugin {
+            desc: descriptor().clap_plugin_descriptor(),
+            plugin_data: std::ptr::null_mut(),
+            init: None,
+            destroy: None,
+            activate: None,
+            deactivate: None,
+            start_processing: None,
+            stop_processing: None,
+            reset: None,
+            process: None,
+            get_extension: Some(extension),
+            on_main_thread: None,
+        };
+        let outside = clap_plugin { get_extension: Some(Instance::get_extension), ..inside };
+        let instance = Instance { outside, inside: &inside, host: &host, in_order: InOrder::new() };
+        let plugin = (&raw const instance).cast::<clap_plugin>();
+        // SAFETY: all of them are alive.
+        unsafe {
+            assert!(Instance::get_extension(plugin, c"clap.tail".as_ptr()).is_null());
+            let gui = Instance::get_extension(plugin, CLAP_EXT_GUI.as_ptr()).cast::<clap_plugin_gui>();
+            let gui = gui.as_ref().expect("there is a window");
+            assert!(!gui.set_parent.expect("it can be put into another")(plugin, std::ptr::null()));
+            assert_eq!(ASKED.load(Ordering::Relaxed), 0, "it could not be");
+            assert!(gui.show.expect("it can be shown")(plugin));
+        }
+        assert_eq!(ASKED.load(Ordering::Relaxed), 1);
+    }
+}
