@@ -2,7 +2,7 @@
 
 use crate::field::Field;
 use crate::filter::Biquad;
-use crate::model::{Model, StringParameters};
+use crate::model::{ContactKind, Model, StringParameters};
 use crate::setup::{Pickup, Setup};
 use crate::state::State;
 use crate::string::Scratch;
@@ -33,6 +33,25 @@ const SLOPE: [f64; 4] = [1.6, -0.4, 8.0 / 105.0, -1.0 / 140.0];
 /// −h³ ∂ₓₓₓu likewise.
 const BEND: [f64; 4] = [61.0 / 15.0, -169.0 / 60.0, 0.6, -7.0 / 120.0];
 
+/// What the string's shape at its end says too little of a force of 1 N upwards at the points h, 2h and 3h before it, N: with such
+/// a force the string is bent there, and −T ∂ₓu at its end is less than before that bend by 1 N.
+const BENT: [f64; 3] = [SLOPE[1] + 2.0 * SLOPE[2] + 3.0 * SLOPE[3], SLOPE[2] + 2.0 * SLOPE[3], SLOPE[3]];
+
+/// Force of the string on what holds it up from the contact of index `from` on, N, up is positive, at the sample n from which
+/// the last step led: the more a string wraps over a wide bridge the less of it is seen at its end.
+fn wrapped(model: &Model, scratch: &Scratch, from: usize) -> f64 {
+    let fixed = from..model.contacts.len();
+    let pressed = scratch.active.iter().filter(|active| fixed.contains(&active.slot));
+    let held = pressed.map(|active| {
+        let bent = match model.contacts[active.slot].kind {
+            ContactKind::Board { node } => BENT.get(model.grid.intervals - node - 1).copied().unwrap_or(0.0),
+            ContactKind::Fret { .. } => 0.0,
+        };
+        (1.0 - bent) * active.force
+    });
+    held.fold(0.0, |sum, force| sum - force)
+}
+
 /// Tension added by stretching at n, EA/(2L)·∫(∂ₓu)² dx, N, as the step had it; 0 where the string has no tension modulation.
 pub fn stretch_tension(model: &Model, scratch: &Scratch) -> f64 {
     if model.stretch == 0.0 {
@@ -47,6 +66,8 @@ pub fn stretch_tension(model: &Model, scratch: &Scratch) -> f64 {
 pub(crate) struct PickupMix {
     /// The set-up's own and the other kind, each with its share of the sound.
     parts: [(Pickup, f64); 2],
+    /// Where a wide bridge begins, m from the nut.
+    bridge: f64,
 }
 
 /// The coil that is mixed to the force on the bridge: a single coil a quarter of the string from the saddle,
@@ -64,7 +85,9 @@ impl PickupMix {
             Pickup::Magnetic { .. } => (Pickup::Bridge {}, 1.0 / impedance),
             Pickup::Bridge {} => (Pickup::Magnetic { position, aperture, resonance, quality }, impedance),
         };
-        PickupMix { parts: [(setup.pickup, 1.0 - setup.blend), (other, setup.blend * scale)] }
+        let wide = setup.bridge.as_ref().map_or(0.0, |bridge| bridge.length);
+        let parts = [(setup.pickup, 1.0 - setup.blend), (other, setup.blend * scale)];
+        PickupMix { parts, bridge: if wide > 0.0 { setup.neck.scale_length - wide } else { f64::INFINITY } }
     }
 }
 
@@ -89,7 +112,8 @@ struct Ear {
 enum Source {
     /// Velocity averaged over the coil's field: points of the string, each with its weight, 1/s.
     Coil(Vec<(usize, f64)>),
-    Bridge,
+    /// The force on the bridge: on its edge, and on the contacts from this index on.
+    Bridge { from: usize },
 }
 
 /// Points at which the field of a coil is sampled, a Gauss–Legendre rule of five: exact for all that a
@@ -108,9 +132,10 @@ const LOWEST: f64 = 18.0;
 impl Listener {
     /// The pickups of a set-up over one string; those that are not heard are left out.
     pub fn new(mix: &PickupMix, model: &Model, sample_rate: f64) -> Self {
-        let ears = mix
-            .parts
-            .map(|(pickup, share)| (share != 0.0).then(|| Ear::new(&pickup, share, model, sample_rate)));
+        let from = model.contacts.partition_point(|contact| contact.place < mix.bridge);
+        let ears = mix.parts.map(|(pickup, share)| {
+            (share != 0.0).then(|| Ear::new(&pickup, from, share, model, sample_rate))
+        });
         Listener { ears }
     }
 
@@ -157,11 +182,11 @@ impl Listener {
 }
 
 impl Ear {
-    fn new(pickup: &Pickup, share: f64, model: &Model, sample_rate: f64) -> Self {
+    fn new(pickup: &Pickup, from: usize, share: f64, model: &Model, sample_rate: f64) -> Self {
         let block = Biquad::high_pass(LOWEST, sample_rate);
         match *pickup {
             Pickup::Bridge {} => {
-                Ear { source: Source::Bridge, share, coil: Biquad::through(), block, begins: false }
+                Ear { source: Source::Bridge { from }, share, coil: Biquad::through(), block, begins: false }
             }
             Pickup::Magnetic { position, aperture, resonance, quality } => {
                 let end = model.grid.length;
@@ -184,7 +209,7 @@ impl Ear {
     #[inline]
     fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch) -> f64 {
         let signal = match &self.source {
-            Source::Bridge => bridge_force(model, scratch),
+            Source::Bridge { from } => bridge_force(model, scratch) + wrapped(model, scratch, *from),
             Source::Coil(weights) => weights.iter().map(|&(cell, weight)| state.motion[cell] * weight).sum(),
         };
         let signal = self.coil.next(signal);
@@ -206,5 +231,24 @@ impl Ear {
 
     fn is_still(&mut self) -> bool {
         self.coil.is_still() && self.block.is_still()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A string that lies flat from its end to one of the points of a bridge and rises from there, T = h = 1: the bridge holds it
+    /// down with its slope, wherever that point is.
+    #[test]
+    fn a_string_that_leaves_a_wide_bridge_pulls_by_its_slope() {
+        for point in 0..6 {
+            let near = [1, 2, 3, 4].map(|away: i32| f64::from((away - point).max(0)));
+            let [slope, _] = end_shape(near);
+            let bent = usize::try_from(point - 1).ok().map(|last| BENT.get(last).copied().unwrap_or(0.0));
+            // The contact there pushes with −1: it holds the string down.
+            let held = bent.map_or(0.0, |bent| 1.0 - bent);
+            assert!((slope + held - 1.0).abs() < 1e-12, "{point} points from the end: {slope} and {held}");
+        }
     }
 }

@@ -230,6 +230,11 @@ impl Setup {
         self.bridge.is_some() || self.neck.action > OUT_OF_REACH
     }
 
+    /// Whether its nut lifts the strings out of the reach of fingers, all along the neck: such an instrument is played with a bar.
+    pub fn wants_bar(&self) -> bool {
+        !self.neck.fretless && self.neck.nut_clearance > OUT_OF_REACH
+    }
+
     /// The barrier under a string whose frets stand at `frets` (m from the nut): frets, board and bridge.
     ///
     /// # Errors

@@ -116,14 +116,36 @@ fn a_guitar_nobody_set_up_is_sharp_up_the_neck() {
     }
 }
 
+/// A tanpura's open strings, and a sitar's stopped ones, on all of its strings: pressed, a string lies on more of the bridge.
 #[test]
 fn a_curved_bridge_makes_the_sound_bloom() {
-    for name in ["tanpura", "sitar"] {
+    for (name, strings, fret) in [("tanpura", 0..4, 0), ("sitar", 0..6, 3)] {
         let setup = shipped(name);
         let plain = Setup { bridge: None, ..setup.clone() };
-        let (string, key) = open_keys(&setup)[1];
-        let late = |setup: &Setup| brightness(&note(setup, string, key)[24_000..36_000]);
-        assert!(late(&setup) > 1.5 * late(&plain), "{name}: {} and {}", late(&setup), late(&plain));
+        for (string, key) in open_keys(&setup).into_iter().skip(strings.start).take(strings.len()) {
+            let late = |setup: &Setup| brightness(&note(setup, string, key + fret)[24_000..36_000]);
+            let times = late(&setup) / late(&plain);
+            assert!(times > 1.5, "{name}, string {string}: {times} times as bright");
+        }
+    }
+}
+
+/// What wraps over the bridge is heard, and stopped notes are in tune: below the thirteenth fret of every string.
+#[test]
+fn a_sitar_is_heard_up_the_neck() {
+    let setup = shipped("sitar");
+    let plain = Setup { bridge: None, ..setup.clone() };
+    for (string, open) in open_keys(&setup) {
+        for fret in [1, 5, 9, 12] {
+            let key = open + fret;
+            let level = |setup: &Setup| decibels(rms(&note(setup, string, key)[960..24_000]));
+            let softer = level(&plain) - level(&setup);
+            assert!((-3.0..15.0).contains(&softer), "string {string}, fret {fret}: {softer} dB softer");
+            let expected = 440.0 * ((f64::from(key) - 69.0) / 12.0).exp2();
+            let off =
+                cents(frequency_near(&note(&setup, string, key)[4800..48_000], RATE, expected), expected);
+            assert!(off.abs() < 20.0, "string {string}, fret {fret}: {off} cents");
+        }
     }
 }
 

@@ -176,9 +176,17 @@ impl Performance {
         self.chord.clear();
     }
 
+    /// How a note of the chord is to be played, with the usual way to stop strings on this instrument.
+    fn articulation(&self, index: usize) -> Articulation {
+        let asked = self.chord[index].articulation;
+        let stop = if asked.stop == Stop::Press { self.usual_stop } else { asked.stop };
+        Articulation { stop, ..asked }
+    }
+
     /// What a string is told of the note of the chord that is placed there.
     fn start(&mut self, index: usize, placement: Placement, strum: Option<&Strum>) -> Start {
-        let Struck { wanted, velocity, presses, manner, mut articulation, .. } = self.chord[index];
+        let Struck { wanted, velocity, presses, manner, .. } = self.chord[index];
+        let mut articulation = self.articulation(index);
         if articulation.stroke == Stroke::Alternate {
             articulation.stroke = if self.upward { Stroke::Up } else { Stroke::Down };
         }

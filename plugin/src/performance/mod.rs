@@ -28,6 +28,7 @@ mod variation;
 use low_action_dsp::setup::Player;
 
 use crate::controls::Touching;
+use articulation::Stop;
 use channel::Channel;
 use chord::{Late, Struck};
 pub use compromises::Compromises;
@@ -65,6 +66,8 @@ pub struct Performance {
     sample_rate: f64,
     channels: [Channel; CHANNELS],
     hand: Hand,
+    /// How strings are stopped where nothing is said of it.
+    usual_stop: Stop,
     variation: Variation,
     input: InputMode,
     /// The hands as the set-up has them.
@@ -98,10 +101,12 @@ impl Performance {
             coil: coil.map(|from_saddle| from_saddle / geometry.length),
         });
         let count = strings.len();
+        let barred = strings.iter().any(|string| string.barred);
         let lengths = strings.iter().map(|string| string.geometry.length);
         Self {
             scale: lengths.fold(f64::INFINITY, f64::min),
             hand: Hand::new(ranges.collect()),
+            usual_stop: if barred { Stop::Bar } else { Stop::Press },
             strings: strings
                 .into_iter()
                 .enumerate()

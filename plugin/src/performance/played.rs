@@ -12,6 +12,8 @@ pub struct PlayedString {
     pub leaving_forces: Vec<f64>,
     /// Whether fingers stop it on a bare board.
     pub fretless: bool,
+    /// Whether it is so high that it is stopped by a bar unless something else is asked for.
+    pub barred: bool,
     /// Where a coil hears it, m from the saddle, if that is what hears it.
     pub coil: Option<f64>,
 }
@@ -35,6 +37,7 @@ impl PlayedString {
             Pickup::Magnetic { position, .. } if setup.blend < 0.5 => Some(position),
             _ => None,
         };
-        Self { geometry, leaving_forces, fretless: setup.neck.fretless, coil }
+        let (fretless, barred) = (setup.neck.fretless, setup.wants_bar());
+        Self { geometry, leaving_forces, fretless, barred, coil }
     }
 }

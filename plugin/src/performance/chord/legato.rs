@@ -33,8 +33,8 @@ impl Performance {
     /// A note that begins alone takes over from the latest one of its channel, if that is held, notes are
     /// to be connected, and its string gives the new one within reach.
     fn take_over_note(&mut self, index: usize, out: &mut impl GestureSink) -> bool {
-        let Struck { wanted, articulation, .. } = self.chord[index];
-        let Articulation { legato, slide, stop, .. } = articulation;
+        let wanted = self.chord[index].wanted;
+        let Articulation { legato, slide, stop, .. } = self.articulation(index);
         let connected = legato || self.touching.legato;
         if !connected || stop == Stop::Harmonic || stop == Stop::Mute {
             return false;

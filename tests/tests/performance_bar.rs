@@ -1,0 +1,55 @@
+//! The promise: an instrument whose strings no finger can press down is played with a bar, unless hands are told otherwise.
+
+use low_action::performance::PlayerEvent;
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::hands::{EXACT, Neck, play};
+use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{Stage, cc, hertz, on};
+
+/// Heaviest finger, kg, and a bar with the hand that holds it is heavier.
+const FINGER: f64 = 0.05;
+
+/// Masses of what is laid on the strings, kg.
+fn laid(gestures: &[TimedGesture]) -> Vec<f64> {
+    let mass = |gesture: &TimedGesture| match gesture.gesture {
+        Gesture::Place { touch, .. } | Gesture::Throw { touch, .. } => Some(touch.mass),
+        _ => None,
+    };
+    gestures.iter().filter_map(mass).collect()
+}
+
+fn stopped_by(instrument: &str, told: &[PlayerEvent]) -> Vec<f64> {
+    let mut performance = Neck::of(instrument).player(EXACT);
+    let key = PlayerEvent::NoteOn { channel: 0, key: 67, velocity: 0.7 };
+    let events: Vec<_> = told.iter().chain([&key]).map(|&event| (0, event)).collect();
+    laid(&play(&mut performance, &events))
+}
+
+#[test]
+fn a_bar_stops_what_fingers_cannot_reach() {
+    let stopped = stopped_by("lap-steel", &[]);
+    assert!(stopped.iter().any(|&mass| mass > FINGER), "a bar: {stopped:?} kg");
+    // As usual again, and as a harmonic.
+    let stopped = stopped_by("lap-steel", &[cc(23, 2), cc(23, 0)]);
+    assert!(stopped.iter().any(|&mass| mass > FINGER), "a bar again: {stopped:?} kg");
+    for way in [1, 2] {
+        let stopped = stopped_by("lap-steel", &[cc(23, way)]);
+        assert!(stopped.iter().all(|&mass| mass < FINGER), "CC 23 = {way}: {stopped:?} kg");
+    }
+    let stopped = stopped_by("electric", &[]);
+    assert!(!stopped.is_empty() && stopped.iter().all(|&mass| mass < FINGER), "a finger: {stopped:?} kg");
+}
+
+/// The bar weighs 0.25 N on the string and is not infinitely heavy: both raise the pitch a little, as far as
+/// `performance_touches` allows where a bar is asked for.
+#[test]
+fn so_it_is_in_tune_by_itself() {
+    for (string, open) in [(0, 62.0), (2, 55.0), (5, 38.0)] {
+        for fret in [5.0, 7.0, 12.0] {
+            let key = open + fret;
+            let sound = &Stage::alone("lap-steel", string).play(&[(0.0, on(key as u8, 90))], 1.2).strings[0];
+            let off = cents(frequency_near(&sound[12_000..], 48_000.0, hertz(key)), hertz(key));
+            assert!((-4.0..10.0).contains(&off), "string {string}, semitone {fret}: {off} cents");
+        }
+    }
+}
