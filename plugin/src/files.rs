@@ -1,6 +1,6 @@
 //! Files that are kept for the user.
 
-use std::fs::{self, Permissions};
+use std::fs::{self, File, Permissions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -31,7 +31,7 @@ impl Draft {
     /// # Errors
     /// When the folder cannot be made or the text not be written, or a folder is in its place.
     pub fn write(target: &Path, text: &str) -> Result<Self> {
-        let place = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
+        let place = behind_links(target).with_context(|| format!("cannot write {}", target.display()))?;
         if place.is_dir() {
             bail!("cannot write {}: it is a folder", target.display());
         }
@@ -58,25 +58,71 @@ impl Draft {
     }
 }
 
-/// A file in the same folder as another, so that renaming it is one step; gone when dropped.
+/// Links that are followed one after the other, as many as Linux follows.
+const MOST_LINKS: usize = 40;
+
+/// The file that a path leads to: what is written there goes where its links lead, also where nothing is yet.
 ///
 /// # Errors
-/// When none can be made there.
+/// When links lead in a circle.
+pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    let mut place = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        if let Ok(found) = fs::canonicalize(&place) {
+            return Ok(found);
+        }
+        // (A relative link begins where it stands.)
+        match fs::read_link(&place) {
+            Ok(next) => place = place.parent().unwrap_or(Path::new("")).join(next),
+            Err(_) => return Ok(place),
+        }
+    }
+    Err(io::Error::other(format!("it is a link by more than {MOST_LINKS} others")))
+}
+
+/// A file in the same folder as another, so that renaming it is one step; gone when dropped. It has the permissions of the
+/// file whose place it is to take, so that what was private stays so.
+///
+/// # Errors
+/// When none can be made there, or the file that is there is not to be written.
 pub(crate) fn beside(path: &Path) -> io::Result<NamedTempFile> {
+    let kept = permissions_there(path)?;
     let folder = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
     let mut builder = tempfile::Builder::new();
     builder.prefix(".low-action-").suffix(".part");
-    if let Some(permissions) = usual_permissions() {
+    // (What is to have others is private until it has them.)
+    if let Some(permissions) = usual_permissions().filter(|_| kept.is_none()) {
         builder.permissions(permissions);
     }
     // (The error would name the file beside it, which nobody has asked for.)
-    builder.tempfile_in(folder).map_err(|error| match error.raw_os_error() {
+    let file = builder.tempfile_in(folder).map_err(|error| match error.raw_os_error() {
         Some(code) => io::Error::from_raw_os_error(code),
         None => error.kind().into(),
-    })
+    })?;
+    if let Some(kept) = kept {
+        // (Not where they are so already: there are file systems that know no others.)
+        if file.as_file().metadata()?.permissions() != kept {
+            file.as_file().set_permissions(kept)?;
+        }
+    }
+    Ok(file)
+}
+
+/// The permissions of the file at a place, if one is there.
+///
+/// # Errors
+/// When it may not be written: renaming asks the folder only, and would replace it all the same.
+fn permissions_there(path: &Path) -> io::Result<Option<Permissions>> {
+    match fs::metadata(path) {
+        Ok(found) if found.is_file() => {
+            File::options().write(true).open(path)?;
+            Ok(Some(found.permissions()))
+        }
+        _ => Ok(None),
+    }
 }
 
 /// What any new file gets (the user's mask still applies); temporary files are private otherwise.
@@ -94,6 +140,8 @@ fn usual_permissions() -> Option<Permissions> {
 
 #[cfg(all(test, unix))]
 mod tests {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
     use super::*;
 
     #[test]
@@ -101,9 +149,38 @@ mod tests {
         let folder = tempfile::tempdir().expect("there is room");
         let [far, link] = ["far.toml", "link.toml"].map(|name| folder.path().join(name));
         fs::write(&far, "old").expect("it can be written");
-        std::os::unix::fs::symlink(&far, &link).expect("links can be made");
+        symlink(&far, &link).expect("links can be made");
         put(&link, "new").expect("it can be written");
         assert!(link.is_symlink());
         assert_eq!(fs::read_to_string(&far).expect("it is there"), "new");
+    }
+
+    #[test]
+    fn what_a_link_points_to_is_made() {
+        let folder = tempfile::tempdir().expect("there is room");
+        let [new, link, other] =
+            ["there/new.toml", "link.toml", "other.toml"].map(|name| folder.path().join(name));
+        symlink("there/new.toml", &link).expect("links can be made");
+        symlink("link.toml", &other).expect("links can be made");
+        put(&other, "text").expect("it can be written");
+        assert!(link.is_symlink() && other.is_symlink());
+        assert_eq!(fs::read_to_string(&new).expect("it is there"), "text");
+        let circle = folder.path().join("circle.toml");
+        symlink("circle.toml", &circle).expect("links can be made");
+        let error = format!("{:#}", put(&circle, "text").expect_err("it leads nowhere"));
+        assert!(error.contains("circle.toml") && error.contains("link") && circle.is_symlink(), "{error}");
+    }
+
+    #[test]
+    fn what_is_replaced_keeps_its_permissions() {
+        let folder = tempfile::tempdir().expect("there is room");
+        let file = folder.path().join("own.toml");
+        let mode = || fs::metadata(&file).expect("it is there").permissions().mode() & 0o777;
+        for kept in [0o600, 0o664, 0o644] {
+            fs::write(&file, "old").expect("it can be written");
+            fs::set_permissions(&file, Permissions::from_mode(kept)).expect("it is ours");
+            put(&file, "new").expect("it can be written");
+            assert_eq!((mode(), fs::read_to_string(&file).expect("it is there").as_str()), (kept, "new"));
+        }
     }
 }

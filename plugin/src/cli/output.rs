@@ -9,6 +9,7 @@ use tempfile::TempPath;
 
 use super::names::shown;
 use super::unfinished::Unfinished;
+use crate::files;
 
 /// Where a result goes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,7 +17,7 @@ enum Target {
     StandardOutput,
     /// A device or a pipe: written directly, since it cannot be replaced.
     Stream(PathBuf),
-    /// An ordinary file, made or replaced.
+    /// An ordinary file, made or replaced with its permissions: never a link, but what it leads to.
     File(PathBuf),
 }
 
@@ -34,7 +35,7 @@ impl Draft {
     /// Begins a result that is to appear at `path`, where `-` is standard output.
     ///
     /// # Errors
-    /// When the place is a folder or can have no file, or nothing can be written beside it.
+    /// When the place is a folder or can have no file, the file there may not be written, or nothing can be written beside it.
     pub fn begin(path: &Path) -> Result<Self> {
         let target = Target::find(path)?;
         let describe = || format!("cannot write {}", shown(path));
@@ -85,14 +86,16 @@ impl Target {
         if path == Path::new("-") {
             return Ok(Self::StandardOutput);
         }
+        let describe = || format!("cannot write {}", shown(path));
         match fs::metadata(path) {
             Ok(found) if found.is_dir() => bail!("cannot write {}: it is a folder", shown(path)),
-            // Replaces what a link points to, not the link.
-            Ok(found) if found.is_file() => Ok(Self::File(fs::canonicalize(path)?)),
-            Ok(_) => Ok(Self::Stream(path.to_owned())),
-            Err(_) => {
-                check_new(path).with_context(|| format!("cannot write {}", shown(path)))?;
-                Ok(Self::File(path.to_owned()))
+            Ok(found) if !found.is_file() => Ok(Self::Stream(path.to_owned())),
+            found => {
+                let place = files::behind_links(path).with_context(describe)?;
+                if found.is_err() {
+                    check_new(&place).with_context(describe)?;
+                }
+                Ok(Self::File(place))
             }
         }
     }

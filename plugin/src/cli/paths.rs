@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::names::shown;
 use super::{Failure, Outcome};
+use crate::files;
 
 /// A file that a command was told of: what it is to the user, and where.
 pub(super) type Named = (String, PathBuf);
@@ -37,12 +38,13 @@ fn is_same_file(one: &Path, other: &Path) -> bool {
 
 /// Where a path leads, by what is there of it: a file that is yet to be made has a folder already, or that has.
 fn place(path: &Path) -> PathBuf {
+    let Ok(path) = files::behind_links(path) else { return path.to_owned() };
     let made = |path: &Path| {
         let (folder, name) = (path.parent()?, path.file_name()?);
         let folder = if folder == Path::new("") { Path::new(".") } else { folder };
         Some(place(folder).join(name))
     };
-    fs::canonicalize(path).ok().or_else(|| made(path)).unwrap_or_else(|| path.to_owned())
+    fs::canonicalize(&path).ok().or_else(|| made(&path)).unwrap_or(path)
 }
 
 #[cfg(test)]
@@ -61,6 +63,15 @@ mod tests {
         ] {
             assert_eq!(is_same_file(Path::new(one), Path::new(other)), same, "{one} {other}");
         }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_a_file_that_is_not_there_yet_is_that_file() {
+        let room = tempfile::tempdir().unwrap();
+        let [link, new] = ["link.wav", "new.wav"].map(|name| room.path().join(name));
+        std::os::unix::fs::symlink("new.wav", &link).unwrap();
+        assert!(is_same_file(&link, &new));
     }
 
     #[test]

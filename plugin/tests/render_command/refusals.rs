@@ -208,6 +208,52 @@ fn a_link_stays_a_link() {
     room.renders(&["song.mid", "-o", "link.wav"]);
     assert!(fs::symlink_metadata(room.path("link.wav")).unwrap().is_symlink());
     assert!(peak(&room.path("real.wav")) > 0.01);
+    std::os::unix::fs::symlink("new.wav", room.path("ahead.wav")).unwrap();
+    room.renders(&["song.mid", "-o", "ahead.wav"]);
+    assert!(fs::symlink_metadata(room.path("ahead.wav")).unwrap().is_symlink());
+    assert!(peak(&room.path("new.wav")) > 0.01);
+    // Which is found out beforehand.
+    std::os::unix::fs::symlink("no/such/x.wav", room.path("astray.wav")).unwrap();
+    let said = room.refuses(1, &["render", "song.mid", "-o", "astray.wav"]);
+    assert!(said.contains("cannot write astray.wav") && said.contains("no/such does not exist"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_private_file_stays_private_and_a_protected_one_as_it_is() {
+    use std::os::unix::fs::PermissionsExt;
+    use std::os::unix::process::CommandExt;
+
+    let room = Room::new();
+    let set =
+        |name: &str, mode| fs::set_permissions(room.path(name), fs::Permissions::from_mode(mode)).unwrap();
+    fs::write(room.path("own.wav"), "old").unwrap();
+    set("own.wav", 0o600);
+    room.renders(&["song.mid", "-o", "own.wav"]);
+    assert_eq!(fs::metadata(room.path("own.wav")).unwrap().permissions().mode() & 0o777, 0o600);
+    assert!(peak(&room.path("own.wav")) > 0.01);
+
+    fs::write(room.path("kept.wav"), "old").unwrap();
+    set("kept.wav", 0o444);
+    let mut command = room.command(&["render", "song.mid", "-o", "kept.wav"]);
+    // Root may write anything, and so lets nobody try, in a folder where anybody may rename files.
+    if fs::File::options().write(true).open(room.path("kept.wav")).is_ok() {
+        set("", 0o777);
+        fs::copy(command.get_program(), room.path("program")).unwrap();
+        let mut by_nobody = std::process::Command::new(room.path("program"));
+        by_nobody.current_dir(room.path("")).args(command.get_args()).uid(65534);
+        command = by_nobody;
+    }
+    let before = room.files();
+    let Ok(output) = command.output() else {
+        println!("passed over: nobody can run a copy of the program here");
+        return;
+    };
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.starts_with("error: cannot write kept.wav: Permission denied"), "{said}");
+    assert_eq!(fs::read_to_string(room.path("kept.wav")).unwrap(), "old");
+    assert_eq!(room.files(), before);
 }
 
 #[cfg(unix)]
