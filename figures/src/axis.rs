@@ -17,6 +17,8 @@ pub struct Axis {
     pub bare: bool,
     /// Words that stand at 0, 1, 2, … in the place of numbers, if there are any.
     pub names: Vec<String>,
+    /// Whether lines may leave the range; they run along its edge then.
+    pub cut: bool,
 }
 
 impl Axis {
@@ -29,6 +31,7 @@ impl Axis {
             ticks: 6,
             bare: false,
             names: Vec::new(),
+            cut: false,
         }
     }
 
@@ -60,17 +63,34 @@ impl Axis {
         Axis { ticks: names.len() + 1, names, ..self }
     }
 
+    /// The same with lines that may leave it.
+    pub fn cut(self) -> Axis {
+        Axis { cut: true, ..self }
+    }
+
+    /// Whether a value that a line reaches would be drawn where it is not. (Ends of equal factors are chosen for what is
+    /// to be told apart; what lies beyond them is to be seen there.)
+    pub fn hides(&self, value: f64) -> bool {
+        let slack = 1e-9 * (self.range.end - self.range.start);
+        let shown = self.range.start - slack..=self.range.end + slack;
+        !self.cut && !self.log && value.is_finite() && !shown.contains(&value)
+    }
+
     /// Where a value stands between the ends of [`Axis::span`]; what lies beyond the range stands on its edge.
     pub fn place(&self, value: f64) -> f64 {
         let span = self.span();
-        let place =
-            if self.log { if value > 0.0 { libm::log10(value) } else { f64::NEG_INFINITY } } else { value };
+        let place = if self.log {
+            if value > 0.0 { libm::log10(value) } else { f64::NEG_INFINITY }
+        } else {
+            value * self.factor()
+        };
         place.clamp(span.start, span.end)
     }
 
-    /// The range as drawn: of values, or of their logarithms.
+    /// The range as drawn: of values, without the power of ten in the label, or of their logarithms.
     pub fn span(&self) -> Range<f64> {
-        if self.log { libm::log10(self.range.start)..libm::log10(self.range.end) } else { self.range.clone() }
+        let drawn = |end: f64| if self.log { libm::log10(end) } else { end * self.factor() };
+        drawn(self.range.start)..drawn(self.range.end)
     }
 
     /// How the number at a place is written.
@@ -90,7 +110,31 @@ impl Axis {
                 String::new()
             };
         }
-        plain_number(place, self.range.end - self.range.start)
+        let span = self.span();
+        plain_number(place, span.end - span.start)
+    }
+
+    /// The label, with what the numbers along the axis are to be multiplied by.
+    pub fn label(&self) -> String {
+        match (self.power(), self.label.rsplit_once(", ")) {
+            (0, _) => self.label.clone(),
+            (power, Some((what, unit))) => format!("{what}, {} {unit}", power_of_ten(power)),
+            (power, None) => format!("{}, {}", self.label, power_of_ten(power)),
+        }
+    }
+
+    fn factor(&self) -> f64 {
+        libm::exp10(-f64::from(self.power()))
+    }
+
+    /// The power of ten that stands in the label where the numbers would be mostly zeros, or as long as the label is far.
+    fn power(&self) -> i32 {
+        let largest = self.range.start.abs().max(self.range.end.abs());
+        if self.log || !self.names.is_empty() || (1e-3..=1e5).contains(&largest) {
+            return 0;
+        }
+        // (No smaller than what can be divided by.)
+        3 * libm::floor(libm::log10(largest) / 3.0).max(-102.0) as i32
     }
 }
 
@@ -129,7 +173,18 @@ pub fn power_of_ten(exponent: i32) -> String {
 
 /// A unit with a prefix that suits the largest value: how many of it make one, and its name.
 pub fn unit_for(largest: f64, unit: &str) -> (f64, String) {
-    let prefixes = [(1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n")];
+    let prefixes = [
+        (1e-12, "T"),
+        (1e-9, "G"),
+        (1e-6, "M"),
+        (1e-3, "k"),
+        (1.0, ""),
+        (1e3, "m"),
+        (1e6, "µ"),
+        (1e9, "n"),
+        (1e12, "p"),
+        (1e15, "f"),
+    ];
     let suits = |(factor, _): &(f64, &str)| largest * factor >= 0.5;
     let (factor, prefix) = prefixes.into_iter().find(suits).unwrap_or((1.0, ""));
     (factor, format!("{prefix}{unit}"))
@@ -174,7 +229,40 @@ mod tests {
     }
 
     #[test]
+    fn numbers_along_an_axis_differ_and_leave_room_for_the_label() {
+        use plotters::coord::ranged1d::{BoldPoints, Ranged};
+        use plotters::coord::types::RangedCoordf64;
+        for power in -290..=290 {
+            for (start, end) in [(0.0, 1.08), (0.0, 3.0), (-0.7, 9.0), (0.0, 5.4)] {
+                let unit = libm::exp10(f64::from(power));
+                let axis = Axis::linear("energy, J", start * unit..end * unit);
+                let points = RangedCoordf64::from(axis.span()).key_points(BoldPoints(axis.ticks));
+                let numbers: Vec<_> = points.iter().map(|place| axis.number(*place)).collect();
+                let different: std::collections::BTreeSet<_> = numbers.iter().collect();
+                assert!(numbers.len() > 2 && different.len() == numbers.len(), "{axis:?}: {numbers:?}");
+                assert!(numbers.iter().all(|number| number.chars().count() <= 6), "{axis:?}: {numbers:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_many_zeros_would_say_stands_in_the_label() {
+        for (end, label, number) in
+            [(2e-13, "energy, 10⁻¹⁵ J", "100"), (3e6, "energy, 10⁶ J", "2"), (0.02, "energy, J", "0.01")]
+        {
+            let axis = Axis::linear("energy, J", 0.0..end);
+            assert_eq!(axis.label(), label);
+            let place = if end > 1.0 { 2e6 } else { 0.5 * end };
+            assert_eq!(axis.number(axis.place(place)), number);
+        }
+        assert_eq!(Axis::linear("iterations", 0.0..2e6).label(), "iterations, 10⁶");
+        assert_eq!(Axis::log("energy, J", 1e-12..1e-9).label(), "energy, J");
+    }
+
+    #[test]
     fn units_suit_their_values() {
+        assert_eq!(unit_for(4e-10, "J"), (1e12, "pJ".into()));
+        assert_eq!(unit_for(2.5e6, "N"), (1e-6, "MN".into()));
         assert_eq!(unit_for(0.0225, "J"), (1e3, "mJ".into()));
         assert_eq!(unit_for(30.0, "N"), (1.0, "N".into()));
         assert_eq!(unit_for(0.0, "N"), (1.0, "N".into()));

@@ -2,37 +2,51 @@
 
 use low_action_dsp::Scene;
 use low_action_dsp::curve::{CountOrList, Curve, OneOrEach};
-use low_action_dsp::scene::{FingerSpec, FretboardSpec, PluckSpec, StringSpec};
+use low_action_dsp::scene::{
+    FingerSpec, FretPlacement, FretboardSpec, PluckSpec, SolverSettings, StringSpec,
+};
 
 use crate::axis::power_of_ten;
 
 /// The most strings, plucks or fingers that are described one by one.
 const MOST: usize = 2;
 
-/// Everything that a scene asks for, in a few sentences.
+/// Everything that is computed of a scene, in a few sentences: what is left out is as it is where a scene says nothing, or
+/// stands on the axes, or is one of more than [`MOST`]. Courses and lists are told by their least and largest value.
 pub fn describe(scene: &Scene) -> String {
+    let on = |number: usize| match scene.string.len() {
+        1 => String::new(),
+        _ => format!(", on string {number}"),
+    };
     let mut sentences = Vec::new();
     sentences.extend(listed("strings", &scene.string, string));
     sentences.extend(scene.fretboard.as_ref().map(fretboard));
-    sentences.extend(listed("plucks", &scene.pluck, pluck));
-    sentences.extend(listed("fingers", &scene.finger, finger));
-    let stencil = format!("{:?}", scene.solver.stencil).to_lowercase();
-    sentences
-        .push(format!("Computed at {} kHz with the {stencil} stencil.", number(1e-3 * scene.sample_rate)));
-    // What belongs together stays on one line.
-    sentences
-        .join(" ")
-        .replace(" = ", "\u{a0}=\u{a0}")
-        .replace(" m²/s", "\u{a0}m²/s")
-        .replace(" mm", "\u{a0}mm")
+    sentences.extend(listed("plucks", &scene.pluck, |spec| pluck(spec, &on(spec.string))));
+    sentences.extend(listed("fingers", &scene.finger, |spec| finger(spec, &on(spec.string))));
+    sentences.push(computed(scene));
+    sentences.join(" ")
 }
 
-fn listed<T>(name: &str, things: &[T], describe: fn(&T) -> String) -> Vec<String> {
+fn listed<T>(name: &str, things: &[T], describe: impl Fn(&T) -> String) -> Vec<String> {
     let mut sentences: Vec<_> = things.iter().take(MOST).map(describe).collect();
     if things.len() > MOST {
         sentences.push(format!("And {} more {name}.", things.len() - MOST));
     }
     sentences
+}
+
+fn computed(scene: &Scene) -> String {
+    let (solver, usual) = (&scene.solver, SolverSettings::default());
+    let stencil = format!("{:?}", solver.stencil).to_lowercase();
+    let mut parts =
+        vec![format!("Computed at {} kHz with the {stencil} stencil", number(1e-3 * scene.sample_rate))];
+    if solver.max_iterations != usual.max_iterations {
+        parts.push(format!("at most {} iterations", solver.max_iterations));
+    }
+    if solver.tolerance != usual.tolerance {
+        parts.push(format!("tolerance {} m", number(solver.tolerance)));
+    }
+    format!("{}.", parts.join(", "))
 }
 
 fn string(spec: &StringSpec) -> String {
@@ -53,8 +67,9 @@ fn string(spec: &StringSpec) -> String {
     if spec.tension_modulation {
         parts.push("stretching".into());
     }
-    if spec.shape.is_some() {
-        parts.push("released from a shape".into());
+    if let Some(points) = &spec.shape {
+        let heights = range(points.iter().map(|point| 1e3 * point[1]));
+        parts.push(format!("released from a shape of {heights} mm"));
     }
     format!("String: {}.", parts.join(", "))
 }
@@ -65,32 +80,42 @@ fn fretboard(spec: &FretboardSpec) -> String {
         None => parts.push("no board".into()),
         Some(height) => parts.push(format!("board at {} mm", course(height, 1e3))),
     }
-    let count = match &spec.frets {
-        CountOrList::Count(count) => *count,
-        CountOrList::List(places) => places.len(),
+    let (count, places) = match &spec.frets {
+        CountOrList::Count(count) => (*count, String::new()),
+        CountOrList::List(places) => (places.len(), format!(" at {} m", range(places.iter().copied()))),
     };
     let crowns = match &spec.fret_top {
         Some(OneOrEach::One(height)) => format!(" with crowns at {} mm", number(1e3 * height)),
         Some(OneOrEach::Each(heights)) => {
-            let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
-            let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            format!(" with crowns at {} to {} mm", number(1e3 * high), number(1e3 * low))
+            format!(" with crowns at {} mm", range(heights.iter().map(|height| 1e3 * height)))
         }
         None => String::new(),
     };
     if count > 0 {
-        parts.push(format!("{count} frets{crowns}"));
+        parts.push(format!("{count} frets{places}{crowns}"));
+    }
+    match spec.fret_placement {
+        FretPlacement::Exact => {}
+        FretPlacement::Nearest => parts.push("frets on their nearest grid points".into()),
+        FretPlacement::Kinked => parts.push("the string kinked at frets".into()),
+    }
+    if spec.damping > 0.0 {
+        parts.push(format!("β = {} s/m", number(spec.damping)));
+    }
+    if let Some(spacing) = spec.board_reference_spacing {
+        parts.push(format!("K of the board for a spacing of {} mm", number(1e3 * spacing)));
     }
     format!("Fretboard: {}.", parts.join(", "))
 }
 
-fn pluck(spec: &PluckSpec) -> String {
+fn pluck(spec: &PluckSpec, on: &str) -> String {
     let (force, way) = (number(spec.force.abs()), if spec.force < 0.0 { "down" } else { "up" });
     let (place, duration) = (number(spec.position), number(1e3 * spec.duration));
-    format!("Pluck: {force} N {way} at {place} m, grown over {duration} ms.")
+    let start = if spec.start > 0.0 { format!(" from {} s on", number(spec.start)) } else { String::new() };
+    format!("Pluck: {force} N {way} at {place} m, grown over {duration} ms{start}{on}.")
 }
 
-fn finger(spec: &FingerSpec) -> String {
+fn finger(spec: &FingerSpec, on: &str) -> String {
     let mut parts = vec![
         format!("{} g", number(1e3 * spec.mass)),
         format!("K = {}, α = {}", number(spec.stiffness), number(spec.exponent)),
@@ -110,17 +135,21 @@ fn finger(spec: &FingerSpec) -> String {
         Curve::Constant(force) if *force == 0.0 => parts.push("no force".into()),
         force => parts.push(format!("pressed with {} N", course(force, 1.0))),
     }
-    format!("Finger: {}.", parts.join(", "))
+    format!("Finger: {}{on}.", parts.join(", "))
 }
 
 /// A number, or the least and the largest of a course.
 fn course(curve: &Curve, scale: f64) -> String {
-    let points = match curve {
-        Curve::Constant(value) => return number(scale * value),
-        Curve::Points(points) => points,
-    };
-    let least = points.iter().map(|point| scale * point[1]).fold(f64::INFINITY, f64::min);
-    let largest = points.iter().map(|point| scale * point[1]).fold(f64::NEG_INFINITY, f64::max);
+    match curve {
+        Curve::Constant(value) => number(scale * value),
+        Curve::Points(points) => range(points.iter().map(|point| scale * point[1])),
+    }
+}
+
+/// The least and the largest of some numbers.
+fn range(values: impl Iterator<Item = f64> + Clone) -> String {
+    let least = values.clone().fold(f64::INFINITY, f64::min);
+    let largest = values.fold(f64::NEG_INFINITY, f64::max);
     if least == largest { number(least) } else { format!("{} to {}", number(least), number(largest)) }
 }
 
@@ -157,6 +186,68 @@ pub fn significant(value: f64, digits: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn scenes_that_differ_in_one_key_have_different_captions() {
+        let string = "[[string]]\nlength = 0.65\nlinear_density = 5e-3\ntension = 60.0\nyoungs_modulus = 2e11\n\
+                      core_radius = 4e-4\nloss_0 = 1.0\nloss_1 = 1e-4\ntension_modulation = true\n\
+                      shape = [[0.0, 0.0], [0.3, 1e-3], [0.65, 0.0]]\n";
+        let text = format!(
+            "sample_rate = 44100\nduration = 0.1\n[solver]\nmax_iterations = 50\ntolerance = 1e-15\n\
+             stencil = \"paper\"\n{string}{string}[fretboard]\nstiffness = 1e10\nexponent = 1.5\ndamping = 0\n\
+             board = [[0.0, -0.002], [0.65, -0.0021]]\nfrets = [0.2, 0.4]\nfret_top = [-0.001, -0.0011]\n\
+             fret_placement = \"exact\"\n[[pluck]]\nstring = 1\nstart = 0\nduration = 2e-3\nposition = 0.5\nforce = 1\n\
+             [[finger]]\nstring = 1\nmass = 5e-3\nstiffness = 1e8\nexponent = 2\ndamping = 0\nhand_damping = 0\n\
+             position = 0.25\nheight = 5e-4\nvelocity = -2\nforce = 0\n"
+        );
+        let caption = |text: &str| describe(&Scene::from_toml(text).unwrap());
+        let (first, halfway) = (caption(&text), text.find("[fretboard]").unwrap());
+        assert!(
+            caption(&text.replace("damping = 0\nboard", "board_reference_spacing = 5e-3\nboard")) != first
+        );
+        for (from, there, to) in [
+            (0, "44100", "48000"),
+            (0, "iterations = 50", "iterations = 49"),
+            (0, "1e-15", "1e-14"),
+            (0, "paper", "wide"),
+            (0, "5e-3", "6e-3"),
+            (0, "60.0", "[[0.0, 60.0], [0.1, 70.0]]"),
+            (0, "2e11", "1e11"),
+            (0, "core_radius = 4e-4", "core_radius = 3e-4"),
+            (0, "loss_0 = 1.0", "loss_0 = 2.0"),
+            (0, "loss_1 = 1e-4", "loss_1 = 2e-4"),
+            (0, "true", "false"),
+            (0, "1e-3]", "2e-3]"),
+            (halfway, "1e10", "1e11"),
+            (halfway, "1.5", "1.6"),
+            (halfway, "damping = 0", "damping = 0.3"),
+            (halfway, "-0.0021", "-0.0022"),
+            (halfway, "0.4]", "0.41]"),
+            (halfway, "-0.0011", "-0.0012"),
+            (halfway, "exact", "nearest"),
+            (halfway, "exact", "kinked"),
+            (halfway, "string = 1\nstart", "string = 2\nstart"),
+            (halfway, "start = 0", "start = 0.01"),
+            (halfway, "duration = 2e-3", "duration = 3e-3"),
+            (halfway, "position = 0.5", "position = 0.4"),
+            (halfway, "force = 1", "force = -1"),
+            (halfway, "string = 1\nmass", "string = 2\nmass"),
+            (halfway, "5e-3", "6e-3"),
+            (halfway, "1e8", "1e9"),
+            (halfway, "exponent = 2", "exponent = 3"),
+            (halfway, "damping = 0\nhand", "damping = 1\nhand"),
+            (halfway, "hand_damping = 0", "hand_damping = 1"),
+            (halfway, "0.25", "0.26"),
+            (halfway, "5e-4", "6e-4"),
+            (halfway, "velocity = -2", "velocity = -3"),
+            (halfway, "force = 0", "force = 2"),
+        ] {
+            let at = from + text[from..].find(there).unwrap_or_else(|| panic!("{there} is in the scene"));
+            let other = format!("{}{to}{}", &text[..at], &text[at + there.len()..]);
+            let second = caption(&other);
+            assert!(second != first, "{there} to {to}: {second}");
+        }
+    }
 
     #[test]
     fn numbers_are_read_easily() {

@@ -1,9 +1,9 @@
 //! What a picture shows along the string: the string itself, and what lies under it.
 
+use low_action_dsp::Scene;
 use low_action_dsp::curve::Curve;
-use low_action_dsp::model::Barrier;
+use low_action_dsp::model::{Contact, ContactKind};
 use low_action_dsp::simulation::SceneString;
-use low_action_dsp::{Error, Scene};
 
 /// The string at one moment.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -42,6 +42,22 @@ impl Profile {
     }
 }
 
+/// What there is of a board between the ends of a string, (m from the nut, mm).
+fn cut(board: &Curve, length: f64) -> Vec<(f64, f64)> {
+    let points = match board {
+        Curve::Constant(_) => &[[0.0, 0.0], [length, 0.0]],
+        Curve::Points(points) => points.as_slice(),
+    };
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return Vec::new() };
+    let (start, end) = (first[0].max(0.0), last[0].min(length));
+    if start > end {
+        return Vec::new();
+    }
+    let between = points.iter().map(|point| point[0]).filter(|&place| place > start && place < end);
+    let places = std::iter::once(start).chain(between).chain([end]);
+    places.map(|place| (place, 1e3 * board.at(place))).collect()
+}
+
 /// What lies under the string.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ground {
@@ -54,21 +70,19 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// Board and frets under a string of a scene, 0 for the first.
-    ///
-    /// # Errors
-    /// When the scene's fretboard is refused.
-    pub fn under(scene: &Scene, string: usize) -> Result<Ground, Error> {
-        let length = scene.string[string].length;
-        let Some(spec) = &scene.fretboard else { return Ok(Ground { length, ..Ground::default() }) };
-        let barrier = Barrier::from_spec(spec, length)?;
-        let board = match &barrier.board {
-            None => Vec::new(),
-            Some(Curve::Constant(height)) => vec![(0.0, 1e3 * height), (length, 1e3 * height)],
-            Some(Curve::Points(points)) => points.iter().map(|p| (p[0], 1e3 * p[1])).collect(),
+    /// Board and frets under a string of a scene, where they act.
+    pub fn under(string: &SceneString, scene: &Scene) -> Ground {
+        let length = string.model.grid.length;
+        let board = scene.fretboard.as_ref().and_then(|fretboard| fretboard.board.as_ref());
+        let crown = |contact: &Contact| match contact.kind {
+            ContactKind::Fret { .. } => Some((contact.place, 1e3 * contact.height)),
+            ContactKind::Board { .. } => None,
         };
-        let crowns = barrier.frets.iter().map(|fret| (fret[0], 1e3 * fret[1])).collect();
-        Ok(Ground { length, board, crowns })
+        Ground {
+            length,
+            board: board.map_or(Vec::new(), |board| cut(board, length)),
+            crowns: string.model.contacts.iter().filter_map(crown).collect(),
+        }
     }
 
     /// The lowest and the highest point, mm.
@@ -82,5 +96,45 @@ impl Ground {
         let pair = self.board.windows(2).find(|pair| place >= pair[0].0 && place <= pair[1].0)?;
         let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
         Some(y0 + (y1 - y0) * (place - x0) / (x1 - x0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use low_action_dsp::Simulation;
+
+    use super::*;
+
+    fn ground(fretboard: &str) -> Ground {
+        let text = "sample_rate = 44100\nduration = 0.1\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\n\
+                    tension = 60.0\n[fretboard]\nstiffness = 1e10\nexponent = 1.5\n";
+        let scene = Scene::from_toml(&format!("{text}{fretboard}\n")).unwrap();
+        Ground::under(Simulation::new(&scene).unwrap().string(0), &scene)
+    }
+
+    #[test]
+    fn only_what_is_under_the_string_is_drawn() {
+        let board =
+            ground("board = [[-1.0, -10.0], [0.0, -0.002], [0.3, -0.004], [0.65, -0.002], [2.0, -10.0]]")
+                .board;
+        assert_eq!(board, [(0.0, -2.0), (0.3, -4.0), (0.65, -2.0)]);
+        let board = ground("board = [[-0.5, -0.002], [0.5, -0.004]]").board;
+        assert_eq!(board, [(0.0, -3.0), (0.5, -4.0)]);
+        assert_eq!(ground("board = [[-0.5, -0.002], [-0.1, -0.004]]").board, []);
+        assert_eq!(ground("board = -0.002").board, [(0.0, -2.0), (0.65, -2.0)]);
+    }
+
+    #[test]
+    fn frets_are_drawn_where_they_act() {
+        let frets = "frets = [0.2, 0.4]\nfret_top = [-0.001, -0.002]\nfret_placement = ";
+        let exact = ground(&format!("{frets}\"exact\"")).crowns;
+        assert_eq!(exact, [(0.2, -1.0), (0.4, -2.0)]);
+        let nearest = ground(&format!("{frets}\"nearest\"")).crowns;
+        for (near, exact) in nearest.iter().zip(&exact) {
+            assert!(
+                near.0 != exact.0 && (near.0 - exact.0).abs() < 1e-3 && near.1 == exact.1,
+                "{near:?} {exact:?}"
+            );
+        }
     }
 }

@@ -16,6 +16,7 @@ pub mod axis;
 pub mod course;
 pub mod describe;
 pub mod ground;
+mod key;
 pub mod panel;
 pub mod scene;
 pub mod sheet;

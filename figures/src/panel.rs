@@ -1,6 +1,6 @@
 //! A panel: one pair of axes, and layers drawn over each other on them.
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
@@ -8,6 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::axis::Axis;
 use crate::ground::{Ground, Profile};
+use crate::key;
 use crate::style::{CHARACTER, GAP, Stroke, TEXT, colour};
 
 /// Part of a page.
@@ -23,6 +24,9 @@ pub const LINE: i32 = 80;
 /// Room for the numbers and the label of an axis, px: beside and below a panel.
 const BESIDE: u32 = 236;
 const BELOW: u32 = 156;
+
+/// Length of the marks of numbers below a panel, px.
+const TICK: i32 = 16;
 
 /// Half the width of a fret as drawn, as a part of the panel's width.
 const FRET: f64 = 0.0016;
@@ -93,23 +97,6 @@ impl Layer {
         }
         layers
     }
-
-    fn key(&self) -> Option<(&str, &Stroke, Mark)> {
-        match self {
-            Layer::Line { stroke, name, .. } if !name.is_empty() => Some((name, stroke, Mark::Line)),
-            Layer::Dots { stroke, name, .. } if !name.is_empty() => Some((name, stroke, Mark::Dot)),
-            Layer::Band { stroke, name, .. } if !name.is_empty() => Some((name, stroke, Mark::Area)),
-            _ => None,
-        }
-    }
-}
-
-/// What stands before a word of the key.
-#[derive(Clone, Copy, PartialEq)]
-enum Mark {
-    Line,
-    Dot,
-    Area,
 }
 
 /// A pair of axes with what is drawn on them.
@@ -144,14 +131,27 @@ impl Panel {
     }
 
     /// Draws it into part of a page.
+    ///
+    /// # Errors
+    /// When a line would be drawn where it is not: beyond the vertical range, unless that is [cut](Axis::cut).
     pub(crate) fn draw(&self, area: &Area) -> Result<()> {
+        for layer in &self.layers {
+            let Layer::Line { points, name, .. } = layer else { continue };
+            let across = &self.x.range;
+            let beyond = points.iter().find(|(x, y)| across.contains(x) && self.y.hides(*y));
+            let (title, label, range) = (&self.title, &self.y.label, &self.y.range);
+            ensure!(
+                beyond.is_none(),
+                "the line {name:?} of {title:?} at {beyond:?}: {label} must be {range:?}"
+            );
+        }
         let (width, height) = area.dim_in_pixel();
         let mut top = 0;
         if !self.title.is_empty() {
             area.draw(&Text::new(self.title.as_str(), (GAP, 8), bold()))?;
             top += LINE;
         }
-        top += self.draw_key(area, top, width as i32)?;
+        top += key::draw(&self.layers, area, top, width as i32)?;
         let below = if self.x.bare { 40 } else { BELOW };
         let chart_area = area.clone().shrink((0, top), (width, height - top as u32));
         let (across, up) = (self.x.span(), self.y.span());
@@ -179,55 +179,18 @@ impl Panel {
             .axis_style(colour::INK.stroke_width(2))
             .x_labels(self.x.ticks)
             .y_labels(self.y.ticks)
+            // So far below the axis that the first number is clear of the lowest one beside it.
+            .set_tick_mark_size(LabelAreaPosition::Bottom, TICK)
             .x_label_formatter(&place_label)
             .y_label_formatter(&height_label)
             .label_style(text())
             .axis_desc_style(text());
         if !self.x.bare {
-            mesh.x_desc(self.x.label.as_str());
+            mesh.x_desc(self.x.label());
         }
-        mesh.y_desc(self.y.label.as_str());
+        mesh.y_desc(self.y.label());
         mesh.draw()?;
         Ok(())
-    }
-
-    /// Draws what the colours mean, in as many lines as it takes; returns their height.
-    fn draw_key(&self, area: &Area, top: i32, width: i32) -> Result<i32> {
-        let (left, sample) = (GAP, 110);
-        let (mut column, mut row) = (left, top);
-        let mut lines = 0;
-        for (name, stroke, mark) in self.layers.iter().filter_map(Layer::key) {
-            let length = sample + 24 + (name.chars().count() as f64 * CHARACTER) as i32;
-            if lines == 0 {
-                lines = 1;
-            } else if column + length > width - 40 {
-                (column, row, lines) = (left, row + LINE, lines + 1);
-            }
-            let middle = row + LINE / 2;
-            match mark {
-                Mark::Line if stroke.dashed => {
-                    for start in [0, 42, 84] {
-                        let ends = [(column + start, middle), (column + start + 26, middle)];
-                        area.draw(&PathElement::new(ends, stroke.shape()))?;
-                    }
-                }
-                Mark::Line => {
-                    let ends = [(column, middle), (column + sample, middle)];
-                    area.draw(&PathElement::new(ends, stroke.wide(stroke.width.max(6)).shape()))?;
-                }
-                Mark::Dot => {
-                    area.draw(&Circle::new((column + sample / 2, middle), DOT, stroke.filled()))?;
-                }
-                Mark::Area => {
-                    let corners = [(column, middle - 24), (column + sample, middle + 24)];
-                    area.draw(&Rectangle::new(corners, stroke.filled()))?;
-                }
-            }
-            let style = text().pos(Pos::new(HPos::Left, VPos::Center));
-            area.draw(&Text::new(name, (column + sample + 24, middle), style))?;
-            column += length + GAP;
-        }
-        Ok(lines * LINE)
     }
 
     /// Points as drawn: those within the horizontal range, at their places.
@@ -272,7 +235,7 @@ impl Panel {
 
     fn draw_ground(&self, chart: &mut Chart, ground: &Ground) -> Result<()> {
         let (across, bottom) = (&self.x.range, self.y.range.start);
-        let inside = |x: f64| x.clamp(across.start, across.end);
+        let place = |(x, y): (f64, f64)| (self.x.place(x), self.y.place(y));
         if let (Some(first), Some(last)) = (ground.board.first(), ground.board.last()) {
             // Cut where the panel ends, at the height the board has there.
             let mut outline: Vec<_> = [across.start, across.end]
@@ -282,21 +245,21 @@ impl Panel {
             let seen = ground.board.iter().filter(|point| across.contains(&point.0));
             outline.extend(seen.copied());
             outline.sort_by(|a, b| a.0.total_cmp(&b.0));
-            outline.extend([(inside(last.0), bottom), (inside(first.0), bottom)]);
-            let outline: Vec<_> = outline.iter().map(|&(x, y)| (x, self.y.place(y))).collect();
+            outline.extend([(last.0, bottom), (first.0, bottom)]);
+            let outline: Vec<_> = outline.into_iter().map(place).collect();
             chart.draw_series(std::iter::once(Polygon::new(outline, colour::BOARD.filled())))?;
         }
         let half = FRET * (across.end - across.start);
         let crowns = ground.crowns.iter().filter(|crown| across.contains(&crown.0));
         chart.draw_series(crowns.map(|&(x, crown)| {
             let foot = ground.board_at(x).unwrap_or(bottom);
-            let corners = [(x - half, self.y.place(crown)), (x + half, self.y.place(foot))];
+            let corners = [place((x - half, crown)), place((x + half, foot))];
             Rectangle::new(corners, colour::METAL.filled())
         }))?;
         // Nut and saddle hold the string: a triangle under each end, 32 px wide and high.
         for end in [0.0, ground.length] {
             if (across.start..=across.end).contains(&end) {
-                let support = EmptyElement::at((end, 0.0))
+                let support = EmptyElement::at(place((end, 0.0)))
                     + Polygon::new([(0, 0), (-16, 32), (16, 32)], colour::METAL.filled());
                 chart.draw_series(std::iter::once(support))?;
             }

@@ -14,7 +14,7 @@ use crate::style::{Stroke, colour};
 /// Strings shown at most; the numbers below them are of all.
 const STRINGS: usize = 4;
 
-/// Moments at which strings are shown, evenly from the first sample to the last.
+/// Moments at which strings are shown, evenly from the first sample to the last; in a run of fewer samples, all of them.
 const MOMENTS: u64 = 9;
 
 /// Watches a scene while it runs.
@@ -23,6 +23,8 @@ pub struct SceneFigure {
     caption: String,
     samples: u64,
     step: f64,
+    /// Moments that have been, the first among them.
+    moments: u64,
     strings: Vec<StringRecord>,
     string_count: usize,
     energies: [Course; 5],
@@ -61,28 +63,24 @@ const FORCES: [(&str, Stroke); 3] = [
 
 impl SceneFigure {
     /// Begins the picture of a scene that has not run yet.
-    ///
-    /// # Errors
-    /// When the scene's fretboard is refused.
-    pub fn new(scene: &Scene, simulation: &Simulation) -> Result<SceneFigure> {
+    pub fn new(scene: &Scene, simulation: &Simulation) -> SceneFigure {
         let samples = simulation.samples();
         let course = || Course::new(samples, BINS);
-        let strings = simulation.strings().iter().take(STRINGS).enumerate();
-        let strings = strings.map(|(index, string)| {
-            let profile = Profile::of(string);
+        let strings = simulation.strings().iter().take(STRINGS).map(|string| {
             let at_first = string.places().zip(string.state.displacement()).map(|(x, u)| (x, u, u));
-            Ok(StringRecord {
-                ground: Ground::under(scene, index)?,
-                profiles: vec![profile],
+            StringRecord {
+                ground: Ground::under(string, scene),
+                profiles: vec![Profile::of(string)],
                 reach: at_first.collect(),
-            })
+            }
         });
         let opened = simulation.ledgers().iter().map(|ledger| ledger.initial).sum();
-        Ok(SceneFigure {
+        SceneFigure {
             caption: describe(scene),
             samples,
             step: 1.0 / simulation.sample_rate(),
-            strings: strings.collect::<Result<_>>()?,
+            moments: 1,
+            strings: strings.collect(),
             string_count: simulation.strings().len(),
             energies: std::array::from_fn(|_| course()),
             explained: course(),
@@ -91,14 +89,17 @@ impl SceneFigure {
             iterations: course(),
             penetration: course(),
             contacts: 0,
-        })
+        }
     }
 
     /// Takes note of a step that has just been taken.
     pub fn look(&mut self, simulation: &Simulation, entry: &Entry) {
-        let due = self.strings.first().is_some_and(|string| {
-            simulation.steps() == string.profiles.len() as u64 * self.samples / (MOMENTS - 1)
-        });
+        let before = self.moments;
+        // (In a short run several moments are one sample.)
+        while self.moments < MOMENTS && simulation.steps() >= self.moments * self.samples / (MOMENTS - 1) {
+            self.moments += 1;
+        }
+        let due = self.moments > before;
         for (record, string) in self.strings.iter_mut().zip(simulation.strings()) {
             for (reach, u) in record.reach.iter_mut().zip(string.state.displacement()) {
                 reach.1 = reach.1.min(u);
@@ -175,7 +176,7 @@ impl SceneFigure {
         let mut panel = Panel::new(
             title,
             Axis::linear("place, m from the nut", -0.015 * length..1.015 * length),
-            Axis::linear("height, mm", low - margin..high + margin),
+            Axis::linear("height, mm", low - margin..high + margin).cut(),
         )
         .with(Layer::Ground(record.ground.clone()))
         .with(Layer::Band {
@@ -206,7 +207,7 @@ impl SceneFigure {
     fn draw_energies(&self) -> Panel {
         let largest = self.energies[0].largest().max(0.0);
         let (scale, unit) = unit_for(largest, "J");
-        let y = Axis::linear(format!("energy, {unit}"), 0.0..1.08 * scale * largest);
+        let y = Axis::linear(format!("energy, {unit}"), 0.0..1.08 * scale * largest).cut();
         let mut panel = Panel::new("Stored energy", self.time(), y);
         for (course, (name, stroke)) in self.energies.iter().zip(ENERGIES) {
             if course.largest() > 0.0 {
@@ -220,7 +221,7 @@ impl SceneFigure {
     fn draw_forces(&self) -> Panel {
         let largest = self.forces.iter().map(Course::largest).fold(0.0, f64::max);
         let (scale, unit) = unit_for(largest, "N");
-        let y = Axis::linear(format!("force, {unit}"), 0.0..1.08 * scale * largest);
+        let y = Axis::linear(format!("force, {unit}"), 0.0..1.08 * scale * largest).cut();
         let mut panel = Panel::new("Contact forces, sums", self.time(), y);
         for (course, (name, stroke)) in self.forces.iter().zip(FORCES) {
             if course.largest() > 0.0 {
@@ -233,7 +234,7 @@ impl SceneFigure {
     fn draw_iterations(&self) -> Panel {
         let mean = self.iterations.sum() / self.samples.max(1) as f64;
         let title = format!("Newton iterations, {mean:.2} a sample on average");
-        let y = Axis::linear("iterations", 0.0..1.08 * self.iterations.largest().max(1.0));
+        let y = Axis::linear("iterations", 0.0..1.08 * self.iterations.largest().max(1.0)).cut();
         let peaks = self.iterations.peaks(0.0, self.step, 1.0);
         Panel::new(title, self.time(), y).with(Layer::line("", Stroke::thin(colour::PURPLE), peaks))
     }
@@ -257,7 +258,7 @@ mod tests {
         let scene = Scene::from_toml(text).unwrap();
         let mut simulation = Simulation::new(&scene).unwrap();
         simulation.open_ledger();
-        let mut figure = SceneFigure::new(&scene, &simulation).unwrap();
+        let mut figure = SceneFigure::new(&scene, &simulation);
         while simulation.steps() < simulation.samples() {
             let entry = simulation.step().unwrap();
             figure.look(&simulation, &entry);
@@ -279,6 +280,29 @@ mod tests {
             assert!((stored.1 - explained.1).abs() < 1e-12 * stored.1, "{stored:?} {explained:?}");
         }
         assert!(figure.energies[0].smallest() < 0.99 * figure.energies[0].largest(), "nothing was lost");
+    }
+
+    #[test]
+    fn the_last_moment_of_a_short_run_is_shown_too() {
+        for (samples, shown) in [(1, 2), (4, 5), (7, 8), (8, 9), (9, 9)] {
+            let duration = f64::from(samples) / 44100.0;
+            let (figure, simulation) = watched(&SCENE.replace("0.02\n", &format!("{duration:e}\n")));
+            assert_eq!(simulation.samples(), samples as u64);
+            let profiles = &figure.strings[0].profiles;
+            assert_eq!(profiles.len(), shown, "{samples} samples");
+            assert_eq!(profiles[shown - 1], Profile::of(simulation.string(0)), "{samples} samples");
+        }
+    }
+
+    #[test]
+    fn energies_and_forces_of_any_size_can_be_read() {
+        for (height, energy) in
+            [("0.002", "energy, mJ"), ("2e-6", "energy, nJ"), ("2e-12", "energy, 10⁻²⁴ J")]
+        {
+            let (figure, _) = watched(&SCENE.replace("0.002", height));
+            let picture = figure.draw("scene").unwrap();
+            assert!(picture.contains(energy), "{energy} is not in the picture");
+        }
     }
 
     #[test]

@@ -36,7 +36,7 @@ impl Sheet {
     /// # Errors
     /// When the drawing library refuses a shape.
     pub fn draw(&self) -> Result<String> {
-        let caption = wrap(&self.caption, (f64::from(WIDTH as i32 - 2 * GAP) / CHARACTER) as usize);
+        let caption = wrap(&joined(&self.caption), (f64::from(WIDTH as i32 - 2 * GAP) / CHARACTER) as usize);
         let foot = (caption.len() as i32 * LINE + 60) as u32;
         let panels: u32 = self.rows.iter().map(|(height, _)| height + GAP as u32 / 2).sum();
         let mut picture = String::new();
@@ -62,6 +62,30 @@ impl Sheet {
         }
         Ok(picture)
     }
+}
+
+/// Units that stand behind a number.
+const UNITS: [&str; 18] = [
+    "m", "mm", "µm", "s", "ms", "Hz", "kHz", "N", "mN", "g", "mg", "g/m", "GPa", "J", "/s", "m²/s", "m/s",
+    "s/m",
+];
+
+/// The text with spaces that do not break between numbers and their units, and beside signs of equality.
+fn joined(text: &str) -> String {
+    let mut joined = String::new();
+    let mut before = "";
+    for word in text.split([' ', '\n']).filter(|word| !word.is_empty()) {
+        let is_number = before.ends_with(|c: char| c.is_numeric());
+        let is_unit = UNITS.contains(&word.trim_end_matches([',', '.', ';', ':', ')']));
+        // (A unit may be of two words.)
+        let belongs = is_unit && (is_number || UNITS.contains(&before)) || word == "=" || before == "=";
+        if !before.is_empty() {
+            joined.push(if belongs { '\u{a0}' } else { ' ' });
+        }
+        joined.push_str(word);
+        before = word;
+    }
+    joined
 }
 
 /// Breaks a text into lines of at most so many characters, but not at spaces that do not break.
@@ -91,6 +115,32 @@ mod tests {
         assert_eq!(wrap("one two  three", 7), ["one two", "three"]);
         assert_eq!(wrap("one K\u{a0}= 2", 5), ["one", "K\u{a0}= 2"]);
         assert!(wrap("", 7).is_empty());
+    }
+
+    #[test]
+    fn a_number_keeps_its_unit() {
+        for (text, expected) in [
+            ("E = 200 GPa, r = 0.43 mm.", "E_=_200_GPa, r_=_0.43_mm."),
+            ("σ₁ = 1.25·10⁻⁴ m²/s at 44.1 kHz", "σ₁_=_1.25·10⁻⁴_m²/s at 44.1_kHz"),
+            ("hand 0.3 N s/m, (10 s) 12 frets, as m is", "hand 0.3_N_s/m, (10_s) 12 frets, as m is"),
+        ] {
+            assert_eq!(joined(text).replace('\u{a0}', "_"), expected);
+        }
+    }
+
+    #[test]
+    fn a_line_that_leaves_its_panel_is_no_plateau() {
+        let line = |points| Layer::line("line", Stroke::new(colour::BLUE), points);
+        let drawn = |y: Axis, points| {
+            let panel = Panel::new("panel", Axis::linear("x, m", 0.0..1.0), y).with(line(points));
+            Sheet::new("title", "caption").row(900, vec![panel]).draw()
+        };
+        let y = || Axis::linear("y, J", 0.0..1.0);
+        assert!(drawn(y(), vec![(0.0, 0.0), (0.5, 1.0), (2.0, 7.0)]).is_ok());
+        let error = drawn(y(), vec![(0.0, 0.0), (0.5, 1.5)]).unwrap_err().to_string();
+        let all = ["\"line\"", "\"panel\"", "1.5", "0.0..1.0"].iter().all(|word| error.contains(word));
+        assert!(all && error.lines().count() == 1, "{error}");
+        assert!(drawn(y().cut(), vec![(0.0, 0.0), (0.5, 1.5)]).is_ok());
     }
 
     #[test]

@@ -135,7 +135,7 @@ impl Picture {
             Some(name) if !is_dash(&arguments.file) => shown(Path::new(name)),
             _ => "A scene".into(),
         };
-        let figure = SceneFigure::new(scene, simulation).with_context(|| scene_name(&arguments.file))?;
+        let figure = SceneFigure::new(scene, simulation);
         Ok(Picture { path: path.to_owned(), draft: Draft::begin(path)?, title, figure })
     }
 

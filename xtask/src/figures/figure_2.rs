@@ -8,7 +8,7 @@ use low_action_figures::{Axis, Ground, Layer, Panel, Profile, Sheet, Stroke};
 
 use super::Made;
 use super::page::{Claim, Section};
-use super::running::{Repository, listen, run, shortened};
+use super::running::{Repository, ground, listen, run, shortened};
 
 /// The scene.
 pub const SCENE: &str = "scenes/paper/figure_2.toml";
@@ -55,7 +55,7 @@ fn period(scene: &Scene) -> f64 {
 
 fn observe(scene: &Scene) -> Result<Outcome> {
     let (release, period) = (release(scene), period(scene));
-    let last_fret = Ground::under(scene, 0)?.crowns.last().map_or(scene.string[0].length, |crown| crown.0);
+    let last_fret = ground(scene)?.crowns.last().map_or(scene.string[0].length, |crown| crown.0);
     let mut outcome = Outcome {
         profiles: Vec::new(),
         lowest: 0.0,
@@ -98,7 +98,7 @@ pub fn make(repository: &Repository) -> Result<Made> {
     let scene = repository.scene(SCENE)?;
     let (weak, strong) = (observe(&plucked(&scene, 0.5))?, observe(&plucked(&scene, 1.0))?);
     ensure!(strong.profiles.len() == MOMENTS.len(), "the scene must last beyond the moments shown");
-    let ground = Ground::under(&scene, 0)?;
+    let ground = ground(&scene)?;
     let sound = |name, force| listen(name, &plucked(&scene, force));
     let sounds = vec![sound("paper_figure_2_weak", 0.5)?, sound("paper_figure_2_strong", 1.0)?];
     let section = section(&scene, &weak, &strong)?;
@@ -135,7 +135,7 @@ fn draw(scene: &Scene, ground: &Ground, weak: &Outcome, strong: &Outcome) -> Res
 }
 
 fn section(scene: &Scene, weak: &Outcome, strong: &Outcome) -> Result<Section> {
-    let crown = Ground::under(scene, 0)?.crowns.first().context("the scene needs frets")?.1;
+    let crown = ground(scene)?.crowns.first().context("the scene needs frets")?.1;
     // What the frets do to the profile: against the same pluck over no fretboard.
     let distortion = distortion(scene)?;
     // What stiffness alone does to the swings: no frets, losses or stretching.

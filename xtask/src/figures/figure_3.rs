@@ -37,6 +37,8 @@ struct Outcome {
     /// Deepest penetration in each step, and the bound that the energy sets, m.
     depth: Course,
     bound: Course,
+    /// The largest part of the bound in its own step that a penetration came to.
+    closest: f64,
     /// Newton iterations in steps with contact: sum, number of steps, most.
     iterations: (u64, u64, u32),
     /// What the law came to under this string: no steeper than the engine lets walls be.
@@ -67,22 +69,27 @@ fn observe(scene: &Scene, stiffness: f64, exponent: f64) -> Result<Outcome> {
     let scene = with_law(scene, stiffness, exponent)?;
     let samples = (scene.duration * scene.sample_rate).ceil() as u64;
     let (mut depth, mut bound) = (Course::new(samples, BINS), Course::new(samples, BINS));
-    let mut iterations = (0, 0, 0);
+    let (mut closest, mut iterations) = (0.0f64, (0, 0, 0));
     let walls = low_action_dsp::Simulation::new(&scene)?;
     let law = walls.string(0).model.contacts.first().context("there are frets")?.law;
     run(&scene, |simulation, entry| {
         let string = simulation.string(0);
-        depth.add(string.penetration());
+        let deepest = string.penetration();
+        depth.add(deepest);
         // Half of Φ at n + 1 is part of the energy at n + ½, so Kη^(α+1)/(α+1) ≤ 2𝔥.
         let energy = entry.energies.total().max(0.0);
-        bound.add(libm::pow(2.0 * (exponent + 1.0) * energy / stiffness, 1.0 / (exponent + 1.0)));
+        let most = libm::pow(2.0 * (exponent + 1.0) * energy / stiffness, 1.0 / (exponent + 1.0));
+        bound.add(most);
+        if deepest > 0.0 {
+            closest = closest.max(deepest / most);
+        }
         let convergence = &string.convergence;
         if convergence.active > 0 {
             let taken = convergence.iterations;
             iterations = (iterations.0 + u64::from(taken), iterations.1 + 1, iterations.2.max(taken));
         }
     })?;
-    Ok(Outcome { stiffness, depth, bound, iterations, law })
+    Ok(Outcome { stiffness, depth, bound, closest, iterations, law })
 }
 
 /// Draws it, and measures what the paper says about it.
@@ -136,7 +143,7 @@ fn draw(scene: &Scene, outcomes: &[Outcome]) -> Result<String> {
     .with(Layer::line("on average", Stroke::new(colour::GREEN), points(&Outcome::mean_iterations)))
     .with(Layer::dots("", Stroke::new(colour::GREEN), points(&Outcome::mean_iterations)));
     let caption = format!(
-        "{} The first {} ms, tolerance {} m. The energy bound on a penetration is (2(α+1)H/K)^(1/(α+1)), H the energy of all.",
+        "{} But K of the fretboard is as marked. The first {} ms, tolerance {} m. The energy bound on a penetration is (2(α+1)H/K)^(1/(α+1)), H the energy of all.",
         describe(scene),
         1e3 * DURATION,
         significant(scene.solver.tolerance, 3)
@@ -150,10 +157,7 @@ fn draw(scene: &Scene, outcomes: &[Outcome]) -> Result<String> {
 fn section(scene: &Scene, outcomes: &[Outcome]) -> Result<Section> {
     let said = outcomes.iter().find(|o| o.stiffness == 1e15).context("the paper's K is among those tried")?;
     let depths: Vec<_> = outcomes.iter().map(|outcome| outcome.depth.largest()).collect();
-    let below_bound = outcomes.iter().all(|o| {
-        let (depth, bound) = (o.depth.peaks(0.0, 1.0, 1.0), o.bound.largest());
-        depth.iter().all(|point| point.1 <= bound)
-    });
+    let closest = outcomes.iter().map(|outcome| outcome.closest).fold(0.0, f64::max);
     let (first, last) =
         (outcomes.first().context("there are some")?, outcomes.last().context("there are some")?);
     let claims = vec![
@@ -183,12 +187,13 @@ fn section(scene: &Scene, outcomes: &[Outcome]) -> Result<Section> {
             last.mean_iterations() > first.mean_iterations(),
         ),
         Claim::ours(
-            "No penetration exceeds the energy bound",
+            "No penetration exceeds the energy bound of its step",
             format!(
-                "at K = 10¹⁵ at most {} of it",
-                significant(said.depth.largest() / said.bound.largest(), 2)
+                "at K = 10¹⁵ at most {} of it, at any K at most {}",
+                significant(said.closest, 2),
+                significant(closest, 2)
             ),
-            below_bound,
+            closest <= 1.0,
         ),
         Claim::ours(
             "The paper’s 50 iterations are enough at every K shown",

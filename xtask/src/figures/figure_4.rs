@@ -5,11 +5,11 @@ use low_action_dsp::curve::Curve;
 use low_action_dsp::{Scene, Simulation, StringParameters};
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;
-use low_action_figures::{Axis, Ground, Layer, Panel, Profile, Sheet, Stroke};
+use low_action_figures::{Axis, Layer, Panel, Profile, Sheet, Stroke};
 
 use super::Made;
 use super::page::{Claim, Section};
-use super::running::{Repository, listen, run, shortened};
+use super::running::{Repository, ground, listen, run, shortened};
 
 const SCENE: &str = "scenes/paper/figure_4.toml";
 
@@ -34,6 +34,10 @@ pub struct Tap {
     /// Time pinned between finger and board, ms, and in how many pieces.
     pub pinned: f64,
     pub pins: usize,
+    /// Samples in which the finger touches the string, and those of them in which the string between the nut and the first
+    /// fret is lowest within a grid spacing of it.
+    touched: usize,
+    beside: usize,
     /// Largest force of the finger, N.
     pub hardest: f64,
     /// Velocity of the finger at the end, m/s, up is positive.
@@ -49,7 +53,9 @@ pub fn tap(scene: &Scene) -> Result<Tap> {
     let mut tap = Tap::default();
     let mut was_pinned = false;
     let step = 1.0 / scene.sample_rate;
-    let reading = Simulation::new(scene)?.string(0).model.grid.reading(scene.finger[0].position.at(0.0));
+    let place = scene.finger[0].position.at(0.0);
+    let reading = Simulation::new(scene)?.string(0).model.grid.reading(place);
+    let fret = ground(scene)?.crowns.first().context("there are frets")?.0;
     let simulation = run(scene, |simulation, entry| {
         let string = simulation.string(0);
         // State after the step, force in the step.
@@ -70,6 +76,11 @@ pub fn tap(scene: &Scene) -> Result<Tap> {
             let first = tap.touch.map_or(1e3 * time, |touch| touch.0);
             tap.touch = Some((first, 1e3 * time));
             tap.hardest = tap.hardest.max(finger.force);
+            let grid = &string.model.grid;
+            let points = string.places().zip(string.state.displacement()).take_while(|point| point.0 < fret);
+            let lowest = points.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0.0, |point| point.0);
+            tap.touched += 1;
+            tap.beside += usize::from((lowest - place).abs() < grid.spacing);
         }
         let spec = StringParameters::from_spec(&scene.string[0]);
         tap.stretch =
@@ -87,10 +98,18 @@ pub fn tap(scene: &Scene) -> Result<Tap> {
     Ok(tap)
 }
 
-/// Largest amplitude of a wave that alternates from point to point: a sixteenth of the fourth difference.
+/// Neighbours that must alternate to be a ripple: a sharp bend alone has three.
+const RIPPLES: usize = 8;
+
+/// Largest amplitude of a wave that alternates from point to point: the mean of a sixteenth of the fourth difference over
+/// neighbours that alternate in it.
 fn ripple(heights: &[f64]) -> f64 {
     let fourth = |u: &[f64]| u[0] - 4.0 * u[1] + 6.0 * u[2] - 4.0 * u[3] + u[4];
-    heights.windows(5).map(|window| fourth(window).abs() / 16.0).fold(0.0, f64::max)
+    let parts: Vec<_> = heights.windows(5).map(|window| fourth(window) / 16.0).collect();
+    let alternating =
+        parts.windows(RIPPLES).filter(|part| part.windows(2).all(|pair| pair[0] * pair[1] < 0.0));
+    let mean = |part: &[f64]| part.iter().map(|amplitude| amplitude.abs()).sum::<f64>() / RIPPLES as f64;
+    alternating.map(mean).fold(0.0, f64::max)
 }
 
 /// Draws it, and measures what the paper says about it.
@@ -103,7 +122,7 @@ pub fn make(repository: &Repository) -> Result<Made> {
 }
 
 fn draw(scene: &Scene, tap: &Tap) -> Result<String> {
-    let ground = Ground::under(scene, 0)?;
+    let ground = ground(scene)?;
     let mut profiles = Panel::new(
         "The string and the finger near the nut, from light to dark",
         Axis::linear("place, m from the nut", PLACES),
@@ -200,9 +219,12 @@ fn section(scene: &Scene, tap: &Tap) -> Result<Section> {
     Ok(Section::new("Figure 4: a finger tap")
         .text(&format!(
             "Scene: [`figure_4.toml`](../{SCENE}). The finger comes from {} mm above the string, {place} m from the nut: \
-             the paper says “from the end of the string”, and a fretting hand is at the nut. The string is lowest at the \
-             grid point beside the finger.",
+             the paper says “from the end of the string”, and a fretting hand is at the nut. While \
+             they touch, waves run along the string: between nut and first fret it is lowest within a grid spacing of the \
+             finger in {} samples of {}.",
             significant(1e3 * scene.finger[0].height, 3),
+            tap.beside,
+            tap.touched,
         ))
         .picture("Profiles of the string near the nut with the finger, heights over time, and forces over time")
         .claims(claims)
@@ -212,9 +234,23 @@ fn section(scene: &Scene, tap: &Tap) -> Result<Section> {
             "**A limit of the paper’s grid.** Its spacing is the smallest that is stable at the tension at rest, {tension} N, \
              and the tap stretches the string by up to {} N more. The energy stays bounded all the same, but the shortest \
              wave of the grid grows into a ripple from point to point, which can be seen in the figure and is given \
-             above. It is gone when the grid has room for the stretch, as that of every instrument here has \
+             above. Little of it is left when the grid has room for the stretch, as that of every instrument here has \
              ([physics.md](physics.md#5-three-stencils)): let `tension` be a course that rises after the scene is over. The \
              figures on this page keep to the paper.",
             significant(tap.stretch, 2)
         )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ripple;
+
+    #[test]
+    fn a_ripple_alternates_over_many_points() {
+        let wave = |n: usize| if n.is_multiple_of(2) { 1e-5 } else { -1e-5 };
+        let wavy: Vec<_> = (0..40).map(|n| 1e-3 * (0.1 * n as f64).sin() + wave(n)).collect();
+        assert!((ripple(&wavy) - 1e-5).abs() < 1e-7, "{}", ripple(&wavy));
+        let bent: Vec<_> = (0..40).map(|n| 1e-3 * (f64::from(n) - 20.0).abs()).collect();
+        assert_eq!(ripple(&bent), 0.0);
+    }
 }

@@ -114,7 +114,7 @@ pub fn make(repository: &Repository) -> Result<Made> {
 fn draw(scene: &Scene, minute: &Minute, finer: &Minute) -> Result<String> {
     let names = ["all of it", "from inexact contact forces", "from rounding"];
     let strokes = [Stroke::thin(colour::INK), Stroke::new(colour::VERMILION), Stroke::new(colour::BLUE)];
-    let extent = 1.2e13 * minute.largest().into_iter().fold(0.0, f64::max);
+    let extent = 1.2e13 * minute.largest().into_iter().chain(finer.largest()).fold(0.0, f64::max);
     let mut panel = Panel::new(
         "Variation of all energy H, (H − H₀)/H₀",
         Axis::linear("time, s", 0.0..MINUTE),

@@ -9,12 +9,15 @@ use low_action_figures::{Axis, Ground, Layer, Panel, Profile, Sheet, Stroke};
 use super::Made;
 use super::page::{Claim, Section};
 use super::pitch;
-use super::running::{Repository, listen, run, shortened};
+use super::running::{Repository, ground, listen, run, shortened};
 
 const SCENE: &str = "scenes/paper/figure_6.toml";
 
 /// Moments shown, s: before the slide, while it crosses the fret, after it.
 const MOMENTS: [f64; 6] = [0.48, 0.55, 0.575, 0.6, 0.65, 0.75];
+
+/// Time after the pluck from which on the pitch is shown, s: what is compared with itself before is not yet a note.
+const SETTLED: f64 = 0.1;
 
 /// Part of the string shown, m.
 const PLACES: std::ops::Range<f64> = 0.1..0.25;
@@ -67,7 +70,7 @@ pub fn make(repository: &Repository) -> Result<Made> {
     })?;
     let sound = listen("paper_figure_6", &scene)?;
     let pitches = pitch::course(&sound.samples, scene.sample_rate, 90.0..135.0);
-    let ground = Ground::under(&scene, 0)?;
+    let ground = ground(&scene)?;
     ensure!(ground.crowns.len() >= FRET, "the scene must have {FRET} frets");
     let picture = draw(&scene, &ground, &slide, &pitches)?;
     let section = section(&scene, &ground, &slide, &pitches)?;
@@ -89,7 +92,8 @@ fn draw(scene: &Scene, ground: &Ground, slide: &Slide, pitches: &[(f64, f64)]) -
             .with(Layer::dots("", Stroke::new(colour::GREEN).faded(strength), profile.fingers.clone()));
     }
     let during = Axis::linear("time, s", 0.4..0.9);
-    let sounding = Axis::linear("time, s", 0.2..scene.duration);
+    let pluck = scene.pluck.first().context("the scene needs a pluck")?;
+    let sounding = Axis::linear("time, s", pluck.start + SETTLED..scene.duration);
     let crown = ground.crowns[FRET - 1].0;
     let places = Panel::new("Where the finger is, and the lowest point of the string", during, {
         Axis::linear("place, m from the nut", 0.145..0.195).ticks(6)
@@ -98,7 +102,7 @@ fn draw(scene: &Scene, ground: &Ground, slide: &Slide, pitches: &[(f64, f64)]) -
     .with(Layer::line("lowest point", Stroke::thin(colour::BLUE), slide.lowest.clone()))
     .with(Layer::line("finger", Stroke::new(colour::GREEN), slide.finger.clone()));
     let pitch = Panel::new(
-        "Pitch, from the pluck on",
+        format!("Pitch, from {SETTLED} s after the pluck on"),
         sounding,
         Axis::linear("fundamental, Hz", 110.0..122.0).ticks(8),
     )

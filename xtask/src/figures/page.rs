@@ -206,6 +206,9 @@ is in [formats.md](formats.md), the derivation in [physics.md](physics.md), the 
 board and frets, the duration and direction of the pluck, or the finger's height, force and way. Those
 are chosen here, the same for all figures: board 1.8 mm and crowns 1.2 mm below the string at rest, 12
 frets in equal temperament. The scene files mark them as “ours”.
+
+**What is drawn in another way.** The paper’s Figures 3 and 5 are over the time step n, those here over
+milliseconds; and in Figure 5 the energies of collision and finger have other colours.
 ";
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use low_action_dsp::{Entry, Scene, Simulation};
+use low_action_figures::Ground;
 use xtask::repository::root;
 
 use super::sound::Sound;
@@ -35,6 +36,11 @@ impl Repository {
         let text = std::fs::read_to_string(&path).with_context(|| format!("reading {}", path.display()))?;
         Scene::from_toml(&text).with_context(|| format!("in {}", path.display()))
     }
+}
+
+/// What lies under the first string of a scene.
+pub fn ground(scene: &Scene) -> Result<Ground> {
+    Ok(Ground::under(Simulation::new(scene)?.string(0), scene))
 }
 
 /// Runs a scene with its ledger open, and shows every step that has been taken.

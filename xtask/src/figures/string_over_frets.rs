@@ -1,7 +1,6 @@
 //! A plucked string bouncing on frets and board, one panel per moment.
 
 use anyhow::{Context, Result};
-use low_action_dsp::model::ContactKind;
 use low_action_dsp::{Scene, Simulation};
 use low_action_figures::panel::Area;
 use low_action_figures::style::colour;
@@ -11,7 +10,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::Made;
-use super::running::{Repository, listen};
+use super::running::{Repository, ground, listen};
 
 /// Times of the panels after the string is let go, ms: one period of the open string and a little more.
 const MOMENTS: [f64; 8] = [0.0, 1.5, 3.0, 3.9, 4.6, 6.5, 9.5, 12.3];
@@ -62,8 +61,8 @@ struct Snapshot {
 /// Runs the scene and draws it.
 pub fn make(repository: &Repository) -> Result<Made> {
     let scene = repository.scene("docs/figures/string_over_frets.toml")?;
-    let ground = Ground::under(&scene, 0)?;
-    let snapshots = snapshots(&scene, &ground)?;
+    let ground = ground(&scene)?;
+    let snapshots = snapshots(&scene)?;
     let mut picture = String::new();
     draw(&mut picture, &scene, &ground, &snapshots)?;
     Ok(Made { picture, section: None, sounds: vec![listen("string_over_frets", &scene)?] })
@@ -90,7 +89,7 @@ fn draw(picture: &mut String, scene: &Scene, ground: &Ground, snapshots: &[Snaps
 }
 
 /// Steps the scene to each moment.
-fn snapshots(scene: &Scene, ground: &Ground) -> Result<Vec<Snapshot>> {
+fn snapshots(scene: &Scene) -> Result<Vec<Snapshot>> {
     let pluck = scene.pluck.first().context("the scene needs a pluck")?;
     let release = pluck.start + pluck.duration;
     let sample_at = |time: f64| (time * scene.sample_rate).round() as u64;
@@ -103,13 +102,13 @@ fn snapshots(scene: &Scene, ground: &Ground) -> Result<Vec<Snapshot>> {
             while simulation.steps() < sample_at(time) {
                 simulation.step();
                 if !trail.is_empty() {
-                    past_contacts.extend(contacts(ground, &simulation));
+                    past_contacts.extend(contacts(&simulation));
                 }
             }
             trail.insert(0, Profile::of(simulation.string(0)).string);
         }
         let string = trail.remove(0);
-        let contacts = contacts(ground, &simulation);
+        let contacts = contacts(&simulation);
         past_contacts.sort_by(|a, b| a.0.total_cmp(&b.0));
         past_contacts.dedup();
         past_contacts.retain(|past| !contacts.contains(past));
@@ -119,15 +118,12 @@ fn snapshots(scene: &Scene, ground: &Ground) -> Result<Vec<Snapshot>> {
 }
 
 /// Where board or frets push the string.
-fn contacts(ground: &Ground, simulation: &Simulation) -> Vec<(f64, f64)> {
+fn contacts(simulation: &Simulation) -> Vec<(f64, f64)> {
     let string = simulation.string(0);
     let pushing = string.scratch.forces().filter(|(_, force)| *force > 0.0);
     pushing
         .filter_map(|(index, _)| string.model.contacts.get(index))
-        .map(|contact| match contact.kind {
-            ContactKind::Board { node } => (string.model.grid.place(node), 1e3 * contact.height),
-            ContactKind::Fret { index } => ground.crowns[index],
-        })
+        .map(|contact| (contact.place, 1e3 * contact.height))
         .collect()
 }
 
