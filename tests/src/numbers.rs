@@ -1,4 +1,5 @@
-//! What many numbers come to: extremes, for limits that are to hold for all of them, and the mean size.
+//! What many numbers come to: extremes, for limits that are to hold for all of them, the mean size, and what it says of
+//! partials.
 
 /// The largest of some numbers. It is not a number as soon as one of them is none, or if there are none at all: then
 /// every comparison with a limit fails, where `f64::max` leaves out what is not a number.
@@ -20,4 +21,10 @@ pub fn largest_step(sound: &[f32]) -> f64 {
 /// The mean size of a sound: root mean square.
 pub fn rms(sound: &[f32]) -> f64 {
     (sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / sound.len() as f64).sqrt()
+}
+
+/// Size of a sound's differences beside the sound itself: grows with the share of high partials.
+pub fn brightness(sound: &[f32]) -> f64 {
+    let differences: Vec<f32> = sound.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    rms(&differences) / rms(sound)
 }

@@ -2,6 +2,7 @@
 
 use crate::host::{Action, Host, Score, parameter};
 use crate::pitch::{cents, frequency_near};
+use crate::stage::hertz;
 
 /// Hz.
 pub const RATE: f64 = 48_000.0;
@@ -41,6 +42,5 @@ pub fn stopped() -> Score {
 
 /// Pitch of a sound from 0.1 s on, as a MIDI note number within 60 cents of `near`.
 pub fn sounding_pitch(sound: &[f32], near: f64) -> f64 {
-    let frequency = |key: f64| 440.0 * ((key - 69.0) / 12.0).exp2();
-    near + 0.01 * cents(frequency_near(&sound[4800..], RATE, frequency(near)), frequency(near))
+    near + 0.01 * cents(frequency_near(&sound[4800..], RATE, hertz(near)), hertz(near))
 }

@@ -4,6 +4,7 @@
 use low_action_tests::host::{Action, Host, Score, parameter};
 use low_action_tests::numbers::{largest, rms};
 use low_action_tests::parameters::{LENGTH, RATE, score, sounding_pitch, stopped, with};
+use low_action_tests::stage::hertz;
 
 #[test]
 fn the_hands_act_as_they_are_told() {
@@ -94,7 +95,7 @@ fn key_heard(sound: &[f32]) -> u8 {
     assert!(rms(&sound[4800..]) > 1e-3, "nothing is heard");
     let sound: Vec<f64> = sound[4800..].iter().map(|&x| f64::from(x)).collect();
     let size = |key: u8| {
-        let frequency = 440.0 * ((f64::from(key) - 69.0) / 12.0).exp2() * std::f64::consts::TAU / RATE;
+        let frequency = hertz(f64::from(key)) * std::f64::consts::TAU / RATE;
         let sum = |wave: fn(f64) -> f64| -> f64 {
             sound.iter().enumerate().map(|(i, x)| x * wave(frequency * i as f64)).sum()
         };

@@ -5,8 +5,9 @@ use std::collections::HashSet;
 
 use clack_host::events::event_types::NoteExpressionType;
 use low_action_tests::host::{Action, Host, Score, parameter};
-use low_action_tests::numbers::{largest, rms, smallest};
+use low_action_tests::numbers::{brightness, largest, rms, smallest};
 use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::hertz;
 
 const RATE: f64 = 48_000.0;
 const LENGTH: usize = 36_000;
@@ -34,13 +35,7 @@ fn play(mut score: Score) -> Vec<f32> {
 
 /// How far the last half second is above a key, cents.
 fn above(sound: &[f32], key: f64) -> f64 {
-    let frequency = 440.0 * ((key - 69.0) / 12.0).exp2();
-    cents(frequency_near(&sound[LENGTH - 24_000..], RATE, frequency), frequency)
-}
-
-fn brightness(sound: &[f32]) -> f64 {
-    let differences: Vec<f32> = sound.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    rms(&differences) / rms(sound)
+    cents(frequency_near(&sound[LENGTH - 24_000..], RATE, hertz(key)), hertz(key))
 }
 
 #[test]

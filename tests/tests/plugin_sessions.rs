@@ -10,6 +10,7 @@ use clack_extensions::voice_info::PluginVoiceInfo;
 use low_action::engine::Engine;
 use low_action::params::LowActionParams;
 use low_action_tests::host::{Action, Host, Score, parameter};
+use low_action_tests::numbers::rms;
 use low_action_tests::session::{packed, unpacked};
 use nice_plug::prelude::Params;
 use serde_json::{Value, json};
@@ -256,7 +257,6 @@ fn everything_stops_with_the_transport() {
     score.push((10, Action::NoteOn { channel: 0, key: 45, velocity: 100 }));
     score.push((12_000, Action::Transport(false)));
     let [left, _] = Host::new().play(RATE, &score, 36_000, &[256]);
-    let rms = |span: &[f32]| (span.iter().map(|x| x * x).sum::<f32>() / span.len() as f32).sqrt();
     assert!(rms(&left[30_000..]) < 0.01 * rms(&left[8_000..12_000]));
 }
 

@@ -2,7 +2,7 @@
 
 use low_action_dsp::{EngineSettings, Gesture, Instrument, Quality, Setup, TimedGesture};
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{decibels, peak};
+use low_action_tests::stage::{decibels, hertz, peak};
 
 /// What is measured sounds: at least so loud, −60 dBFS. The gain is made so that a chord of six strings struck with 0.7 of the
 /// hardest force peaks at −12 to −3 dBFS (`level`); one string of it is 8 to 16 dB below that, one plucked with 0.2 of the
@@ -41,7 +41,7 @@ fn pitch_is_the_same_at_every_rate() {
             let (mut left, mut right) = (vec![0.0; count], vec![0.0; count]);
             instrument.process(&mut left, &mut right);
             assert!(left.iter().chain(&right).all(|sample| sample.is_finite()), "{rate} Hz");
-            let target = 440.0 * ((geometry.open_pitch + fret as f64 - 69.0) / 12.0).exp2();
+            let target = hertz(geometry.open_pitch + fret as f64);
             let measured = &left[(0.3 * rate) as usize..];
             let loud = peak(measured);
             assert!(loud > HEARD, "{rate} Hz, string {string}, fret {fret}: {} dBFS", decibels(loud));

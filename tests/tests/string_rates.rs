@@ -6,6 +6,7 @@ use low_action_dsp::{
     EngineSettings, Gesture, Instrument, Model, Quality, Ratio, Setup, StringParameters, TimedGesture,
 };
 use low_action_tests::clicks::{click, smallest_jump, with_jump};
+use low_action_tests::numbers::rms;
 use low_action_tests::stage::peak;
 
 const RATE: f64 = 48_000.0;
@@ -25,11 +26,6 @@ fn stems(settings: &EngineSettings, first: u64) -> Vec<Vec<f32>> {
     let mut parts: Vec<&mut [f32]> = stems.iter_mut().map(Vec::as_mut_slice).collect();
     instrument.process_stems(&mut parts, &mut left, &mut right);
     stems
-}
-
-fn rms(sound: impl Iterator<Item = f64> + Clone) -> f64 {
-    let count = sound.clone().count() as f64;
-    (sound.map(|value| value * value).sum::<f64>() / count).sqrt()
 }
 
 /// Rates and strings that cannot be are refused, and nobody looks for a grid for ever.
@@ -108,11 +104,11 @@ fn every_string_is_as_late_as_hosts_are_told() {
         let before = peak(&often[..start]);
         let peak = peak(often);
         assert!(before < 1e-4 * peak, "string {string}: {before:e} of {peak:e} too early");
-        // The first 10 ms are the same at both multiples, nearest at no shift.
+        // The first 10 ms are the same at both multiples but for the grids' own errors, nearest at no shift.
         let off = |shift: isize| {
-            let pairs = (start..start + 480)
-                .map(|n| f64::from(often[(n as isize + shift) as usize]) - f64::from(once[n]));
-            rms(pairs) / rms(once[start..start + 480].iter().map(|value| f64::from(*value)))
+            let apart = |n: usize| often[(n as isize + shift) as usize] - once[n];
+            let apart: Vec<f32> = (start..start + 480).map(apart).collect();
+            rms(&apart) / rms(&once[start..start + 480])
         };
         let errors = [-1, 0, 1].map(off);
         println!("string {string}: {errors:.3?}");
@@ -176,10 +172,9 @@ fn one_multiple_takes_over_from_another() {
         println!("{from} to {to}: a jump of {:.1e} of the peak is a click", jump / peak(&whole));
         assert!(click(&with_jump(&whole, 9600, jump), 9600).is_some(), "{from} to {to}: {jump:e}");
         // The sound of the other grid: the same for a while, then with its own errors, as loud.
-        let difference = found.iter().zip(&expected).map(|(a, b)| f64::from(a - b));
-        let size = |sound: &[f32]| rms(sound.iter().map(|value| f64::from(*value)));
-        let off = rms(difference.take(960)) / size(&expected[..960]);
-        let level = 20.0 * (size(&found[9600..]) / size(&expected[9600..])).log10();
+        let difference: Vec<f32> = found.iter().zip(&expected).map(|(a, b)| a - b).collect();
+        let off = rms(&difference[..960]) / rms(&expected[..960]);
+        let level = 20.0 * (rms(&found[9600..]) / rms(&expected[9600..])).log10();
         println!("{from} to {to}: {off:.3} off at first, {level:+.2} dB later");
         assert!(off < 0.25, "{from} to {to}: {off}");
         assert!(level.abs() < 3.0, "{from} to {to}: {level} dB");
