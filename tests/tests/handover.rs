@@ -257,6 +257,32 @@ fn another_instrument_begins_in_silence() {
     assert_eq!(instrument.take_before().expect("it has faded").string_count(), 6);
 }
 
+/// The sound goes on where no string is more than a quarter longer or heavier, whichever of the two comes first.
+#[test]
+fn strings_that_differ_by_more_than_a_quarter_are_other_strings() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let old = build(&setup);
+    let longer = |factor: f64| {
+        let mut setup = setup.clone();
+        setup.neck.scale_length *= factor;
+        build(&setup)
+    };
+    // One string alone is enough.
+    let heavier = |factor: f64| {
+        let mut setup = setup.clone();
+        setup.string[3].linear_density *= factor;
+        build(&setup)
+    };
+    // (What makes up for a fretted string's stretch makes lengths differ by a few parts in a thousand less.)
+    for (factor, goes_on) in [(1.0 / 1.26, false), (1.0 / 1.24, true), (1.24, true), (1.26, false)] {
+        for other in [longer(factor), heavier(factor)] {
+            assert_eq!(old.continues_in(&other), goes_on, "{factor}");
+            assert_eq!(other.continues_in(&old), goes_on, "from {factor}");
+        }
+    }
+    assert!(!old.continues_in(&build(&Setup::builtin("bass").expect("it is built in"))));
+}
+
 #[test]
 #[cfg_attr(not(debug_assertions), ignore = "in a release build nobody keeps watch over allocations")]
 fn the_watch_over_allocations_is_kept() {

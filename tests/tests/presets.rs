@@ -5,9 +5,9 @@
 use low_action::engine::{Engine, EngineOptions};
 use low_action::performance::{InputMode, PlayerEvent};
 use low_action_dsp::Setup;
-use low_action_tests::numbers::rms;
+use low_action_tests::numbers::{brightness, rms};
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{decibels, peak};
+use low_action_tests::stage::{decibels, hertz, peak};
 
 const RATE: f64 = 48_000.0;
 
@@ -35,12 +35,6 @@ fn play(setup: &Setup, notes: &[(u8, u8)], seconds: f64) -> Vec<f32> {
 
 fn open_keys(setup: &Setup) -> Vec<(u8, u8)> {
     (0..).zip(&setup.string).map(|(string, spec)| (string, spec.pitch.round() as u8)).collect()
-}
-
-/// Size of the sound's differences beside the sound itself: grows with the share of high partials.
-fn brightness(sound: &[f32]) -> f64 {
-    let differences: Vec<f32> = sound.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    rms(&differences) / rms(sound)
 }
 
 /// Brightness of the first tenth of a second of the lowest open string.
@@ -75,6 +69,35 @@ fn low_strings_rattle() {
     assert!(attack("flatwound-jazz") < 0.75 * attack("electric"));
 }
 
+/// Open strings sound at the pitches that descriptions name: high and low B of the baritone, D of the lowest string, a low B
+/// below the bass, and a G above the C and E of the ukulele.
+#[test]
+fn strings_are_tuned_as_descriptions_say() {
+    for (name, string, key) in [
+        ("baritone", 0, 59),
+        ("baritone", 5, 35),
+        ("drop-d", 5, 38),
+        ("five-string-bass", 4, 23),
+        ("ukulele", 0, 69),
+        ("ukulele", 3, 67),
+    ] {
+        let expected = hertz(f64::from(key));
+        let off = cents(frequency_near(&note(&shipped(name), string, key)[9600..], RATE, expected), expected);
+        println!("{name}, string {string}: {off:.1} cents");
+        assert!(off.abs() < 8.0, "{name}, string {string}: {off} cents");
+    }
+    assert!((shipped("baritone").neck.scale_length - 0.6858).abs() < 1e-9, "27 in");
+    assert_eq!(shipped("five-string-bass").string[..4], shipped("bass").string[..]);
+    assert_eq!(shipped("drop-d").string[..5], shipped("electric").string[..5]);
+}
+
+/// Lower and struck harder nearer to the bridge than its parent, or heard there.
+#[test]
+fn the_flamenco_rattles_and_drop_d_bites() {
+    assert!(attack("flamenco") > 1.5 * attack("classical"));
+    assert!(attack("drop-d") > 1.25 * attack("electric"));
+}
+
 #[test]
 fn only_the_worn_fret_buzzes() {
     let worn = shipped("worn-fret");
@@ -91,7 +114,7 @@ fn a_fretless_neck_is_in_tune_and_has_no_frets() {
     let setup = shipped("fretless-bass");
     for (string, fret) in [(3, 3_u8), (3, 7), (2, 4), (1, 9), (0, 12)] {
         let open = setup.string[usize::from(string)].pitch as u8;
-        let expected = 440.0 * ((f64::from(open + fret) - 69.0) / 12.0).exp2();
+        let expected = hertz(f64::from(open + fret));
         let sound = note(&setup, string, open + fret);
         let off = cents(frequency_near(&sound[9600..], RATE, expected), expected);
         assert!(off.abs() < 8.0, "string {string}, semitone {fret}: {off} cents");
@@ -110,7 +133,7 @@ fn light_fingers_choke_what_they_stop() {
 fn a_guitar_nobody_set_up_is_sharp_up_the_neck() {
     let setup = shipped("school-guitar");
     for fret in [3_u8, 7, 12] {
-        let expected = 440.0 * ((f64::from(55 + fret) - 69.0) / 12.0).exp2();
+        let expected = hertz(f64::from(55 + fret));
         let off = cents(frequency_near(&note(&setup, 2, 55 + fret)[9600..], RATE, expected), expected);
         assert!((5.0..60.0).contains(&off), "fret {fret}: {off} cents");
     }
