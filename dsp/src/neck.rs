@@ -111,7 +111,8 @@ impl Neck {
     /// Height of a crown at `place` (m from the nut) over the string at rest, m: negative.
     ///
     /// The crowns lie on a straight line less a parabola that vanishes at fret 1 and the last fret; the
-    /// line is set so that fret 1 has the nut clearance and fret 12 the action. Where it would come nearer to the string than
+    /// line is set so that fret 1 has the nut clearance and fret 12 the action. (A neck that ends before fret 12 has no parabola
+    /// beyond its frets, where one over so few of them would be steep.) Where it would come nearer to the string than
     /// 1e-5 m, beside the nut or where compensation moved the last fret to, it is cut off there.
     pub fn crown_height(&self, place: f64) -> f64 {
         self.bowed_height(place, self.relief).min(-LEAST_CLEARANCE)
@@ -123,7 +124,8 @@ impl Neck {
         let last = self.equal_place(self.frets as f64);
         let dip = |x: f64| {
             let span = last - first;
-            if span <= 0.0 { 0.0 } else { relief * 4.0 * (x - first) * (last - x) / (span * span) }
+            let dip = if span <= 0.0 { 0.0 } else { relief * 4.0 * (x - first) * (last - x) / (span * span) };
+            if self.frets < 12 { dip.max(0.0) } else { dip }
         };
         let slope = (self.action - dip(twelfth) - self.nut_clearance) / (twelfth - first);
         -(self.nut_clearance + slope * (place - first) + dip(place))
@@ -169,5 +171,30 @@ impl Neck {
             placement: FretPlacement::Kinked,
             board_reference_spacing: Some(self.board_reference_spacing),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Neck;
+
+    /// Crowns lie under the line through frets 1 and 12 by no more than the relief, and the board follows them.
+    #[test]
+    fn no_crown_lies_lower_than_relief_explains() {
+        let neck = crate::Setup::builtin("electric").expect("it is built in").neck;
+        for frets in 1..=36 {
+            let neck = Neck { frets, relief: 3e-4, ..neck.clone() };
+            let straight = Neck { relief: 0.0, ..neck.clone() };
+            assert!(neck.most_relief() >= 3e-4, "{frets} frets");
+            let end = neck.board_end();
+            for place in
+                neck.equal_places().into_iter().chain((0..=100).map(|part| end * part as f64 / 100.0))
+            {
+                let dip = straight.crown_height(place) - neck.crown_height(place);
+                // At 12 frets or more the parabola goes on beyond them, and the line rises with it.
+                let range = if frets < 12 { 0.0 } else { f64::NEG_INFINITY }..=3e-4 * (1.0 + 1e-9);
+                assert!(range.contains(&dip), "{frets} frets, {place} m: {dip:e} m");
+            }
+        }
     }
 }
