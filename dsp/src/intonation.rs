@@ -14,7 +14,7 @@ mod equilibrium;
 mod mode;
 
 use crate::curve::Curve;
-use crate::error::{Error, plain, within};
+use crate::error::{Error, plain};
 use crate::grid::Reading;
 use crate::model::{Model, StringParameters};
 use crate::neck::Neck;
@@ -95,6 +95,28 @@ pub(crate) fn flexible(setup: &Setup, string: &SetupString) -> StringParameters 
     }
 }
 
+/// What the tension of a string may be, N: as in scenes.
+const TENSION: [f64; 2] = [1e-3, 1e6];
+
+/// Refuses a string that its pitch takes too much or too little tension, by the number that set-ups have for it: at one pitch
+/// tension grows as the density.
+fn bearable(string: &SetupString, tension: f64) -> Result<(), Error> {
+    let density = string.linear_density;
+    let [least, most] = TENSION.map(|limit| density * (limit / tension));
+    if (least..=most).contains(&density) {
+        return Ok(());
+    }
+    let accepted = format!(
+        "at this pitch and neck.scale_length it must lie between {:.2e} and {:.2e} kg/m, for a tension of {} to {} N",
+        // Half a percent is as much as three digits can be off by.
+        1.005 * least,
+        0.995 * most,
+        plain(TENSION[0]),
+        plain(TENSION[1]),
+    );
+    Err(Error::range("linear_density", plain(density), accepted))
+}
+
 impl Bench<'_> {
     fn model(&self, string: &StringParameters, frets: &[f64]) -> Result<Model, Error> {
         let barrier = self.setup.barrier(frets)?;
@@ -113,8 +135,7 @@ impl Bench<'_> {
             tension /= off * off;
             tuned = StringParameters { tension, tension_limit: tension * ratio, ..tuned };
             if (off - 1.0).abs() < PITCH_TOLERANCE {
-                within("tension", tension, 1e-3, 1e6, "N")?;
-                return Ok(tuned);
+                return bearable(string, tension).map(|()| tuned);
             }
         }
         // However slack it is, it is too stiff to sound as low as that.

@@ -269,6 +269,23 @@ fn a_string_too_stiff_for_its_pitch_is_refused() {
     assert!(!error.contains('\n') && error.contains("core_radius"), "{error}");
 }
 
+/// What its pitch takes too much tension for is named by the number that can be changed in the file, with limits that can
+/// be written there.
+#[test]
+fn a_string_too_heavy_for_its_pitch_is_refused() {
+    let with = |density: &str| {
+        let text = changed("pitch = 64.0", "pitch = 57.0");
+        let text = text.replacen("linear_density = 3.956e-4", &format!("linear_density = {density}"), 1);
+        let setup = Setup::from_toml(&text.replacen("\"compensated\"", "\"physical\"", 1)).unwrap();
+        Instrument::new(&setup, &Quality::Live.settings(RATE)).map(drop)
+    };
+    let error = with("13").unwrap_err().to_string();
+    assert!(error.starts_with("string[1].linear_density = 13 is refused: "), "{error}");
+    let limit = error.rsplit(" and ").next().unwrap().split(' ').next().unwrap();
+    assert!(limit.parse::<f64>().unwrap() > 10.0, "{error}");
+    assert_eq!(with(limit), Ok(()));
+}
+
 /// Whatever the relief and wherever compensation moves the frets: board and crowns begin below the strings at rest.
 #[test]
 fn nothing_stands_above_the_strings() {
