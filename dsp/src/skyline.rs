@@ -108,8 +108,9 @@ fn beside_group(clearances: &[Clearance], lane: usize, group: usize) -> f64 {
 /// The unknown nodes beside a contact, and whether it must always be looked at: there the string goes on to
 /// an end, which is no unknown.
 fn beside(contact: &Contact, grid: &Grid) -> (Range<usize>, bool) {
-    let (start, end) = contact.reading.span();
-    if end - start == 1 {
+    // (Within the first or last spacing a straight reading has one weight, too, and the end of the string for the other.)
+    if contact.reading.weights.contains(&1.0) {
+        let (start, end) = contact.reading.span();
         return (start..end, false);
     }
     let cell = ((contact.place / grid.spacing) as usize).min(grid.intervals - 1);
@@ -143,13 +144,18 @@ mod tests {
         (*state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// Contacts anywhere, on grid points and within the first and last spacing too, in order of place.
+    /// Contacts anywhere, on grid points and within the first and last spacing too, read by curves and by straight lines, in
+    /// order of place.
     fn contacts(grid: &Grid, seed: &mut u64) -> Vec<Contact> {
         let mut contacts: Vec<_> = (0..30)
             .map(|index| {
                 let place = 0.5 * (1.0 + random(seed));
                 let node = ((place * grid.intervals as f64) as usize).clamp(1, grid.intervals - 1);
-                let reading = if index % 3 == 0 { Reading::at_node(grid, node) } else { grid.reading(place) };
+                let reading = match index % 3 {
+                    0 => Reading::at_node(grid, node),
+                    1 => grid.reading(place),
+                    _ => grid.straight_reading(place),
+                };
                 let law = ContactLaw::known(1e10, 1.5);
                 let kind = ContactKind::Fret { index };
                 Contact {
