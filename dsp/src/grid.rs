@@ -1,5 +1,7 @@
 //! The grid of one string, and how a point between grid points is read and driven.
 
+use std::cmp::Ordering;
+
 use crate::error::{Error, plain};
 use crate::field::{BEFORE, Field, cell};
 
@@ -148,9 +150,15 @@ impl Reading {
     }
 
     /// The place read, in nodes from the nut (exact away from the ends of the string).
-    pub(crate) fn centre(&self) -> f64 {
+    fn centre(&self) -> f64 {
         let w = &self.weights;
         self.first as f64 + (w[1] + 2.0 * w[2] + 3.0 * w[3])
+    }
+
+    /// The order in which many contacts are solved: by place, but for those within the last spacing of the string, whose
+    /// weights lack the fixed end.
+    pub(crate) fn order(&self, other: &Reading) -> Ordering {
+        self.centre().total_cmp(&other.centre())
     }
 
     /// Whether the other reads the same nodes alike.

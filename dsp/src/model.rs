@@ -10,7 +10,8 @@ use crate::contact::ContactLaw;
 use crate::error::{Error, plain};
 use crate::finger::Inertia;
 use crate::flexibility::Flexibility;
-use crate::grid::Grid;
+use crate::gesture::Touch;
+use crate::grid::{Grid, Reading};
 use crate::scene::{FretPlacement, SolverSettings, Stencil};
 use crate::skyline::Blocks;
 pub use barrier::Barrier;
@@ -158,9 +159,12 @@ impl Model {
         Stiffness::new(self.settings.stencil, self.string.linear_density, tension, kappa, &self.grid)
     }
 
-    /// The grid points that each fixed contact touches, from the first to the one after the last.
+    /// The grid points that each fixed contact touches, from the first to the one after the last, in the order in which many
+    /// are solved.
     pub(crate) fn spans(&self) -> Vec<(usize, usize)> {
-        self.contacts.iter().map(|contact| contact.reading.span()).collect()
+        let mut readings: Vec<_> = self.contacts.iter().map(|contact| contact.reading).collect();
+        readings.sort_by(Reading::order);
+        readings.iter().map(Reading::span).collect()
     }
 
     /// The tension, N, beyond which the shortest wave of the grid ripples, what stretching adds included, while the string's

@@ -80,13 +80,11 @@ pub(super) fn springs_of_any(
     x.iter_mut().zip(&*roots).for_each(|(x, root)| *x *= root);
     let storage = VecStorage::new(Dyn(n), Dyn(n), data);
     let matrix = OMatrix::<f64, Dyn, Dyn>::from_data(storage);
-    match Cholesky::new(matrix) {
-        Some(factor) => {
-            factor.solve_mut(&mut DVectorViewMut::from_slice(x, n));
-            *room = factor.unpack_dirty().data.into();
-        }
-        // Overflow only; the caller's energy test then falls back on a stiffer secant.
-        None => *room = Vec::new(),
+    // No pivot is less than 1. Where the slopes are so steep that rounding has left nothing of one, it is taken for that: the
+    // forces are poor then, which the caller's energy test sees, and the memory is not lost.
+    if let Some(factor) = Cholesky::new_with_substitute(matrix, 1.0) {
+        factor.solve_mut(&mut DVectorViewMut::from_slice(x, n));
+        *room = factor.unpack_dirty().data.into();
     }
     x.iter_mut().zip(&*roots).for_each(|(x, root)| *x *= root);
 }

@@ -18,6 +18,10 @@ const NEUTRAL: f64 = 1e-3;
 /// Attempts in which a secant that pulls may be eased.
 const EASINGS: u32 = 6;
 
+/// No secant grows steeper than this over the contact's mobility, a million times as steep as any law: beyond it doubles lose
+/// how far the contacts yield, which is what the energy is told from.
+const STEEPEST_SECANT: f64 = 1e14;
+
 /// Whether forces that should only push are bounded by what they do together. Between the same grid points
 /// barriers may push against each other by any amount that the string does not feel, but then some pull: where
 /// the pulls are less than half of the pushes no force is more than twice the net push.
@@ -94,13 +98,14 @@ fn fall_back(
             let secant = (row.lambda - (row.base + room.start[i])) / row.change;
             let pulls = row.base + room.forces[i] < 0.0;
             let present = room.residual[i];
-            room.residual[i] = if !secant.is_finite() {
+            let next = if !secant.is_finite() {
                 present
             } else if attempt < EASINGS {
                 if pulls { secant.max(0.0) } else { present.max(secant) }
             } else {
                 2.0 * present.max(secant)
             };
+            room.residual[i] = next.min(STEEPEST_SECANT / (row.mobility + row.own_mobility));
         }
     }
     room.forces.copy_from_slice(room.step);

@@ -46,7 +46,7 @@ impl WithSimd for Many<'_> {
     }
 }
 
-/// Puts contacts in order of place, where the response of many wants them.
+/// Puts contacts in the order in which the response of many has room for them.
 fn in_order(rows: &mut [Active]) {
-    rows.sort_unstable_by(|a, b| a.reading.centre().total_cmp(&b.reading.centre()).then(a.slot.cmp(&b.slot)));
+    rows.sort_unstable_by(|a, b| a.reading.order(&b.reading).then(a.slot.cmp(&b.slot)));
 }

@@ -1,0 +1,135 @@
+//! What the answer of the contacts must be, whatever they are.
+
+use super::*;
+use crate::grid::{Grid, Reading};
+
+struct Point(Reading);
+
+impl Row for Point {
+    fn span(&self) -> (usize, usize) {
+        self.0.span()
+    }
+    fn coupling(&self, other: &Self) -> f64 {
+        self.0.overlap(&other.0)
+    }
+    fn own_mobility(&self) -> f64 {
+        0.0
+    }
+    fn pull(&self) -> f64 {
+        1.0
+    }
+}
+
+/// Numbers from 0 to 1 that look random (the constants of Knuth's MMIX generator).
+fn random(state: &mut u64) -> f64 {
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// Points of a board that ends somewhere, of frets (every other one kinked, and some in the last spacing) and of fingers, all in
+/// order.
+fn points(grid: &Grid, fingers: usize, state: &mut u64) -> (Vec<Reading>, Vec<Reading>) {
+    let board = (random(state) * grid.intervals as f64) as usize;
+    let crowd = random(state);
+    let places = (0..(random(state) * 20.0) as usize).map(|_| 0.01 + 0.98 * random(state) * crowd);
+    let mut fixed: Vec<_> = places.map(|place| grid.reading(place)).collect();
+    fixed.extend(
+        (0..(random(state) * 4.0) as usize)
+            .map(|_| grid.straight_reading(1.0 - random(state) * grid.spacing)),
+    );
+    fixed.extend((1..=board.min(grid.intervals - 1)).map(|node| Reading::at_node(grid, node)));
+    let mut all = fixed.clone();
+    all.extend((0..fingers).map(|_| grid.reading(0.01 + 0.98 * random(state) * crowd)));
+    for readings in [&mut fixed, &mut all] {
+        readings.sort_by(Reading::order);
+    }
+    (fixed, all)
+}
+
+/// x/D + M x = g for any few contacts, two of which share a point; and, where each has its own, for secants that have
+/// been doubled some fifty times.
+#[test]
+fn springs_answer_what_they_are_asked() {
+    fn check<const N: usize>(slope: f64, apart: bool, state: &mut u64) {
+        let grid = Grid::new(1.0, 40, 1e-5);
+        let mut points = [0.0; N];
+        for (i, point) in points.iter_mut().enumerate() {
+            *point = 0.1 + if apart { 0.08 * i as f64 } else { 0.1 * random(state) };
+        }
+        if !apart {
+            points[N - 1] = points[0];
+        }
+        let points = points.map(|place| Point(grid.reading(place)));
+        let mut few = Few::gather(&points, 0.0);
+        let slopes = [(); N].map(|()| slope * random(state));
+        let asked = [(); N].map(|()| random(state) - 0.5);
+        let (mut forces, mut moved) = (asked, [0.0; N]);
+        few.springs(&slopes, &mut forces);
+        few.product(&forces, &mut moved);
+        let largest = forces.iter().fold(1.0f64, |most, force| most.max(force.abs()));
+        for i in 0..N {
+            let off = forces[i] / slopes[i] + moved[i] - asked[i];
+            // NaN is refused too.
+            assert!(off.abs() < 1e-13 * largest, "{N} springs of {slope:e}: {off:e} of {largest}");
+        }
+    }
+    let mut state = 1;
+    for _ in 0..100 {
+        for (slope, apart) in [(1e-3, false), (1.0, false), (1e4, false), (1e8, false), (1e24, true)] {
+            check::<1>(slope, apart, &mut state);
+            check::<2>(slope, apart, &mut state);
+            check::<3>(slope, apart, &mut state);
+            check::<4>(slope, apart, &mut state);
+            check::<5>(slope, apart, &mut state);
+            check::<6>(slope, apart, &mut state);
+            check::<7>(slope, apart, &mut state);
+            check::<8>(slope, apart, &mut state);
+            check::<9>(slope, apart, &mut state);
+            check::<10>(slope, apart, &mut state);
+        }
+    }
+}
+
+#[test]
+fn room_is_enough_and_blocks_share_nothing() {
+    let mut state = 1;
+    for run in 0..3000 {
+        let grid = Grid::new(1.0, 4 + run % 60, 1e-5);
+        let fingers = run % 5;
+        let (fixed, all) = points(&grid, fingers, &mut state);
+        let spans: Vec<_> = fixed.iter().map(Reading::span).collect();
+        let mut response = Response::with_capacity(&spans, fingers);
+        let room = (response.entries.capacity(), response.matrix.capacity());
+        let kept: Vec<_> =
+            all.iter().filter(|_| random(&mut state) < 0.9).map(|&reading| Point(reading)).collect();
+        response.gather(&kept, 1.0);
+        assert_eq!(response.entries.capacity(), room.0);
+        let block_of = |row: usize| response.blocks.iter().find(|block| row < block.start + block.len);
+        for (i, point) in kept.iter().enumerate() {
+            let block = block_of(i).expect("every contact is in a block");
+            assert!(block.len * block.len <= room.1);
+            for (j, other) in kept.iter().enumerate() {
+                let apart = j < block.start || j >= block.start + block.len;
+                assert!(!apart || point.coupling(other) == 0.0, "{i} and {j} of run {run}");
+            }
+        }
+    }
+}
+
+/// Springs so steep that doubles do not tell 1 + D M from D M, where M is singular: what is found is poor, but no memory is
+/// lost.
+#[test]
+fn room_is_kept_whatever_the_slopes() {
+    let grid = Grid::new(1.0, 10, 1e-5);
+    let readings: Vec<_> = (0..12).map(|i| grid.reading(0.51 + 0.005 * f64::from(i))).collect();
+    let spans: Vec<_> = readings.iter().map(Reading::span).collect();
+    let points: Vec<_> = readings.into_iter().map(Point).collect();
+    let mut response = Response::with_capacity(&spans, 0);
+    let room = response.matrix.capacity();
+    response.gather(&points, 0.0);
+    for slope in [1.0, 1e8, 1e15, 1e17, 1e30, 1e300] {
+        let mut forces = [1.0; 12];
+        response.springs(&[slope; 12], &mut forces);
+        assert_eq!(response.matrix.capacity(), room, "slopes of {slope:e}");
+    }
+}
