@@ -6,6 +6,7 @@ use crate::drive::Hand;
 use crate::field::Field;
 use crate::gesture::Touch;
 use crate::grid::Reading;
+use crate::kernel::STILL;
 use crate::model::Model;
 
 /// A finger near the string.
@@ -73,6 +74,8 @@ impl Finger {
             self.reading = model.grid.reading(hand.position);
             here = under(&self.reading);
         }
+        // What a hand brakes would move by ever smaller numbers otherwise.
+        let free = if free.abs() < STILL { 0.0 } else { free };
         self.motion = free;
         self.height = height + free;
         let slid = if self.reading.same_place(&reading_before) { 0.0 } else { here.before() - past.before() };

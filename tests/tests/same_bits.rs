@@ -150,3 +150,24 @@ fn no_subnormal_numbers() {
     }
     assert!(moved, "nothing moves");
 }
+
+/// Nor is there one in a finger that its hand brakes in the air.
+#[test]
+fn a_finger_comes_to_rest() {
+    let mut setup = Setup::builtin("electric").expect("it is built in");
+    setup.string.truncate(1);
+    let mut instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).expect("it can be built");
+    let touch = setup.player.fretting.touch;
+    let gesture = Gesture::Throw { finger: 0, touch, position: 0.2, clearance: 1.0, speed: 1.0 };
+    instrument.schedule(TimedGesture { time: 0, string: 0, gesture }).expect("there is room");
+    let motion = |instrument: &Instrument| instrument.state(0).fingers()[0].expect("it is there").motion;
+    let (mut sample, mut other) = ([0.0], [0.0]);
+    instrument.process(&mut sample, &mut other);
+    assert!(motion(&instrument) < 0.0, "it does not move");
+    for _ in 0..2 * SAMPLES {
+        instrument.process(&mut sample, &mut other);
+        let motion = motion(&instrument);
+        assert!(motion == 0.0 || motion.is_normal(), "{motion:e} m");
+    }
+    assert_eq!(motion(&instrument), 0.0);
+}

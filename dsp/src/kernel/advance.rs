@@ -8,7 +8,7 @@ use crate::field::{Field, LANES};
 /// Motion below this, m, is none: what runs ahead of a wave on a silent string would otherwise become a
 /// subnormal number, slow on most machines and flushed to zero on some, and the bits would depend on the
 /// host. The square of such a motion's last digit is still a normal number.
-const STILL: f64 = 1e-120;
+pub(crate) const STILL: f64 = 1e-120;
 
 /// What the last pass goes from, and where it writes.
 pub(crate) struct Advance<'a> {
