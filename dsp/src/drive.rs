@@ -28,18 +28,20 @@ pub struct Hand {
 /// Everything that acts on one string in step n, which leads from n to n + 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drive {
-    /// Tension at n, N.
+    /// Tension at n, N, above 0 and no more than the model's `tension_limit`: beyond it the scheme is not stable.
     pub tension: f64,
     /// Forces on points of the string.
     pub pushes: Roomy<Push>,
-    /// What the hand does to the finger in each slot; ignored where there is no finger.
+    /// What the hand does to the finger in each slot; ignored where there is no finger. A finger goes where its hand is in a
+    /// single step.
     pub hands: Vec<Hand>,
     /// Heights of the fixed contacts at n + 1, m, in the model's order; empty while they rest.
     pub heights: Roomy<f64>,
 }
 
 impl Drive {
-    /// Nothing acts; room for [`PUSHES`] pushes and for moving every contact.
+    /// Nothing acts; room for [`PUSHES`] pushes and for moving every contact. Hands are at the nut, without force: whoever places a
+    /// finger puts its hand over the same place.
     pub fn new(model: &Model) -> Drive {
         Drive {
             tension: model.string.tension,

@@ -38,7 +38,8 @@ pub struct StringGeometry {
 }
 
 impl StringGeometry {
-    /// Where a finger presses to stop a fret (1 for the first), m from the nut.
+    /// Where a finger presses to stop a fret (1 for the first), m from the nut: one beyond the last as the last. The open string's,
+    /// and any where there are no frets, is the nut itself, 0.
     pub fn finger_position(&self, fret: usize) -> f64 {
         match fret.min(self.frets.len()).checked_sub(1) {
             Some(index) => finger_place(&self.frets, index, self.behind),

@@ -13,7 +13,10 @@ impl State {
     /// sample before, it would be released half a sample too early, and all that follows would be off by as much. A step
     /// d⁺ = decay·d + q from d = 0 shows q, and d⁺ + d = 0 makes d = −q/(1 + decay), but for the part of it that `loss_1` damps in that step; likewise for a finger that comes at a
     /// velocity. Allocates.
-    pub(crate) fn let_go(&mut self, model: &Model, drive: &Drive) {
+    ///
+    /// # Panics
+    /// As [`State::step`].
+    pub fn let_go(&mut self, model: &Model, drive: &Drive) {
         let mut after = self.clone();
         after.step(model, drive, &mut Scratch::new(model));
         for node in 1..model.grid.intervals {

@@ -121,6 +121,9 @@ impl Simulation {
     }
 
     /// One string, 0 for the first.
+    ///
+    /// # Panics
+    /// When there is no such string.
     pub fn string(&self, index: usize) -> &SceneString {
         &self.strings[index]
     }

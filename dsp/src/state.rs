@@ -116,7 +116,8 @@ impl State {
         self.energy_scale = 0.0;
     }
 
-    /// Gives the string a displacement over places (m over m from the nut), at rest.
+    /// Gives the string a displacement over places (m over m from the nut), at rest. What was set is not yet released:
+    /// [`State::let_go`] does that at the moment of this sample; stepped without it, the string begins half a step early.
     pub fn set_shape(&mut self, model: &Model, shape: &Curve) {
         for node in 1..model.grid.intervals {
             self.displacement[model.grid.cell(node)] = shape.at(model.grid.place(node));

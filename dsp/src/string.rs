@@ -149,7 +149,12 @@ impl WithSimd for Step<'_> {
 impl State {
     /// Advances the string by one step under a drive.
     ///
-    /// Never allocates, never fails: whatever the numbers, the energy cannot exceed what was put in.
+    /// Never allocates, never fails: the energy cannot exceed what was put in, whatever the numbers, as long as the tension
+    /// is not above the model's `tension_limit`, for which its grid is made.
+    ///
+    /// # Panics
+    /// When the state, the drive or its readings, or the scratch are not made for this model: heights must be as many as its
+    /// contacts, or none.
     pub fn step(&mut self, model: &Model, drive: &Drive, scratch: &mut Scratch) -> Convergence {
         scratch.instructions.run(Step { state: self, model, drive, scratch })
     }

@@ -2,8 +2,9 @@
 //! up to, wherever samples fall; what is let go of moves from that moment on; a hand brakes a finger at any step as it would
 //! without steps.
 
+use low_action_dsp::curve::Curve;
 use low_action_dsp::gesture::pluck_push;
-use low_action_dsp::{Scene, Simulation};
+use low_action_dsp::{Drive, Scene, Scratch, Simulation, State};
 use std::f64::consts::PI;
 
 /// Low E of an electric guitar without stiffness or losses.
@@ -83,6 +84,22 @@ fn what_is_let_go_of_moves_from_then_on() {
         let expected = (f64::from(n) * turn).cos();
         // The frequency is as good as an arc cosine near its end tells.
         assert!((found - expected).abs() < 1e-10, "{found} after {n} samples, not {expected}");
+    }
+}
+
+/// The same of a string that is set by itself, beside the one of a scene.
+#[test]
+fn a_string_without_a_scene_is_let_go_of_likewise() {
+    let points = vec![[0.0, 0.0], [0.2, 1e-3], [0.65, 0.0]];
+    let mut simulation = string(12_000.0, &format!("shape = {points:?}\n"));
+    let model = simulation.string(0).model.clone();
+    let (mut state, mut scratch, drive) = (State::new(&model), Scratch::new(&model), Drive::new(&model));
+    state.set_shape(&model, &Curve::Points(points));
+    state.let_go(&model, &drive);
+    for n in 1..1_000 {
+        simulation.step();
+        state.step(&model, &drive, &mut scratch);
+        assert!(state.displacement().eq(simulation.string(0).state.displacement()), "after {n} samples");
     }
 }
 
