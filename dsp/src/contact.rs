@@ -56,8 +56,7 @@ impl ContactLaw {
     /// # Errors
     /// When either is out of range; `name` says whose they are.
     pub fn new(name: &str, stiffness: f64, exponent: f64) -> Result<Self, Error> {
-        // The full name is put together only for a refusal: fingers are placed while processing, where
-        // nothing may be allocated.
+        // The full name is put together only for a refusal: whoever places a good finger between steps allocates nothing.
         let within = |of, value, range: RangeInclusive<f64>, unit| {
             crate::error::within(of, value, *range.start(), *range.end(), unit)
         };

@@ -45,6 +45,21 @@ impl Under {
 }
 
 impl Finger {
+    /// At a place (m from the nut), a height (m) and a velocity (m/s), its pad with a law.
+    pub(crate) fn over(
+        model: &Model,
+        touch: Touch,
+        law: ContactLaw,
+        position: f64,
+        height: f64,
+        velocity: f64,
+    ) -> Self {
+        let reading = model.grid.reading(position);
+        let motion = velocity * model.grid.time_step;
+        let inertia = Inertia::new(&touch, model.grid.time_step);
+        Finger { touch, law, inertia, height, motion, position, reading, reading_before: reading }
+    }
+
     /// Moves it by a step as if it were free, and makes it an active contact with a string of this displacement and motion at
     /// n. Returns whether it touches that at n − 1 or n.
     #[inline(always)]
@@ -59,6 +74,8 @@ impl Finger {
         let (height, motion_before, reading_before) = (self.height, self.motion, self.reading_before);
         let Inertia { mobility: own_mobility, persistence, .. } = self.inertia;
         let free = persistence * motion_before - own_mobility * hand.force;
+        // What a hand brakes would move by ever smaller numbers otherwise.
+        let free = if free.abs() < STILL { 0.0 } else { free };
         let under = |reading: &Reading| {
             let [place, motion] = reading.of_each([displacement, motion]);
             Under { place, motion }
@@ -74,8 +91,6 @@ impl Finger {
             self.reading = model.grid.reading(hand.position);
             here = under(&self.reading);
         }
-        // What a hand brakes would move by ever smaller numbers otherwise.
-        let free = if free.abs() < STILL { 0.0 } else { free };
         self.motion = free;
         self.height = height + free;
         let slid = if self.reading.same_place(&reading_before) { 0.0 } else { here.before() - past.before() };

@@ -4,31 +4,36 @@
 //! sample. The instrument turns gestures into the slowly varying forces and positions of a
 //! [`Drive`](crate::Drive); nothing here knows about MIDI.
 
+use std::ops::RangeInclusive;
+
 use crate::contact::ContactLaw;
 
 /// The parameters of one finger (or palm, or thumb): a mass on a lossy, nonlinear spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// Mass, kg, above 0.
+    /// Mass, kg, 1e-7 to 1e3.
     pub mass: f64,
-    /// Stiffness of the pad, N/m^exponent, above 0.
+    /// Stiffness of the pad, N/m^exponent, 1e-3 to 1e30, and no more than can be told from rounding at the string's rate.
     pub stiffness: f64,
     /// Exponent of the contact law, 1 to 5.
     pub exponent: f64,
-    /// Hunt–Crossley damping of the pad, s/m, 0 or more.
+    /// Hunt–Crossley damping of the pad, s/m, 0 to 1e5.
     pub damping: f64,
-    /// The hand's own damping, N s/m, 0 or more.
+    /// The hand's own damping, N s/m, 0 to 1e5.
     pub hand_damping: f64,
 }
 
 impl Touch {
-    /// Whether there can be such a finger: its mass is above 0, no loss below, and its pad has a law.
+    /// What its mass may be, kg.
+    pub(crate) const MASS: RangeInclusive<f64> = 1e-7..=1e3;
+    /// What each of its two dampings may be, s/m and N s/m.
+    pub(crate) const DAMPING: RangeInclusive<f64> = 0.0..=1e5;
+
+    /// Whether there can be such a finger: what [`Touch::check`] asks, without the words, which take memory.
     pub(crate) fn is_possible(&self) -> bool {
-        let loss = |loss: f64| loss >= 0.0 && loss.is_finite();
-        self.mass > 0.0
-            && self.mass.is_finite()
-            && loss(self.damping)
-            && loss(self.hand_damping)
+        Self::MASS.contains(&self.mass)
+            && Self::DAMPING.contains(&self.damping)
+            && Self::DAMPING.contains(&self.hand_damping)
             && ContactLaw::STIFFNESS.contains(&self.stiffness)
             && ContactLaw::EXPONENT.contains(&self.exponent)
     }
@@ -48,19 +53,24 @@ pub const MOST_FORCE: f64 = 1e6;
 pub const MOST_CLEARANCE: f64 = 10.0;
 
 /// Something a hand does to one string.
+///
+/// A place beyond the string stands for the nearest on it, one that is no number for its middle. Durations have no upper limit
+/// (and a string does not sleep before they are over); but for plucks, one below 0 or that is no number is at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Gesture {
-    /// A raised-cosine push of a point of the string that ends in a sudden release, equation \[4\].
+    /// A raised-cosine push of a point of the string that ends in a sudden release, equation \[4\]. Left out while as many as
+    /// [`PUSHES`](crate::drive::PUSHES) others are under way.
     Pluck {
         /// Place, m from the nut.
         position: f64,
         /// Largest force, N, up is positive; 0 or more pushes away from the board. Left out above [`MOST_FORCE`].
         force: f64,
-        /// Length of the push, s.
+        /// Length of the push, s; one of 0 or less gives nothing. Left out where it is not finite.
         duration: f64,
     },
-    /// Puts a finger over the string, at rest, touching nothing. A finger already in that slot is
-    /// taken away first. What cannot be (a touch or clearance out of range, a slot that is not there) is left out.
+    /// Puts a finger over the string, at rest, touching nothing, in the place of the one that is in that slot. What cannot be
+    /// (a touch or clearance out of range, a pad too stiff for the string's rate, a slot that is not there) is left out, and
+    /// what is in the slot stays.
     Place {
         /// Which finger.
         finger: FingerSlot,
@@ -79,9 +89,9 @@ pub enum Gesture {
         touch: Touch,
         /// Place, m from the nut.
         position: f64,
-        /// Height of the pad above the string's present displacement, m.
+        /// Height of the pad above the string's present displacement, m, up to [`MOST_CLEARANCE`]; below 0 is 0.
         clearance: f64,
-        /// Speed towards the board, m/s, 0 or more; limited to what a hand can do.
+        /// Speed towards the board, m/s, 0 or more; limited to what a hand can do, 10 m/s.
         speed: f64,
     },
     /// Brings a finger's force to a new value along a smooth ramp.
@@ -124,7 +134,8 @@ pub enum Gesture {
 /// A gesture on one string at one sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimedGesture {
-    /// Sample index, counted from the instrument's start.
+    /// Sample index, counted from the instrument's start or last reset; a hand-over does not interrupt it
+    /// ([`Instrument::now`](crate::Instrument::now)).
     pub time: u64,
     /// String index, 0 for the first string of the set-up.
     pub string: usize,

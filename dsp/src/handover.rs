@@ -33,10 +33,12 @@ impl Instrument {
     /// or given back: the old instrument stays inside until [`Instrument::take_before`] fetches it.
     ///
     /// # Errors
-    /// When `successor` is built for another sample rate, and while the instrument before has not been fetched; `successor`
-    /// comes back unused.
+    /// When `successor` is built for another sample rate, and while the instrument before has not been fetched, from this one
+    /// or from `successor`, which comes back unused.
     pub fn hand_over(&mut self, mut successor: Box<Instrument>) -> Result<(), Box<Instrument>> {
-        if self.before.is_some() || successor.sample_rate != self.sample_rate {
+        // An instrument that is still inside would have to be given back here.
+        let is_free = self.before.is_none() && successor.before.is_none();
+        if !is_free || successor.sample_rate != self.sample_rate {
             return Err(successor);
         }
         successor.reset();
@@ -48,6 +50,9 @@ impl Instrument {
                 voice.take_over(old);
             }
         }
+        // Whoever looks goes on looking, at what there is now.
+        successor.observe(self.voices.iter().any(|voice| voice.observed.is_looking()));
+        successor.observe_anew();
         std::mem::swap(self, &mut successor);
         let samples = (FADE * self.sample_rate).round() as u64;
         self.fade = Ramp::at(0.0);
@@ -85,6 +90,7 @@ impl Instrument {
 
     /// How exactly contacts are solved from the next sample on: Newton iterations at most, and the change
     /// of penetration, m, at which they stop. Brought into their ranges in [`SolverSettings`]; what is no number counts as 0.
+    /// A successor has its own.
     pub fn set_effort(&mut self, max_iterations: usize, tolerance: f64) {
         let tolerance = if tolerance > 0.0 { tolerance.min(SolverSettings::WIDEST_TOLERANCE) } else { 0.0 };
         for voice in &mut self.voices {
@@ -93,7 +99,9 @@ impl Instrument {
         }
     }
 
-    /// Opens a ledger for each string; allocates. Ledgers go on through a hand-over, which they book.
+    /// Opens a ledger for each string; allocates, and so do steps, hand-overs and resets while ledgers are open. Where strings
+    /// go on through a hand-over so do their ledgers, which book it. Where they do not, ledgers stay with the instrument that
+    /// goes, and its successor has those that were opened in it, if any.
     pub fn open_ledgers(&mut self) {
         self.voices.iter_mut().for_each(crate::voice::Voice::open_ledger);
     }
@@ -162,7 +170,7 @@ impl State {
         self.no_finger_from = self.fingers.len();
         for slot in 0..self.fingers.len() {
             self.fingers[slot] = old.fingers[slot].and_then(|mut finger| {
-                finger.law = model.finger_law(&finger.touch).ok()?;
+                finger.law = model.finger_law_if(&finger.touch)?;
                 finger.inertia = Inertia::new(&finger.touch, grid.time_step);
                 if same_grid {
                     return Some(finger);
@@ -259,14 +267,21 @@ impl Hands {
         for (held, before) in self.fingers.iter_mut().zip(&old.fingers) {
             *held = before.map(|before| before.carried(scale, factor));
         }
-        // From the tension there is, as far as this string bears it, to the same bend of the new one.
-        let ratio = (old.tension.goal() / old_model.string.tension).min(Self::highest_ratio(model));
-        self.tension = Ramp::at(old.tension.value().min(model.string.tension_limit));
-        let goal = model.string.tension * ratio;
-        if self.tension.value() != goal {
-            let left = old.tension.resampled(factor).left().max(self.samples(FADE));
-            self.tension.go(goal, left);
+        // The same bend of this string goes on in its own time; from the tension there is, as far as this string bears it, to its
+        // own tuning is a way besides.
+        let (tension, most) = (model.string.tension, self.most_tension);
+        let same_bend = |bent: f64| (tension * (bent / old_model.string.tension)).min(most);
+        self.bent = old.bent.map(same_bend).resampled(factor);
+        self.tuned = Ramp::at(old.tension().min(most) / self.bent.value());
+        if self.tuned.value() != 1.0 {
+            self.tuned.go(1.0, self.samples(FADE));
         }
+    }
+
+    /// Has the tension at the end of its way.
+    pub(crate) fn settle(&mut self) {
+        self.bent = Ramp::at(self.bent.goal());
+        self.tuned = Ramp::at(1.0);
     }
 
     /// Lets go of fingers that the string's state has not.

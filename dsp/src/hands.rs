@@ -1,6 +1,7 @@
 //! The hands on one string: gestures become the forces, places and tension of a [`Drive`].
 
 use crate::drive::{Drive, PUSHES, Push};
+use crate::finger::Finger;
 use crate::gesture::{FINGERS_PER_STRING, Gesture, MOST_CLEARANCE, MOST_FORCE, Touch, pluck_push};
 use crate::grid::Reading;
 use crate::model::Model;
@@ -25,6 +26,12 @@ const LEAST_TENSION: f64 = 0.05;
 /// ever.
 fn is_possible(force: f64) -> bool {
     force.abs() <= MOST_FORCE
+}
+
+/// A time in samples of a rate in Hz, rounded.
+fn samples(seconds: f64, rate: f64) -> u64 {
+    // A hostile duration counts as at once; `as` saturates at the other end.
+    (seconds * rate).round().max(0.0) as u64
 }
 
 /// A pluck under way.
@@ -57,7 +64,7 @@ impl Held {
     /// The same motion over a string `scale` times as long, in samples of which there are `factor` for each
     /// of the old.
     pub fn carried(self, scale: f64, factor: f64) -> Self {
-        let position = self.position.scaled(scale).resampled(factor);
+        let position = self.position.map(|place| place * scale).resampled(factor);
         Held { position, force: self.force.resampled(factor), ..self }
     }
 }
@@ -69,7 +76,12 @@ pub(crate) struct Hands {
     pub sample_rate: f64,
     pub plucks: Roomy<Pluck>,
     pub fingers: [Option<Held>; FINGERS_PER_STRING],
-    pub tension: Ramp,
+    /// Tension that the string is bent to, N.
+    pub bent: Ramp,
+    /// By how much more than that it is pulled, while it is still on its way from the tuning of a string before; 1 afterwards.
+    pub tuned: Ramp,
+    /// The most that the string's grid bears, N.
+    pub most_tension: f64,
 }
 
 impl Hands {
@@ -79,7 +91,9 @@ impl Hands {
             sample_rate,
             plucks: Roomy::with_capacity(PUSHES),
             fingers: [None; FINGERS_PER_STRING],
-            tension: Ramp::at(model.string.tension),
+            bent: Ramp::at(model.string.tension),
+            tuned: Ramp::at(1.0),
+            most_tension: model.string.tension_limit,
         }
     }
 
@@ -87,17 +101,22 @@ impl Hands {
     pub fn reset(&mut self, model: &Model) {
         self.plucks.clear();
         self.fingers = [None; FINGERS_PER_STRING];
-        self.tension = Ramp::at(model.string.tension);
+        self.bent = Ramp::at(model.string.tension);
+        self.tuned = Ramp::at(1.0);
     }
 
     /// Whether nothing touches or bends the string.
     pub fn idle(&self) -> bool {
-        self.plucks.is_empty() && self.tension.rests() && self.fingers.iter().all(Option::is_none)
+        self.plucks.is_empty()
+            && self.bent.rests()
+            && self.tuned.rests()
+            && self.fingers.iter().all(Option::is_none)
     }
 
     /// Present tension of the string, N.
     pub fn tension(&self) -> f64 {
-        self.tension.value()
+        let bent = self.bent.value();
+        if self.tuned.rests() { bent } else { (bent * self.tuned.value()).min(self.most_tension) }
     }
 
     /// The largest tension a bend may reach, as a multiple of the string's own.
@@ -107,12 +126,12 @@ impl Hands {
 
     /// A time in samples, rounded.
     pub fn samples(&self, seconds: f64) -> u64 {
-        // A hostile duration counts as at once; `as` saturates at the other end.
-        (seconds * self.sample_rate).round().max(0.0) as u64
+        samples(seconds, self.sample_rate)
     }
 
-    /// Begins a gesture. What it cannot do (a finger that is not there, a ninth pluck) it leaves out.
-    pub fn begin(&mut self, gesture: Gesture, model: &Model, state: &mut State) {
+    /// Begins a gesture. What cannot be done (a finger that is not there, a ninth pluck) is left out; returns whether it was
+    /// begun.
+    pub fn begin(&mut self, gesture: Gesture, model: &Model, state: &mut State) -> bool {
         let inside = |place: f64| {
             let end = 0.01 * model.grid.spacing;
             if place.is_finite() {
@@ -123,61 +142,58 @@ impl Hands {
         };
         match gesture {
             Gesture::Pluck { position, force, duration } => {
-                if self.plucks.len() < PUSHES && is_possible(force) && duration.is_finite() {
+                let begins = self.plucks.len() < PUSHES && is_possible(force) && duration.is_finite();
+                if begins {
                     let position = inside(position);
                     let reading = model.grid.reading(position);
-                    self.plucks.push(Pluck {
-                        position,
-                        reading,
-                        force,
-                        done: 0,
-                        duration: duration.max(0.0),
-                    });
+                    let duration = duration.max(0.0);
+                    self.plucks.push(Pluck { position, reading, force, done: 0, duration });
                 }
+                begins
             }
             Gesture::Place { finger, touch, position, clearance } => {
-                self.put(finger, touch, inside(position), [clearance, 0.0], model, state);
+                self.put(finger, touch, inside(position), [clearance, 0.0], model, state)
             }
             Gesture::Throw { finger, touch, position, clearance, speed } => {
                 // Anything but a number counts as at rest.
                 let speed = if speed > 0.0 { speed.min(FASTEST_THROW) } else { 0.0 };
-                self.put(finger, touch, inside(position), [clearance, speed], model, state);
+                self.put(finger, touch, inside(position), [clearance, speed], model, state)
             }
-            Gesture::Press { force, .. } | Gesture::Lift { force, .. } if !is_possible(force) => {}
+            Gesture::Press { force, .. } | Gesture::Lift { force, .. } if !is_possible(force) => false,
             Gesture::Press { finger, force, duration } => {
                 let samples = self.samples(duration);
-                if let Some(held) = self.finger(finger) {
-                    held.force.go(force, samples);
-                    held.leaving = false;
-                }
+                let Some(held) = self.finger(finger) else { return false };
+                held.force.go(force, samples);
+                held.leaving = false;
+                true
             }
             Gesture::Slide { finger, position, duration } => {
                 let place = inside(position);
-                let from = self.finger(finger).map(|held| held.position.value());
-                let least = from.map_or(0.0, |from| (place - from).abs() / FASTEST_SLIDE);
-                let samples = self.samples(duration.max(least));
-                if let Some(held) = self.finger(finger) {
-                    held.position.go_straight(place, samples);
-                }
+                let rate = self.sample_rate;
+                let Some(held) = self.finger(finger) else { return false };
+                let least = (place - held.position.value()).abs() / FASTEST_SLIDE;
+                held.position.go_straight(place, samples(duration.max(least), rate));
+                true
             }
             Gesture::Lift { finger, force, duration } => {
                 let samples = self.samples(duration);
-                if let Some(held) = self.finger(finger) {
-                    held.force.go(-force.abs(), samples);
-                    held.leaving = true;
-                }
+                let Some(held) = self.finger(finger) else { return false };
+                held.force.go(-force.abs(), samples);
+                held.leaving = true;
+                true
             }
             Gesture::Bend { tension_ratio, duration } => {
                 let most = Self::highest_ratio(model);
                 let ratio = if tension_ratio.is_finite() { tension_ratio } else { 1.0 };
                 let samples = self.samples(duration);
-                self.tension.go(model.string.tension * ratio.clamp(LEAST_TENSION, most), samples);
+                self.bent.go(model.string.tension * ratio.clamp(LEAST_TENSION, most), samples);
+                true
             }
         }
     }
 
     /// Puts a finger over the string at a place, m from the nut: so high above it, m, and on its way to it
-    /// at a speed, m/s.
+    /// at a speed, m/s. Returns whether there can be such a finger.
     fn put(
         &mut self,
         slot: usize,
@@ -186,21 +202,21 @@ impl Hands {
         [clearance, speed]: [f64; 2],
         model: &Model,
         state: &mut State,
-    ) {
+    ) -> bool {
         let is_near = clearance <= MOST_CLEARANCE;
         if slot >= FINGERS_PER_STRING || !touch.is_possible() || !is_near {
-            return;
+            return false;
         }
+        // A finger that cannot be leaves the one that is there.
+        let Some(law) = model.finger_law_if(&touch) else { return false };
         let reading = model.grid.reading(place);
         let now = state.displacement_at(&reading);
         // Touching nothing a step ago either: a string that comes from above would be inside it.
         let before = now - state.velocity_at(model, &reading) * model.grid.time_step;
         let height = (now + clearance.max(0.0)).max(before - speed * model.grid.time_step).max(now);
-        // A finger that cannot be leaves the one that is there.
-        if state.place_finger(model, slot, touch, place, height, 0.0 - speed).is_ok() {
-            let held = Held { force: Ramp::at(0.0), position: Ramp::at(place), leaving: false };
-            self.fingers[slot] = Some(held);
-        }
+        state.put_finger(slot, Finger::over(model, touch, law, place, height, 0.0 - speed));
+        self.fingers[slot] = Some(Held { force: Ramp::at(0.0), position: Ramp::at(place), leaving: false });
+        true
     }
 
     fn finger(&mut self, finger: usize) -> Option<&mut Held> {
@@ -214,8 +230,9 @@ impl Hands {
 
     /// Fills the drive of the next step, and takes lifted fingers away.
     pub fn drive(&mut self, state: &mut State, drive: &mut Drive) {
-        drive.tension = self.tension.value();
-        self.tension.step();
+        drive.tension = self.tension();
+        self.bent.step();
+        self.tuned.step();
         drive.pushes.clear();
         let rate = self.sample_rate;
         self.plucks.retain_mut(|pluck| {

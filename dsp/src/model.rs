@@ -18,7 +18,7 @@ pub use barrier::Barrier;
 pub use fixed::{Contact, ContactKind};
 pub use parameters::StringParameters;
 pub use steepness::stiffest;
-use steepness::{STEEPEST, check_stiffness};
+use steepness::{STEEPEST, check_stiffness, too_stiff};
 pub use stiffness::Stiffness;
 
 /// Everything about one string that stays the same while it is played.
@@ -192,11 +192,26 @@ impl Model {
     ///
     /// # Errors
     /// When the pad is too stiff to be told from rounding at this rate.
-    pub fn finger_law(&self, touch: &crate::gesture::Touch) -> Result<ContactLaw, Error> {
+    pub fn finger_law(&self, touch: &Touch) -> Result<ContactLaw, Error> {
         let law = ContactLaw::new("finger", touch.stiffness, touch.exponent)?;
-        let mobility = self.mobility + Inertia::new(touch, self.grid.time_step).mobility;
-        check_stiffness("finger.stiffness", &law, law.stiffness(), mobility)?;
-        Ok(law.no_steeper_than(STEEPEST / mobility))
+        self.law_if_soft(&law, touch)
+            .ok_or_else(|| too_stiff("finger.stiffness", &law, law.stiffness(), self.mobility_under(touch)))
+    }
+
+    /// The same of a possible finger without the words, which take memory: fingers are placed while processing.
+    pub(crate) fn finger_law_if(&self, touch: &Touch) -> Option<ContactLaw> {
+        self.law_if_soft(&ContactLaw::known(touch.stiffness, touch.exponent), touch)
+    }
+
+    fn law_if_soft(&self, law: &ContactLaw, touch: &Touch) -> Option<ContactLaw> {
+        let mobility = self.mobility_under(touch);
+        let soft = law.stiffness() <= stiffest(law.exponent(), mobility);
+        soft.then(|| law.no_steeper_than(STEEPEST / mobility))
+    }
+
+    /// How far one newton between a finger and the string moves them apart in a step, m/N.
+    fn mobility_under(&self, touch: &Touch) -> f64 {
+        self.mobility + Inertia::new(touch, self.grid.time_step).mobility
     }
 }
 

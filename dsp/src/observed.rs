@@ -73,7 +73,7 @@ impl Observed {
         (self.steps, self.iterations, self.pluck) = (0, 0, None);
     }
 
-    /// A gesture begins.
+    /// A gesture has begun.
     pub(crate) fn see_gesture(&mut self, gesture: &Gesture) {
         if let Gesture::Pluck { position, force, .. } = *gesture
             && self.looking

@@ -57,9 +57,9 @@ impl Ramp {
         self.total - self.done
     }
 
-    /// The same ramp with all values multiplied by a factor.
-    pub fn scaled(self, factor: f64) -> Self {
-        Ramp { from: self.from * factor, to: self.to * factor, ..self }
+    /// The same ramp between other values.
+    pub fn map(self, value: impl Fn(f64) -> f64) -> Self {
+        Ramp { from: value(self.from), to: value(self.to), ..self }
     }
 
     /// The same ramp in samples of another length: `factor` of them for each of the old.

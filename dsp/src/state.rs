@@ -3,7 +3,7 @@
 use crate::curve::Curve;
 use crate::error::Error;
 use crate::field::{Ends, Field};
-use crate::finger::{Finger, Inertia};
+use crate::finger::Finger;
 use crate::gesture::Touch;
 use crate::grid::Reading;
 use crate::model::Model;
@@ -207,15 +207,15 @@ impl State {
     ) -> Result<(), Error> {
         let position = model.grid.check_place("finger.position", position)?;
         let law = model.finger_law(&touch)?;
-        let reading = model.grid.reading(position);
-        let motion = velocity * model.grid.time_step;
-        let inertia = Inertia::new(&touch, model.grid.time_step);
-        let finger =
-            Finger { touch, law, inertia, height, motion, position, reading, reading_before: reading };
+        self.put_finger(slot, Finger::over(model, touch, law, position, height, velocity));
+        Ok(())
+    }
+
+    /// Puts a finger that is known to be good into a slot.
+    pub(crate) fn put_finger(&mut self, slot: usize, finger: Finger) {
         self.fingers[slot] = Some(finger);
         self.no_finger_from = self.no_finger_from.max(slot + 1);
         self.finger_changes += 1;
-        Ok(())
     }
 
     /// Takes the finger in a slot away.

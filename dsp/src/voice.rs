@@ -116,8 +116,9 @@ impl Voice {
             self.decimator.reset();
         }
         self.asleep = false;
-        self.observed.see_gesture(&gesture);
-        self.hands.begin(gesture, &self.model, &mut self.state);
+        if self.hands.begin(gesture, &self.model, &mut self.state) {
+            self.observed.see_gesture(&gesture);
+        }
     }
 
     /// How many steps of the string a sample of the host's has.
@@ -212,17 +213,19 @@ impl Voice {
     }
 
     /// Takes over from another string of the same host's rate: its motion, the fingers on it, the
-    /// plucks under way, and its ledger. Nothing is allocated.
+    /// plucks under way, and its ledger, for which it leaves its own. Nothing is allocated or given back, but by ledgers.
     pub fn take_over(&mut self, old: &mut Voice) {
-        self.ledger = old.ledger.take();
+        if old.ledger.is_some() {
+            std::mem::swap(&mut self.ledger, &mut old.ledger);
+            old.rebook();
+        }
         self.asleep = old.asleep;
         self.hands.take_over(&old.hands, &self.model, &old.model);
         self.listener.take_over(&old.listener);
         self.decimator.take_over(&old.decimator);
-        self.observed.look(old.observed.is_looking(), &self.state);
         if self.asleep {
             // Nobody heard the old tension, and no ramp runs while nothing moves.
-            self.hands.tension = Ramp::at(self.hands.tension.goal());
+            self.hands.settle();
             return self.rebook();
         }
         self.state.take_over(&self.model, &old.state, &old.model);

@@ -1,5 +1,6 @@
 //! The promise: a gesture that no hand can make is left out, and the string goes on as if nobody had asked.
 
+use low_action_dsp::drive::PUSHES;
 use low_action_dsp::{Gesture, Instrument, Quality, Setup, TimedGesture, Touch};
 
 const RATE: f64 = 48_000.0;
@@ -99,9 +100,10 @@ fn late_gestures_keep_their_order() {
 #[test]
 fn fingers_that_cannot_be() {
     let wrong = NUMBERS.into_iter().chain([0.0, -1.0]);
-    let masses = wrong.clone().map(|mass| Touch { mass, ..PAD });
-    let pads = wrong.map(|stiffness| Touch { stiffness, ..PAD });
-    let losses = NUMBERS.into_iter().chain([-1.0]);
+    let masses = wrong.clone().chain([1e-9, 1e4, 1e300]).map(|mass| Touch { mass, ..PAD });
+    // The last is a pad that could be, and is too stiff for the string's grid.
+    let pads = wrong.chain([1e29]).map(|stiffness| Touch { stiffness, ..PAD });
+    let losses = NUMBERS.into_iter().chain([-1.0, 1e6]);
     let damped = losses.clone().map(|damping| Touch { damping, ..PAD });
     let braked = losses.map(|hand_damping| Touch { hand_damping, ..PAD });
     let bent = NUMBERS.into_iter().chain([0.5]).map(|exponent| Touch { exponent, ..PAD });
@@ -123,4 +125,25 @@ fn fingers_that_are_not_there() {
         assert_left_out(Gesture::Slide { finger, position: 0.4, duration: 0.1 });
     }
     assert_left_out(Gesture::Place { finger: usize::MAX, touch: PAD, position: 0.3, clearance: 0.0 });
+}
+
+/// What is left out is not shown either.
+#[test]
+fn plucks_that_are_left_out_are_not_seen() {
+    let mut setup = Setup::builtin("electric").expect("built in");
+    setup.string.truncate(1);
+    let mut instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).expect("it can be built");
+    instrument.observe(true);
+    let mut seen_after = |position, force| {
+        let gesture = Gesture::Pluck { position, force, duration: 0.1 };
+        let time = instrument.now();
+        instrument.schedule(TimedGesture { time, string: 0, gesture }).expect("there is room");
+        instrument.process(&mut [0.0], &mut [0.0]);
+        instrument.observed(0).pluck.map(|pluck| pluck.position)
+    };
+    assert_eq!(seen_after(0.1, f64::NAN), None);
+    for _ in 0..PUSHES {
+        assert_eq!(seen_after(0.2, 0.1), Some(0.2));
+    }
+    assert_eq!(seen_after(0.3, 0.1), Some(0.2), "it is one more than there may be");
 }

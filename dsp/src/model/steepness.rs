@@ -26,14 +26,20 @@ pub(super) fn check_stiffness(
     stiffness: f64,
     mobility: f64,
 ) -> Result<(), Error> {
-    let limit = stiffest(given.exponent(), mobility);
-    if stiffness <= limit {
-        return Ok(());
+    if stiffness <= stiffest(given.exponent(), mobility) {
+        Ok(())
+    } else {
+        Err(too_stiff(name, given, stiffness, mobility))
     }
+}
+
+/// Why it is refused.
+pub(super) fn too_stiff(name: &str, given: &ContactLaw, stiffness: f64, mobility: f64) -> Error {
+    let limit = stiffest(given.exponent(), mobility);
     // Half a percent is as much as three digits can be too high by.
     let accepted = format!(
         "at this sample rate it must be at most {:.2e} N/m^exponent",
         0.995 * limit * (given.stiffness() / stiffness)
     );
-    Err(Error::range(name, plain(given.stiffness()), accepted))
+    Error::range(name, plain(given.stiffness()), accepted)
 }

@@ -1,5 +1,7 @@
 //! What scenes may say: every value in its range, named as in the file.
 
+use std::ops::RangeInclusive;
+
 use super::{FingerSpec, FretboardSpec, ListeningPoint, Scene, SolverSettings, StringSpec};
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, OneOrEach};
@@ -161,33 +163,28 @@ impl FingerSpec {
     }
 }
 
-/// What the mass of a finger may be, kg, and what each of its two dampings, s/m and N s/m.
-const MASS: [f64; 2] = [1e-7, 1e3];
-const DAMPING: [f64; 2] = [0.0, 1e5];
-
 impl Touch {
     /// Brings all but the exponent into its range.
     pub(crate) fn limit(&mut self) {
-        let stiffness = [*ContactLaw::STIFFNESS.start(), *ContactLaw::STIFFNESS.end()];
-        for (value, [low, high]) in [
-            (&mut self.mass, MASS),
-            (&mut self.stiffness, stiffness),
-            (&mut self.damping, DAMPING),
-            (&mut self.hand_damping, DAMPING),
+        for (value, range) in [
+            (&mut self.mass, Self::MASS),
+            (&mut self.stiffness, ContactLaw::STIFFNESS),
+            (&mut self.damping, Self::DAMPING),
+            (&mut self.hand_damping, Self::DAMPING),
         ] {
-            *value = value.clamp(low, high);
+            *value = value.clamp(*range.start(), *range.end());
         }
     }
 
     /// Refuses values outside their range; `name` says whose they are.
     pub fn check(&self, name: &str) -> Result<(), Error> {
-        let ranged = |key: &str, value, [low, high]: [f64; 2], unit| {
-            within(&format!("{name}.{key}"), value, low, high, unit)
+        let ranged = |key: &str, value, range: RangeInclusive<f64>, unit| {
+            within(&format!("{name}.{key}"), value, *range.start(), *range.end(), unit)
         };
-        ranged("mass", self.mass, MASS, "kg")?;
+        ranged("mass", self.mass, Self::MASS, "kg")?;
         ContactLaw::new(name, self.stiffness, self.exponent)?;
-        ranged("damping", self.damping, DAMPING, "s/m")?;
-        ranged("hand_damping", self.hand_damping, DAMPING, "N s/m").map(drop)
+        ranged("damping", self.damping, Self::DAMPING, "s/m")?;
+        ranged("hand_damping", self.hand_damping, Self::DAMPING, "N s/m").map(drop)
     }
 }
 
