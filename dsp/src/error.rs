@@ -126,7 +126,7 @@ fn thing_at_end(text: &str) -> Option<&str> {
 }
 
 /// Words of the TOML reader, and what they are for who writes the file.
-const WORDS: [(&str, &str); 15] = [
+const WORDS: [(&str, &str); 16] = [
     ("missing field", "missing key"),
     ("there are no fields", "there are no others"),
     ("unknown field", "unknown key"),
@@ -135,6 +135,7 @@ const WORDS: [(&str, &str); 15] = [
     ("invalid type: sequence", "invalid type: list"),
     ("expected f64", "expected a number"),
     ("expected usize", "expected a whole number, 0 or more"),
+    ("expected i64", "expected a whole number, 1 or more"),
     ("expected a sequence", "expected a list"),
     ("expected a tuple of size", "expected a list of"),
     ("expected a string", "expected a text"),

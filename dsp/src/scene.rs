@@ -2,7 +2,8 @@
 
 mod check;
 
-use serde::Deserialize;
+use serde::de::{Error as _, Unexpected};
+use serde::{Deserialize, Deserializer};
 
 use crate::choice::choice;
 use crate::curve::{CountOrList, Curve, OneOrEach};
@@ -91,7 +92,7 @@ pub enum Stencil {
 }
 
 impl<'de> Deserialize<'de> for Stencil {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         use Stencil::{Corrected, Paper, Wide};
         choice(deserializer, &[("paper", Paper), ("corrected", Corrected), ("wide", Wide)])
     }
@@ -171,7 +172,7 @@ pub enum FretPlacement {
 }
 
 impl<'de> Deserialize<'de> for FretPlacement {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         use FretPlacement::{Exact, Kinked, Nearest};
         choice(deserializer, &[("exact", Exact), ("nearest", Nearest), ("kinked", Kinked)])
     }
@@ -182,7 +183,7 @@ impl<'de> Deserialize<'de> for FretPlacement {
 #[serde(deny_unknown_fields)]
 pub struct PluckSpec {
     /// Which string, 1 for the first.
-    #[serde(default = "first")]
+    #[serde(default = "first", deserialize_with = "number")]
     pub string: usize,
     /// When it begins, s.
     #[serde(default)]
@@ -199,12 +200,19 @@ fn first() -> usize {
     1
 }
 
+/// Reads what is counted from 1. (How far it may go, and that it is not 0, is for who knows how many there are.)
+fn number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<usize, D::Error> {
+    let number = i64::deserialize(deserializer)?;
+    let counted = "a whole number, 1 or more";
+    usize::try_from(number).map_err(|_| D::Error::invalid_value(Unexpected::Signed(number), &counted))
+}
+
 /// A finger above a string.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FingerSpec {
     /// Which string, 1 for the first.
-    #[serde(default = "first")]
+    #[serde(default = "first", deserialize_with = "number")]
     pub string: usize,
     /// Mass, kg.
     pub mass: f64,
@@ -268,7 +276,7 @@ pub enum ListeningPoint {
 }
 
 impl<'de> Deserialize<'de> for ListeningPoint {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct PointVisitor;
         impl serde::de::Visitor<'_> for PointVisitor {
             type Value = ListeningPoint;

@@ -188,6 +188,17 @@ fn what_is_not_a_scene_is_refused() {
         ("loss_0 = 1.0", "loss_0 = ", &["line 8, loss_0"]),
         ("loss_0 = 1.0", "tension = 1.0", &["line 8, tension", "duplicate"]),
         ("length = 0.65\n", "", &["[[string]]", "missing key `length`"]),
+        ("fret_top = -0.001\n", "", &["[fretboard]", "missing key `fret_top`", "-10 to 0 m"]),
+        (
+            "[[pluck]]\n",
+            "[[pluck]]\nstring = -1\n",
+            &["string", "`-1`", "expected a whole number, 1 or more"],
+        ),
+        (
+            "[[finger]]\n",
+            "[[finger]]\nstring = 1.0\n",
+            &["string", "`1.0`", "expected a whole number, 1 or more"],
+        ),
         ("[[string]]", "[string]", &["line 4, [string]", "write [[string]]"]),
         ("[fretboard]", "[[fretboard]]", &["line 9, [[fretboard]]", "write [fretboard]"]),
         ("sample_rate = 44100\n", "", &["missing key `sample_rate`"]),

@@ -122,10 +122,9 @@ impl FretboardSpec {
             }
         };
         match &self.fret_top {
-            None if count > 0 => Err(Error::range(
-                "fretboard.fret_top",
-                "nothing",
-                "frets need the height of their crowns, -10 to 0 m",
+            None if count > 0 => Err(Error::Syntax(
+                "missing key `fret_top` of [fretboard]: frets need the height of their crowns, -10 to 0 m"
+                    .into(),
             )),
             None => Ok(()),
             Some(OneOrEach::One(height)) => within("fretboard.fret_top", *height, -10.0, 0.0, "m").map(drop),
