@@ -118,11 +118,11 @@ fn fingers_too_stiff_for_what_takes_over() {
 const SAMPLE_RATE: f64 = 96e3;
 const LENGTH: f64 = 0.65;
 
-/// Of a string of some shape over a fretboard.
-fn scene(shape: &str, fretboard: &str) -> Scene {
+/// Of a string of some shape, stiff or not, over a fretboard.
+fn scene(youngs_modulus: f64, shape: &str, fretboard: &str) -> Scene {
     let text = format!(
         "sample_rate = {SAMPLE_RATE}\nduration = 1.0\n[[string]]\nlength = {LENGTH}\nlinear_density = 5.25e-3\n\
-         tension = 60.0\nyoungs_modulus = 2e11\ncore_radius = 4.3e-4\ntension_modulation = true\n\
+         tension = 60.0\nyoungs_modulus = {youngs_modulus:?}\ncore_radius = 4.3e-4\ntension_modulation = true\n\
          shape = {shape}\n[fretboard]\nstiffness = 1e13\nexponent = 2.3\nboard = -1e-5\n{fretboard}"
     );
     Scene::from_toml(&text).expect("the scene is valid")
@@ -150,7 +150,7 @@ fn step(scene: &Scene) -> Option<u32> {
 fn hundreds_of_coupled_contacts() {
     // A string dropped on a board of frets closer than the grid: large blocks, and blocks apart.
     for frets in ["", "frets = [0.1, 0.1005, 0.101, 0.1015, 0.102, 0.1025, 0.103, 0.3]\nfret_top = -1e-5\n"] {
-        let most = step(&scene("[[0.0, 0.0], [0.1, -0.001], [0.5, -0.001], [0.65, 0.0]]", frets));
+        let most = step(&scene(2e11, "[[0.0, 0.0], [0.1, -0.001], [0.5, -0.001], [0.65, 0.0]]", frets));
         assert!(most.is_some_and(|most| most > 50), "{most:?} contacts at once");
     }
 }
@@ -159,13 +159,13 @@ fn hundreds_of_coupled_contacts() {
 #[test]
 fn a_kinked_fret_beside_the_bridge() {
     let shape = "[[0.0, 0.0], [0.001, -0.001], [0.649, -0.001], [0.65, 0.0]]";
-    let bare = scene(shape, "");
+    let bare = scene(0.0, shape, "");
     let string = StringParameters::from_spec(&bare.string[0]);
     let grid = Model::grid(&string, bare.solver.stencil, 1.0 / SAMPLE_RATE).expect("there is room for one");
-    for part in [0.1, 0.4, 0.6] {
+    for part in [0.2, 0.4, 0.6] {
         let place = LENGTH - part * grid.spacing;
         let fret = format!("frets = [{place}]\nfret_top = -1e-5\nfret_placement = \"kinked\"\n");
-        let most = step(&scene(shape, &fret));
-        assert!(most.is_some_and(|most| most as usize >= grid.intervals - 1), "{most:?} contacts at once");
+        let most = step(&scene(0.0, shape, &fret));
+        assert!(most.is_some_and(|most| most as usize == grid.intervals), "{most:?} contacts at once");
     }
 }
