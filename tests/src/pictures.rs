@@ -21,6 +21,10 @@ const PIXELS: usize = 200;
 /// square of three has its nine middles in a strip so narrow. What has come, gone or moved is wider, such as the lit line
 /// of a control, 37 pixels by 4.
 const SIDE: usize = 3;
+/// Pixels that may be off within a window of such a width and height, wherever it is put: as many as a line across all of it
+/// has, two pixels thick. The strokes of letters are as thin, but lie close together: the shortest word has more.
+const WINDOW: [usize; 2] = [24, 12];
+const IN_WINDOW: usize = 2 * WINDOW[0];
 
 /// Whether pictures can be drawn here. Where the whole project is checked they must be.
 pub fn can_draw() -> bool {
@@ -100,6 +104,10 @@ impl Picture {
             return Some(format!("{count} pixels off where at most {PIXELS} may be"));
         }
         let [width, height] = self.size.map(|size| size as usize);
+        if let Some([x, y]) = crowded(&off, width) {
+            let [across, down] = WINDOW;
+            return Some(format!("more than {IN_WINDOW} pixels off in {across} by {down} at {x}, {y}"));
+        }
         let corners = (0..(height + 1).saturating_sub(SIDE))
             .flat_map(|y| (0..(width + 1).saturating_sub(SIDE)).map(move |x| (x, y)));
         let all_off = |&(x, y): &(usize, usize)| {
@@ -110,16 +118,36 @@ impl Picture {
     }
 }
 
+/// The corner of a window in which too many pixels of a picture are off, if there is one.
+fn crowded(off: &[bool], width: usize) -> Option<[usize; 2]> {
+    let numbers = off.iter().enumerate().filter(|(_, off)| **off);
+    let places: Vec<[usize; 2]> = numbers.map(|(n, _)| [n % width, n / width]).collect();
+    // One that has the most can be moved right and down until pixels that are off stand at its left and at its top.
+    let mut corners = places.iter().flat_map(|[x, _]| places.iter().map(move |[_, y]| [*x, *y]));
+    let inside = |at: usize, from: usize, size: usize| (from..from + size).contains(&at);
+    corners.find(|&[left, top]| {
+        let within = |[x, y]: &&[usize; 2]| inside(*x, left, WINDOW[0]) && inside(*y, top, WINDOW[1]);
+        places.iter().filter(within).count() > IN_WINDOW
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     /// A grey ground with a brighter rectangle: left, top, width, height.
-    fn rectangle([left, top, width, height]: [u32; 4]) -> Picture {
+    fn rectangle(rectangle: [u32; 4]) -> Picture {
+        rectangles(&[rectangle])
+    }
+
+    /// The same with several.
+    fn rectangles(rectangles: &[[u32; 4]]) -> Picture {
         let size = [200, 40];
         let inside = |n: u32| {
             let (x, y) = (n % size[0], n / size[0]);
-            (left..left + width).contains(&x) && (top..top + height).contains(&y)
+            rectangles.iter().any(|&[left, top, width, height]| {
+                (left..left + width).contains(&x) && (top..top + height).contains(&y)
+            })
         };
         let pixels = (0..size[0] * size[1]).flat_map(|n| [if inside(n) { 200 } else { 50 }; 4]).collect();
         Picture { size, pixels }
@@ -135,5 +163,17 @@ mod tests {
         // A line across all of it, one pixel thick with its edges.
         assert_eq!(nothing.fault(&rectangle([10, 20, 100, 2])), None);
         assert!(nothing.fault(&rectangle([10, 20, 101, 2])).is_some(), "too many");
+    }
+
+    /// Strokes as those of a word in the smallest letters, nowhere three pixels thick.
+    #[test]
+    fn a_word_erased_is_seen() {
+        let upright = |x: u32| [x, 20, 1, 8];
+        let word = [30, 34, 37, 41, 44, 46].map(upright);
+        assert_eq!(word.len() * 8, IN_WINDOW);
+        let nothing = rectangle([0; 4]);
+        assert_eq!(nothing.fault(&rectangles(&word)), None, "as much as a line");
+        let foot = [[47, 27, 3, 1]];
+        assert!(nothing.fault(&rectangles(&[&word[..], &foot].concat())).is_some());
     }
 }
