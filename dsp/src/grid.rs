@@ -149,14 +149,14 @@ impl Reading {
         Reading { first, weights, cells: [0, 1, 2, 3].map(|offset| grid.cell(first + offset) as u32) }
     }
 
-    /// The place read, in nodes from the nut (exact away from the ends of the string).
+    /// The place read, in nodes from the nut, exact but in the last two spacings of the string.
     fn centre(&self) -> f64 {
         let w = &self.weights;
         self.first as f64 + (w[1] + 2.0 * w[2] + 3.0 * w[3])
     }
 
-    /// The order in which many contacts are solved: by place, but for those within the last spacing of the string, whose
-    /// weights lack the fixed end.
+    /// The order in which many contacts are solved: by place, but for those within the last two spacings of the string,
+    /// whose weights lack the fixed end.
     pub(crate) fn order(&self, other: &Reading) -> Ordering {
         self.centre().total_cmp(&other.centre())
     }

@@ -99,7 +99,7 @@ pub(crate) fn flexible(setup: &Setup, string: &SetupString) -> StringParameters 
 const TENSION: [f64; 2] = [1e-3, 1e6];
 
 /// Refuses a string that its pitch takes too much or too little tension, by the number that set-ups have for it: at one pitch
-/// tension grows as the density.
+/// tension grows nearly as the density, and the limit beyond which it is lies on the safe side.
 fn bearable(string: &SetupString, tension: f64) -> Result<(), Error> {
     let density = string.linear_density;
     let [least, most] = TENSION.map(|limit| density * (limit / tension));

@@ -137,7 +137,7 @@ impl Panel {
     pub(crate) fn draw(&self, area: &Area) -> Result<()> {
         for layer in &self.layers {
             let Layer::Line { points, name, .. } = layer else { continue };
-            let across = &self.x.range;
+            let across = self.x.range.start..=self.x.range.end;
             let beyond = points.iter().find(|(x, y)| across.contains(x) && self.y.hides(*y));
             let (title, label, range) = (&self.title, &self.y.label, &self.y.range);
             ensure!(

@@ -13,7 +13,6 @@ use nice_plug::prelude::*;
 
 pub use choices::{InputChoice, InstrumentChoice, LegatoChoice, QualityChoice, RenderChoice, StringOrder};
 pub use ranges::{exact, poly};
-#[cfg(feature = "editor")]
 pub(crate) use start::start;
 pub use start::{Start, begin_with};
 

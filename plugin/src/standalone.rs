@@ -7,7 +7,7 @@ mod keyboards;
 mod pulse;
 pub(crate) mod window;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
 use cpal::traits::{DeviceTrait, HostTrait};
 use nice_plug::prelude::nice_export_standalone_with_args;
 
@@ -57,8 +57,10 @@ pub fn open(mut start: Start, devices: &Devices) -> Result<()> {
     let until = if windowed { "until its window is closed" } else { "until Ctrl+C" };
     let (layout, blocks) = (start.layout.clone(), start.blocks.clone());
     begin_with(start);
-    let jack = keyboards::of_jack();
-    let way = match devices.backend.as_deref().unwrap_or(AUTO) {
+    let asked = devices.backend.as_deref().unwrap_or(AUTO);
+    let jack = matches!(asked, AUTO | JACK).then(keyboards::of_jack).flatten();
+    ensure!(asked != JACK || jack.is_some(), "no sound can be played by jack: no JACK server runs");
+    let way = match asked {
         AUTO if jack.is_some() => JACK,
         AUTO => NATIVE,
         NONE => NOTHING,

@@ -367,7 +367,7 @@ proptest! {
         play(&mut instrument, samples, &mut sound);
         for (setup, base) in setups[1..].iter().zip(&bases[1..]) {
             prop_assert!(peak(&sound[sound.len() - samples.min(300)..]) > 0.0, "nothing is handed over");
-            // Ledgers of strings that do not go on are gone afterwards.
+            // Ledgers of strings that do not go on stay behind.
             books(&instrument)?;
             prop_assert!(instrument.hand_over(Box::new(build(setup))).is_ok());
             if instrument.ledger(0).is_none() {

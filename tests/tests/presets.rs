@@ -153,7 +153,8 @@ fn a_curved_bridge_makes_the_sound_bloom() {
     }
 }
 
-/// What wraps over the bridge is heard, and stopped notes are in tune: below the thirteenth fret of every string.
+/// What wraps over the bridge is heard, and stopped notes are in tune up to the twelfth fret of every string. What the bridge
+/// swallows of high notes makes them up to 9.6 dB softer; heard at its end alone they would be up to 50 dB softer.
 #[test]
 fn a_sitar_is_heard_up_the_neck() {
     let setup = shipped("sitar");
@@ -161,13 +162,15 @@ fn a_sitar_is_heard_up_the_neck() {
     for (string, open) in open_keys(&setup) {
         for fret in [1, 5, 9, 12] {
             let key = open + fret;
-            let level = |setup: &Setup| decibels(rms(&note(setup, string, key)[960..24_000]));
-            let softer = level(&plain) - level(&setup);
-            assert!((-3.0..15.0).contains(&softer), "string {string}, fret {fret}: {softer} dB softer");
-            let expected = 440.0 * ((f64::from(key) - 69.0) / 12.0).exp2();
-            let off =
-                cents(frequency_near(&note(&setup, string, key)[4800..48_000], RATE, expected), expected);
-            assert!(off.abs() < 20.0, "string {string}, fret {fret}: {off} cents");
+            let sound = note(&setup, string, key);
+            let level = |sound: &[f32]| decibels(rms(&sound[960..24_000]));
+            let softer = level(&note(&plain, string, key)) - level(&sound);
+            println!("string {string}, fret {fret}: {softer:.1} dB softer");
+            assert!((-1.0..10.0).contains(&softer), "string {string}, fret {fret}: {softer} dB softer");
+            let expected = hertz(f64::from(key));
+            let off = cents(frequency_near(&sound[4800..48_000], RATE, expected), expected);
+            // A string that swings far leaves more of the bridge: it sounds lower at first, by up to 13 cents.
+            assert!(off.abs() < 15.0, "string {string}, fret {fret}: {off} cents");
         }
     }
 }
