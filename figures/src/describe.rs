@@ -12,7 +12,7 @@ use crate::axis::power_of_ten;
 const MOST: usize = 2;
 
 /// Everything that is computed of a scene, in a few sentences: what is left out is as it is where a scene says nothing, or
-/// stands on the axes, or is one of more than [`MOST`]. Courses and lists are told by their least and largest value.
+/// stands on the axes, or is beyond the first two of its kind. Courses and lists are told by their least and largest value.
 pub fn describe(scene: &Scene) -> String {
     let on = |number: usize| match scene.string.len() {
         1 => String::new(),
