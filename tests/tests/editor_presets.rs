@@ -155,6 +155,33 @@ fn what_is_replaced_waits_for_its_values() {
     assert_eq!(action(&desk), 1.0);
 }
 
+/// As with quick fingers, or a long block.
+#[test]
+fn what_is_taken_back_before_it_came_does_not_come() {
+    let mut desk = Desk::new();
+    save(&mut desk, "Mine 4");
+    enter(&mut desk, "Luthier", "Action", "50");
+    let heard = |desk: &Desk| {
+        let kept: Value =
+            serde_json::from_str(&desk.params.serialize_fields()["instrument_file"]).expect("JSON");
+        (kept["text"].as_str().expect("a text").to_owned(), action(desk))
+    };
+    let before = heard(&desk);
+    desk.host.be_late();
+    save(&mut desk, "Mine 4");
+    undo(&mut desk);
+    for _ in 0..2 {
+        desk.host.catch_up();
+        desk.wait(0.1);
+    }
+    assert_eq!(heard(&desk), before);
+    redo(&mut desk);
+    desk.host.catch_up();
+    desk.wait(0.1);
+    let after = heard(&desk);
+    assert!(after.0 != before.0 && after.1 == 1.0, "{after:?}");
+}
+
 #[test]
 fn names_that_cannot_be_are_told() {
     let mut desk = Desk::new();

@@ -6,6 +6,8 @@
 //! it, as does choosing anything in the editor's list. The audio thread sees nothing but numbers.
 
 mod kept;
+#[cfg(all(test, feature = "editor"))]
+mod tests;
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -127,16 +129,22 @@ impl Shelf {
         }
     }
 
-    /// The file that is kept for a number, if one is.
+    /// The file that is kept for a number, if one is, or is to be: what is promised for it counts already.
     #[cfg(feature = "editor")]
     pub(crate) fn held(&self, number: u32) -> Option<Kept> {
-        self.of_held(number, Kept::clone)
+        let kept = lock(&self.0.kept);
+        let promised = lock(&self.0.promised).clone().filter(|(known, _)| *known == number && number != NONE);
+        promised.map_or_else(|| self.stands(number, &kept).cloned(), |(_, file)| file)
     }
 
     fn of_held<T>(&self, number: u32, read: impl FnOnce(&Kept) -> T) -> Option<T> {
-        let kept = lock(&self.0.kept);
+        self.stands(number, &lock(&self.0.kept)).map(read)
+    }
+
+    /// What is kept, if it stands for a number.
+    fn stands<'a>(&self, number: u32, kept: &'a Option<Kept>) -> Option<&'a Kept> {
         let stands = number != NONE && self.0.stands_for.load(Ordering::Relaxed) == number;
-        kept.as_ref().filter(|_| stands).map(read)
+        kept.as_ref().filter(|_| stands)
     }
 
     /// Has a number stand for a file that was kept before, or for what the folder has: once it is chosen, and where it is
@@ -160,12 +168,13 @@ impl Shelf {
         if number == NONE || self.0.chosen.load(Ordering::Relaxed) != number {
             return;
         }
-        let stands_for = if file.is_some() { number } else { NONE };
-        if file.is_some() {
+        let is_file = file.is_some();
+        let stands_for = if is_file { number } else { NONE };
+        if is_file {
             *kept = file;
         }
-        if self.0.stands_for.swap(stands_for, Ordering::Relaxed) == number {
-            // Whoever has read it has read another.
+        if self.0.stands_for.swap(stands_for, Ordering::Relaxed) == number || is_file {
+            // Whoever has read it has read another, or has tried to and found none.
             self.0.edition.fetch_add(1, Ordering::Relaxed);
         }
     }
@@ -204,14 +213,18 @@ impl Shelf {
         {
             return Ok(kept.clone());
         }
-        let found = match self.of_promised(number, Kept::clone) {
-            Some(promised) => promised,
+        // Nobody may promise another one meanwhile: it would be taken for this.
+        let mut promised = lock(&self.0.promised);
+        let file = promised.as_ref().filter(|(known, _)| *known == number).and_then(|(_, file)| file.clone());
+        let found = match file {
+            Some(file) => file,
             None => self.read(number)?,
         };
         if self.0.chosen.load(Ordering::Relaxed) == number {
             *kept = Some(found.clone());
             self.0.stands_for.store(number, Ordering::Relaxed);
-            lock(&self.0.promised).take_if(|(known, file)| *known == number && file.is_some());
+            // Also where it was what the folder has: kept later, it would be read once more.
+            promised.take_if(|(known, _)| *known == number);
         }
         Ok(found)
     }
