@@ -50,7 +50,7 @@ fn action_and_relief_are_moved_in_the_side_view() {
     assert!(desk.params.setup.action.value() < 1.4);
 }
 
-/// What is held may go: another instrument has no coil, or the window is closed.
+/// What is held may go: another instrument has no coil.
 #[test]
 fn what_is_dropped_has_ended() {
     let mut desk = Desk::new();
@@ -81,6 +81,41 @@ fn what_is_dropped_has_ended() {
     assert!(undo(&mut desk) > moved);
     assert_eq!(undo(&mut desk), moved);
     assert_eq!(undo(&mut desk), 0.0);
+}
+
+/// Nothing is set outside of a gesture, also where what is held goes and comes back under the mouse.
+#[test]
+fn what_comes_back_is_a_gesture_of_its_own() {
+    let mut desk = Desk::new();
+    let host = desk.host.clone();
+    let setter = ParamSetter::new(&*host);
+    let from = desk.named("Pickup position");
+    desk.point(from);
+    desk.press(from, true, Modifiers::NONE);
+    desk.point(from - vec2(60.0, 0.0));
+    for index in [1, 0] {
+        setter.set_parameter(&desk.params.instrument.instrument, InstrumentChoice::from_index(index));
+        desk.host.take();
+        desk.wait(0.1);
+    }
+    let mut told = desk.host.take();
+    desk.point(from - vec2(90.0, 0.0));
+    desk.press(from - vec2(90.0, 0.0), false, Modifiers::NONE);
+    told.extend(desk.host.take());
+    assert!(is_gesture(&told, "pickup_position"), "{told:?}");
+}
+
+#[test]
+fn what_is_held_when_the_window_is_closed_has_ended() {
+    let mut desk = Desk::new();
+    let from = desk.named("Pluck position");
+    desk.point(from);
+    desk.press(from, true, Modifiers::NONE);
+    desk.point(from - vec2(60.0, 0.0));
+    let Desk { harness, host, .. } = desk;
+    drop(harness);
+    let told = host.take();
+    assert!(is_gesture(&told, "pluck_position"), "{told:?}");
 }
 
 #[test]

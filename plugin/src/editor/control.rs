@@ -70,13 +70,17 @@ fn drag<P: Param>(
         ui.data_mut(|data| data.insert_temp(id, value + growth.dot(before)));
     }
     if response.dragged() {
-        given.history.hold(param.as_ptr());
+        if !given.history.hold(param.as_ptr()) {
+            // It was gone for a while, as on an instrument without a coil, and that gesture has ended.
+            setter.begin_set_parameter(param);
+            ui.data_mut(|data| data.insert_temp(id, value));
+        }
         let held = ui.data(|data| data.get_temp(id)).unwrap_or(value) + growth.dot(response.drag_delta());
         // Beyond the end the mouse has to come back before anything moves again.
         ui.data_mut(|data| data.insert_temp(id, held));
         setter.set_parameter_normalized(param, normalized(held));
     }
-    if response.drag_stopped() {
+    if response.drag_stopped() && given.history.hold(param.as_ptr()) {
         setter.end_set_parameter(param);
     }
 }

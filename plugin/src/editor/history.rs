@@ -169,12 +169,11 @@ impl History {
         self.params.instrument.file.preview_plain(value).unsigned_abs()
     }
 
-    /// Somebody has hold of a parameter at this picture.
-    pub fn hold(&self, param: ParamPtr) {
+    /// Somebody has hold of a parameter at this picture. Gives back whether a gesture of it is under way.
+    pub fn hold(&self, param: ParamPtr) -> bool {
         let mut inside = self.inside();
-        inside.under_way.iter_mut().filter(|gesture| gesture.change.param == param).for_each(|gesture| {
-            gesture.is_held = true;
-        });
+        let gesture = inside.under_way.iter_mut().find(|gesture| gesture.change.param == param);
+        gesture.map(|gesture| gesture.is_held = true).is_some()
     }
 
     /// The parameters that nobody has hold of any more though nobody has let go of them either: what had hold of them is

@@ -13,6 +13,7 @@
 
 mod asked;
 mod capture;
+mod closing;
 mod compare;
 pub mod control;
 mod given;
@@ -33,8 +34,7 @@ use std::sync::Arc;
 
 use egui::{Rect, Ui, UiBuilder, ViewportCommand, pos2};
 use nice_plug::context::PluginApi;
-use nice_plug::context::gui::{GuiContext, GuiContextInner};
-use nice_plug::params::internals::ParamPtr;
+use nice_plug::context::gui::GuiContext;
 use nice_plug::prelude::ParamSetter;
 use nice_plug_egui::NiceEguiApp;
 
@@ -105,8 +105,11 @@ impl Editor {
             ui.ctx().request_repaint();
         }
         self.plan.follow(&self.params);
-        self.resume(ui);
         let noted = Noted { gui: gui.clone(), history: self.history.clone() };
+        if self.opening {
+            closing::end_gestures(ui.ctx(), noted.clone());
+        }
+        self.resume(ui);
         let given = Given {
             params: &self.params,
             setter: ParamSetter::new(&noted),
@@ -137,7 +140,7 @@ impl Editor {
         let seen = self.params.layout.seen();
         self.params.layout.keep(Seen { panel, string: self.strings.watched(), size, zoom, ..seen });
         self.typing = ui.ctx().text_edit_focused();
-        end(&noted, &self.history.dropped());
+        noted.end_dropped();
     }
 
     /// A window opens, which is to become as it was left.
@@ -169,14 +172,6 @@ impl Editor {
     }
 }
 
-/// Ends gestures that nobody will end.
-fn end(noted: &Noted, params: &[ParamPtr]) {
-    for &param in params {
-        // SAFETY: only the plugin's parameters are set in its editor, and they outlive it.
-        unsafe { noted.raw_end_set_parameter(param) };
-    }
-}
-
 impl NiceEguiApp for Editor {
     fn build(
         &mut self,
@@ -203,15 +198,6 @@ impl NiceEguiApp for Editor {
             if gui.plugin_api() != PluginApi::Standalone {
                 frame.set_key_capture(capture::kept(self.typing, ui.input(|input| input.modifiers.command)));
             }
-        }
-    }
-
-    fn editor_closed(&mut self) {
-        if let Some(gui) = self.gui.clone() {
-            let noted = Noted { gui, history: self.history.clone() };
-            // What was held in the last picture, too.
-            end(&noted, &self.history.dropped());
-            end(&noted, &self.history.dropped());
         }
     }
 }

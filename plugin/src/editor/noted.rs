@@ -20,11 +20,22 @@ pub fn put(host: &dyn GuiContextInner, param: ParamPtr, value: f32) {
 }
 
 /// The way to the host, past the history.
+#[derive(Clone)]
 pub struct Noted {
     /// The host.
     pub gui: GuiContext,
     /// What notes all that goes there.
     pub history: Arc<History>,
+}
+
+impl Noted {
+    /// Ends the gestures of all that was gone at this picture, and begins another.
+    pub fn end_dropped(&self) {
+        for param in self.history.dropped() {
+            // SAFETY: only the plugin's parameters are set in its editor, and they outlive it.
+            unsafe { self.raw_end_set_parameter(param) };
+        }
+    }
 }
 
 impl GuiContextInner for Noted {
