@@ -230,6 +230,34 @@ fn a_key_that_repeats_is_one_that_is_held() {
     }
 }
 
+/// Also where pictures are so slow that it goes up and comes down between two.
+#[test]
+fn a_key_that_is_pressed_once_more_plays_once_more() {
+    let stroke = |pressed| egui::Event::Key {
+        key: Key::Q,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    let mut desk = Desk::alone();
+    let notes = |desk: &mut Desk| {
+        let is_on = |event: &PlayerEvent| matches!(event, PlayerEvent::NoteOn { .. });
+        std::mem::take(&mut desk.played).iter().map(is_on).collect::<Vec<_>>()
+    };
+    for pressed in [true, false, true] {
+        desk.harness.event(stroke(pressed));
+    }
+    desk.picture();
+    assert_eq!(notes(&mut desk), [true, false, true]);
+    desk.wait(0.06);
+    for pressed in [false, true] {
+        desk.harness.event(stroke(pressed));
+    }
+    desk.picture();
+    assert_eq!(notes(&mut desk), [false, true]);
+}
+
 /// Under Caps Lock nothing is heard of a letter but what it writes.
 #[test]
 fn caps_lock_lets_go() {

@@ -41,6 +41,13 @@ struct Held {
     leaves: bool,
 }
 
+impl Held {
+    /// Whether it has been down for so long that it may begin to repeat.
+    fn may_repeat(&self, now: f64) -> bool {
+        now - self.since >= REPEATS
+    }
+}
+
 /// What the keys remember.
 #[derive(Debug, Default)]
 pub struct Keys {
@@ -64,7 +71,13 @@ impl Keys {
             return;
         }
         let (events, now) = ui.input(|input| (input.events.clone(), input.time));
-        let mut halves = repeats::halves(&events);
+        // One that is pressed once more within a picture does not repeat. Of one that is down and plays nothing, as after
+        // it was let go, it is not known since when.
+        let may_repeat = |key| match self.held.iter().find(|held| held.key == key) {
+            Some(held) => held.may_repeat(now),
+            None => repeats::comes_down(&events, key).is_none(),
+        };
+        let mut halves = repeats::halves(&events, may_repeat);
         for (key, leaves) in self.held.iter().map(|held| (held.key, held.leaves)).collect::<Vec<_>>() {
             match repeats::comes_down(&events, key).filter(|_| leaves) {
                 Some(down) => {
@@ -134,7 +147,7 @@ impl Keys {
     /// A key goes up. One that may repeat comes down again at the next picture, if it does.
     fn lift(&mut self, ui: &Ui, given: &Given, key: Key, now: f64) {
         match self.held.iter_mut().find(|held| held.key == key) {
-            Some(held) if now - held.since >= REPEATS => {
+            Some(held) if held.may_repeat(now) => {
                 held.leaves = true;
                 ui.ctx().request_repaint();
             }

@@ -3,11 +3,12 @@
 
 use egui::{Event, Key};
 
-/// Whether each event is half of a repetition: a key goes up and the next that is heard of it is that it comes down.
-pub(super) fn halves(events: &[Event]) -> Vec<bool> {
+/// Whether each event is half of a repetition: a key that may repeat goes up, and the next that is heard of it is that it
+/// comes down.
+pub(super) fn halves(events: &[Event], may_repeat: impl Fn(Key) -> bool) -> Vec<bool> {
     let mut halves = vec![false; events.len()];
     for (up, event) in events.iter().enumerate() {
-        let Some((key, false)) = stroke(event) else { continue };
+        let Some((key, false)) = stroke(event).filter(|(key, _)| may_repeat(*key)) else { continue };
         let next = events[up + 1..].iter().position(|event| of(event, key).is_some());
         if let Some(down) =
             next.map(|next| up + 1 + next).filter(|&down| of(&events[down], key) == Some(true))
