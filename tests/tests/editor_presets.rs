@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable;
 use low_action_dsp::Setup;
 use low_action_tests::desk::Desk;
 use low_action_tests::user::isolate as folder;
-use nice_plug::prelude::{ParamSetter, Params};
+use nice_plug::prelude::{Enum, ParamSetter, Params};
 use serde_json::{Value, json};
 
 /// Types a value into the control of a parameter.
@@ -365,6 +365,23 @@ fn steps_at_once_are_one_step_back() {
         .collect();
     assert!(steps[0] > steps[1] && steps[1] > steps[2] && steps[2] > 1.0, "{steps:?}");
     assert_eq!(steps[3..], [1.0, 1.0], "the first three were one");
+}
+
+#[test]
+fn steps_from_instrument_to_instrument_are_one_step_back() {
+    let mut desk = Desk::new();
+    desk.open("Luthier");
+    desk.click(desk.control("Instrument").expect("it is there"));
+    desk.wait(0.1);
+    // Its list is not needed.
+    desk.click(desk.control("Instrument").expect("it is there"));
+    desk.wait(0.1);
+    for _ in 0..3 {
+        desk.key(Key::ArrowUp);
+    }
+    assert_eq!(desk.params.instrument.instrument.value().to_index(), 3);
+    undo(&mut desk);
+    assert_eq!(desk.params.instrument.instrument.value().to_index(), 0);
 }
 
 #[test]

@@ -231,6 +231,7 @@ impl Inside {
         if let Some(together) = &mut self.together {
             together.changes.extend(entry.changes);
             together.file = together.file.take().or(entry.file);
+            together.stepped = together.stepped.or(entry.stepped);
             return;
         }
         self.undone.clear();
