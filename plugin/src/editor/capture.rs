@@ -17,8 +17,8 @@ const OWN: [&str; 11] = [
     "Delete",
     "Backspace",
 ];
-/// What undoes and redoes, with Ctrl or Cmd.
-const COMMANDS: [&str; 3] = ["z", "Z", "y"];
+/// What undoes and redoes, and brings back the usual size, with Ctrl or Cmd.
+const COMMANDS: [&str; 4] = ["z", "Z", "y", "0"];
 
 /// What is kept from a host, while something is typed or not, and while Ctrl or Cmd is down or not.
 pub(super) fn kept(typing: bool, command: bool) -> KeyCapture {
@@ -48,9 +48,10 @@ mod tests {
         for name in OWN {
             assert!(has(&usual, name) && has(&commanded, name) && has(&typing, name), "{name}");
         }
-        for name in [" ", "a", "r", "F5", "z"] {
+        for name in [" ", "a", "r", "F5", "z", "0"] {
             assert!(!has(&usual, name) && has(&typing, name), "{name:?}");
         }
-        assert!(has(&commanded, "z") && has(&commanded, "y") && !has(&commanded, "s"));
+        assert!(has(&commanded, "z") && has(&commanded, "y") && has(&commanded, "0"));
+        assert!(!has(&commanded, "s"));
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! In the panels the name stands over each, the value with its unit beside it or under it. Dragging moves a number, ten
 //! times as finely with Shift, and a double click brings it back to its usual value. Tab reaches a control, arrows move
-//! it, Home and End bring it to its ends, Delete to its usual value. The host is told where each gesture begins and ends.
+//! it, Home and End bring it to its ends, Delete and Backspace to its usual value. The host is told where each gesture begins
+//! and ends.
 
 mod choice;
 mod handle;
