@@ -37,9 +37,10 @@ fn set<P: Param>(given: &Given, param: &P, normalized: f32) {
     given.setter.end_set_parameter(param);
 }
 
-/// Moves a parameter by so many steps, up or down.
-fn step<P: Param>(given: &Given, param: &P, steps: i32, fine: bool) {
-    let mut value = given.value(param);
+/// Moves a parameter by so many steps, up or down. Gives back whether it is another value.
+fn step<P: Param>(given: &Given, param: &P, steps: i32, fine: bool) -> bool {
+    let before = given.value(param);
+    let mut value = before;
     for _ in 0..steps.abs() {
         value = if steps > 0 {
             param.next_normalized_step(value, fine)
@@ -50,6 +51,7 @@ fn step<P: Param>(given: &Given, param: &P, steps: i32, fine: bool) {
     if steps != 0 {
         given.history.stepping(|| set(given, param, value));
     }
+    value != before
 }
 
 /// Has a parameter follow the mouse while it is dragged. `value` is the present one and how much it grows for a point to
@@ -93,13 +95,13 @@ struct Arrows {
     up_is_less: bool,
 }
 
-/// Takes what the keyboard does to a control that has the focus.
-fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response, arrows: Arrows) {
+/// Takes what the keyboard does to a control that has the focus. Gives back whether it has set another value.
+fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response, arrows: Arrows) -> bool {
     if response.clicked() {
         response.request_focus();
     }
     if !response.has_focus() {
-        return;
+        return false;
     }
     let own = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, own));
@@ -122,10 +124,12 @@ fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response,
         let end = ends.into_iter().filter(|(key, _)| pressed(*key) > 0).map(|(_, value)| value).last();
         (steps, fine, end)
     });
-    step(given, param, steps, fine);
+    let mut is_another = step(given, param, steps, fine);
     if let Some(end) = end {
+        is_another |= end != given.value(param);
         set(given, param, end);
     }
+    is_another
 }
 
 /// A musician's words for it, under the mouse.

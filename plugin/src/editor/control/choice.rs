@@ -16,18 +16,17 @@ const HIGHEST: f32 = 320.0;
 pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count: usize) -> Response {
     let id = ui.scope_id().with(param.name());
     let mut response = ui.interact(area, id, Sense::click());
-    let before = given.value(param);
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::labeled(egui::Role::ComboBox, true, param.name());
         info.current_text_value = Some(shown(given, param));
         info
     });
-    follow_keys(ui, given, param, &response, Arrows::default());
+    // Not whether the value is another than it was: a host may move it meanwhile.
+    let mut is_chosen_here = follow_keys(ui, given, param, &response, Arrows::default());
     paint_name(ui, param, area, &response);
     paint_value(ui, &shown(given, param), area, &response);
     let steps = param.step_count().unwrap_or(1).max(1) as f32;
     let chosen = given.value(param);
-    let mut is_chosen_anew = false;
     Popup::menu(&response).width(area.width()).show(|ui| {
         ScrollArea::vertical().max_height(HIGHEST).show(ui, |ui| {
             for index in 0..count {
@@ -43,13 +42,13 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
                 }
                 if line.clicked() {
                     set(given, param, value);
-                    is_chosen_anew = true;
+                    is_chosen_here = true;
                     ui.close();
                 }
             }
         });
     });
-    if is_chosen_anew || given.value(param) != before {
+    if is_chosen_here {
         response.mark_changed();
     }
     explain(given, param, response.on_hover_cursor(CursorIcon::PointingHand))
