@@ -2,6 +2,7 @@
 //! strings play and what is seen come out.
 
 mod recorder;
+mod steps;
 
 use std::sync::Arc;
 

@@ -14,6 +14,8 @@ pub mod parameters;
 #[cfg(feature = "pictures")]
 pub mod pictures;
 pub mod pitch;
+pub mod plain_string;
+pub mod ringing;
 pub mod session;
 pub mod stage;
 pub mod user;

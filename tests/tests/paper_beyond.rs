@@ -52,7 +52,7 @@ fn t60(scene: &Scene, string: usize, number: f64) -> f64 {
 }
 
 /// To 1 %: the scheme's decay is that of the string but for (γh)²/12 of its second loss, 0.5 % at partial 10
-/// (`exact_solutions` measures it closely); means over tenths of a second leave less than that.
+/// (`exact_partials` measures it closely); means over tenths of a second leave less than that.
 #[test]
 fn classical_strings_decay_as_measured() {
     let scene = scene("strings");

@@ -26,7 +26,7 @@ const ERRORS: [Wrong; 4] = [
     ("Partials of open strings up to 4 kHz", "largest error, cents", [1e-3, 1e2], &[Kind::Open], |o| {
         o.errors.partials
     }),
-    ("Waveform from the pluck to the first contact", "largest error, %", [1.0, 1e2], ALL, |o| {
+    ("Waveform from the pluck to the first contact", "largest error, %", [0.6, 1e2], ALL, |o| {
         100.0 * o.errors.waveform
     }),
     ("Contact impulses of stopped strings", "largest error, %", [1e-3, 1e1], &[Kind::Pressed], |o| {
@@ -70,7 +70,7 @@ pub fn draw(outcomes: &[Outcome]) -> Result<String> {
 
 fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
     let (title, label, [low, high], ..) = wrong;
-    let x = Scale::log("cost of a string, % of a core", 0.5..30.0).ticks(4);
+    let x = Scale::log("cost of a string, % of a core", 0.4..40.0).ticks(4);
     let mut panel = Panel::new(*title, x, Scale::log(*label, *low..*high).ticks(6));
     let grid = settings(Axis::Grid);
     let place = |setting: &Setting| (cost(setting, outcomes), largest(wrong, setting, outcomes));
@@ -90,13 +90,13 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
         panel = panel.with(Layer::line(stencil_name(stencil), stroke, points.clone()));
         panel = panel.with(Layer::dots("", stroke, points.clone()));
         if stencil == Stencil::Wide {
-            // A little above the dot; the two lowest rates are too near to each other for a word each.
+            // A little above the dot; the two lowest rates are too near to each other for a word each, and stand to the left.
             let up = |error: f64| error * (high / low).powf(0.06);
             let (near, far): (Vec<_>, Vec<_>) =
                 own.iter().zip(points).partition(|(setting, _)| setting.rate < 90e3);
             let left = near.iter().fold(f64::INFINITY, |left, (_, at)| left.min(at.0));
             let top = near.iter().fold(0.0, |top: f64, (_, at)| top.max(at.1));
-            let mut words = vec![Layer::words((0.7 * left, up(top)), "44.1 and 48")];
+            let mut words = vec![Layer::words((0.42 * left, up(top)), "44.1 and 48")];
             words.extend(far.iter().map(|(setting, at)| {
                 Layer::words((at.0 * 1.02, up(at.1)), format!("{}", setting.rate / 1e3))
             }));
@@ -105,11 +105,11 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
     }
     let names = Quality::ALL.iter().zip(&qualities).map(|(one, setting)| {
         let at = place(setting);
-        // Beside and below the dot, but for two whose neighbours stand there.
+        // Where no line runs: below the dot, to the left but for the last.
         let (right, above) = match one {
             Quality::Draft => (0.64, -0.01),
-            Quality::Studio => (1.0, 0.06),
-            Quality::Live | Quality::Reference => (1.04, -0.07),
+            Quality::Live | Quality::Studio => (0.72, -0.09),
+            Quality::Reference => (0.9, -0.09),
         };
         Layer::words((at.0 * right, at.1 * (high / low).powf(above)), one.name())
     });
@@ -120,7 +120,7 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
 
 /// Waveform error over energy booked to the solver: neither tells the other.
 fn energy(outcomes: &[Outcome]) -> Panel {
-    let x = Scale::log("energy booked to the solver, part of the largest energy", 1e-14..1.0).ticks(8);
+    let x = Scale::log("energy booked to the solver, part of the largest energy", 1e-15..1.0).ticks(8);
     let y = Scale::log("largest error of the waveform, %", 1.0..1e2).ticks(3);
     let booked =
         |setting: &Setting| of(setting, outcomes).map(|outcome| outcome.booked.abs()).fold(1e-14, f64::max);

@@ -1,0 +1,173 @@
+//! Promise: partials have the frequency and decay of the scheme's own dispersion relation and, within the error that the
+//! analysis predicts, those of the differential equation.
+
+use std::f64::consts::PI;
+
+use low_action_tests::plain_string::{LOW_E, PlainString, STENCILS};
+
+/// Angular frequency (rad/s) and decay rate (1/s) of a partial.
+#[derive(Debug)]
+struct Partial {
+    frequency: f64,
+    decay: f64,
+}
+
+impl Partial {
+    /// From z, by which an oscillation is multiplied in `time`: z² = p z + q.
+    fn from_recurrence(p: f64, q: f64, time: f64) -> Self {
+        let radius = (-q).sqrt();
+        Self { frequency: (p / (2.0 * radius)).acos() / time, decay: -radius.ln() / time }
+    }
+}
+
+/// Releases the string in the shape of mode m and fits a decaying oscillation to the mode's amplitude:
+/// samples D apart obey a[n + 2D] = p a[n + D] + q a[n], with p and q by least squares. D is a quarter of a
+/// period, where the two are told apart best.
+fn measure(string: &PlainString, stencil: &str, mode: f64) -> Partial {
+    let beta = mode * PI / string.length;
+    let mut simulation = string.released(stencil, |x| 1e-3 * (beta * x).sin(), "");
+    let weights: Vec<f64> = simulation.string(0).places().map(|x| (beta * x).sin()).collect();
+    let amplitudes: Vec<f64> = (0..8_000)
+        .map(|_| {
+            let points = simulation.string(0).state.displacement();
+            let amplitude = points.zip(&weights).map(|(u, w)| u * w).sum();
+            simulation.step();
+            amplitude
+        })
+        .collect();
+    let lag = (0.5 * PI / string.frequency(beta) * string.sample_rate).round().max(1.0) as usize;
+    let [mut xx, mut xy, mut yy, mut xz, mut yz] = [0.0; 5];
+    for n in 0..amplitudes.len() - 2 * lag {
+        let (x, y, z) = (amplitudes[n], amplitudes[n + lag], amplitudes[n + 2 * lag]);
+        (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
+        (xz, yz) = (xz + x * z, yz + y * z);
+    }
+    let determinant = xx * yy - xy * xy;
+    let p = (xx * yz - xy * xz) / determinant;
+    let q = (yy * xz - xy * yz) / determinant;
+    Partial::from_recurrence(p, q, lag as f64 / string.sample_rate)
+}
+
+/// κ₂² and κ₆ of a stencil at spacing h.
+fn stiffness(string: &PlainString, stencil: &str, h: f64) -> (f64, f64) {
+    let (c2, kappa2) = (string.c_squared(), string.kappa_squared());
+    let courant2 = c2 / (string.sample_rate * h).powi(2);
+    let corrected = kappa2 + c2 * h * h / 12.0 * (1.0 - courant2);
+    match stencil {
+        "paper" => (kappa2, 0.0),
+        "corrected" => (corrected, 0.0),
+        _ => (corrected, (1.0 - courant2) * h * h * (c2 * h * h * (4.0 - courant2) / 360.0 + kappa2 / 6.0)),
+    }
+}
+
+/// The partial of the scheme itself: with the eigenvalue −s of D_xx, s = (4/h²) sin²(βh/2), the update reads
+/// (1 + σ₀k) z² = (2 − k²(c²s + κ₂²s² + κ₆s³) − 2σ₁ks) z − (1 − σ₀k − 2σ₁ks).
+fn discrete(string: &PlainString, stencil: &str, beta: f64, h: f64) -> Partial {
+    let k = 1.0 / string.sample_rate;
+    let (fourth, sixth) = stiffness(string, stencil, h);
+    let s = (2.0 / h * (beta * h / 2.0).sin()).powi(2);
+    let stiffness = string.c_squared() * s + fourth * s * s + sixth * s * s * s;
+    let loss = 2.0 * string.loss_1 * k * s;
+    let scale = 1.0 + string.loss_0 * k;
+    let p = (2.0 - k * k * stiffness - loss) / scale;
+    Partial::from_recurrence(p, -(1.0 - string.loss_0 * k - loss) / scale, k)
+}
+
+fn cents(ratio: f64) -> f64 {
+    1200.0 * ratio.log2()
+}
+
+#[test]
+fn partials_of_a_stiff_lossy_string() {
+    let string = &LOW_E;
+    let k = 1.0 / string.sample_rate;
+    let mut near_4_khz = Vec::new();
+    for stencil in STENCILS {
+        let h = string.released(stencil, |_| 0.0, "").string(0).model.grid.spacing;
+        for mode in [1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 43.0] {
+            let beta = mode * PI / string.length;
+            let got = measure(string, stencil, mode);
+
+            // The scheme's own partials: only rounding and the fit are between them.
+            let scheme = discrete(string, stencil, beta, h);
+            let (off, decay_off) = (got.frequency / scheme.frequency - 1.0, got.decay / scheme.decay - 1.0);
+            assert!(off.abs() < 1e-10, "{stencil}, mode {mode}: {got:?} instead of {scheme:?}");
+            assert!(decay_off.abs() < 1e-9, "{stencil}, mode {mode}: {got:?} instead of {scheme:?}");
+
+            // Those of the differential equation, with the leading errors predicted: s = β²(1 − (βh)²/12 + …)
+            // and (2/k²)(1 − cos ωk) = ω²(1 − (ωk)²/12 + …). What is left out begins with terms in
+            // (βh)⁴: 1/360 in s and at most 1/72 from κ₂² s², and half of that in ω.
+            let omega = string.frequency(beta);
+            let decay = string.loss_0 + string.loss_1 * beta * beta;
+            let exact = (omega * omega - decay * decay).sqrt();
+            let (fourth, sixth) = stiffness(string, stencil, h);
+            let (c2, kappa2) = (string.c_squared(), string.kappa_squared());
+            let leading = (omega.powi(4) * k * k / 12.0
+                - (c2 * beta.powi(4) / 12.0 + kappa2 * beta.powi(6) / 6.0) * h * h
+                + (fourth - kappa2) * beta.powi(4)
+                + sixth * beta.powi(6))
+                / (2.0 * omega * omega)
+                + 0.5 * k * string.loss_1 * beta * beta;
+            let remainder = (beta * h).powi(4);
+            let error = got.frequency / exact - 1.0;
+            assert!(
+                (error - leading).abs() < remainder / 120.0 + 1e-9,
+                "{stencil}, mode {mode}: off by {error:e}, predicted {leading:e}"
+            );
+
+            // Decay likewise: σ₁s for σ₁β², and kσ₁β² of the whole from taking σ₁ at the step before.
+            let slower = string.loss_1 * beta * beta * (k - (beta * h).powi(2) / 12.0 / decay);
+            let decay_error = got.decay / decay - 1.0;
+            assert!(
+                (decay_error - slower).abs() < remainder / 360.0 + 1e-9,
+                "{stencil}, mode {mode}: decay off by {decay_error:e}, predicted {slower:e}"
+            );
+            println!(
+                "{stencil:9} mode {mode:2}: {:7.2} Hz, scheme's {off:8.1e}, exact {:8.4} cents (predicted {:8.4}); \
+                 decay {:.4}/s, scheme's {decay_off:8.1e}, exact {decay_error:8.1e}",
+                got.frequency / 2.0 / PI,
+                cents(1.0 + error),
+                cents(1.0 + leading),
+                got.decay
+            );
+            if mode == 43.0 {
+                near_4_khz.push(cents(1.0 + error));
+            }
+        }
+    }
+    // What the three stencils are worth on a real string, 3957 Hz at a sample rate of 48 kHz.
+    for (got, expected) in near_4_khz.iter().zip([-31.7, -12.2, -0.9]) {
+        assert!((got - expected).abs() < 0.1, "{near_4_khz:?} cents near 4 kHz");
+    }
+}
+
+/// What `docs/formats.md` says of the decay of high partials, which no stencil mends: the string of its example at 44.1 kHz.
+#[test]
+fn high_partials_ring_longer_than_their_losses_say() {
+    let string = PlainString {
+        sample_rate: 44_100.0,
+        length: 0.65,
+        linear_density: 5.25e-3,
+        tension: 60.0,
+        youngs_modulus: 2e11,
+        core_radius: 4.3e-4,
+        loss_0: 1.38,
+        loss_1: 1.25e-4,
+    };
+    // (The grid of the last is coarser.)
+    for (stencil, percent) in STENCILS.into_iter().zip([[2.1, 6.4, 18.3], [2.1, 6.4, 18.3], [2.6, 8.1, 23.6]])
+    {
+        for (hertz, longer) in [2.3e3, 4.3e3, 8.7e3].into_iter().zip(percent) {
+            // The partial next to that frequency.
+            let mode = (1..)
+                .map(f64::from)
+                .find(|mode| string.frequency(mode * PI / string.length) > 2.0 * PI * hertz)
+                .expect("frequencies rise for ever");
+            let beta = mode * PI / string.length;
+            let got = measure(&string, stencil, mode);
+            let found = 100.0 * ((string.loss_0 + string.loss_1 * beta * beta) / got.decay - 1.0);
+            println!("{stencil:9} {hertz} Hz: {found:.2} % longer");
+            assert!((found - longer).abs() < 0.06, "{stencil}, {hertz} Hz: {found} % and not {longer} %");
+        }
+    }
+}
