@@ -169,8 +169,10 @@ fn a_sitar_is_heard_up_the_neck() {
             assert!((-1.0..10.0).contains(&softer), "string {string}, fret {fret}: {softer} dB softer");
             let expected = hertz(f64::from(key));
             let off = cents(frequency_near(&sound[4800..48_000], RATE, expected), expected);
-            // A string that swings far leaves more of the bridge: it sounds lower at first, by up to 13 cents.
-            assert!(off.abs() < 15.0, "string {string}, fret {fret}: {off} cents");
+            // While it swings a string holds less of the bridge than at rest, which is what fingers are placed for: it sounds
+            // lower, by up to 13 cents on the grid of `reference`. On that of `live`, up to 6 mm from point to point, what it
+            // leaves goes in steps: by up to 18.
+            assert!(off.abs() < 20.0, "string {string}, fret {fret}: {off} cents");
         }
     }
 }

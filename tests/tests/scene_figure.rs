@@ -101,7 +101,8 @@ fn a_picture_shows_string_energies_forces_and_the_solver() {
     assert!(done.text().contains("out.svg"), "{}", done.text());
     let picture = fs::read_to_string(place.path("out.svg")).unwrap();
     assert_finite(&picture);
-    let texts = texts(&picture).join("\n");
+    // Numbers stay on the line of their units.
+    let texts = texts(&picture).join("\n").replace('\u{a0}', " ");
     for words in [
         "scene.toml",
         "place, m from the nut",
