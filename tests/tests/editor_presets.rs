@@ -21,6 +21,16 @@ fn save(desk: &mut Desk, name: &str) {
     desk.wait(0.1);
 }
 
+/// What the session keeps of the file that is played.
+fn kept(desk: &Desk) -> Value {
+    serde_json::from_str(&desk.params.serialize_fields()["instrument_file"]).expect("JSON")
+}
+
+/// Its text.
+fn kept_text(desk: &Desk) -> String {
+    kept(desk)["text"].as_str().expect("a text").to_owned()
+}
+
 #[test]
 fn one_is_chosen_as_its_maker_left_it() {
     let mut desk = Desk::new();
@@ -94,9 +104,7 @@ fn what_is_saved_is_what_was_heard() {
     // Back comes what was heard: the file as it was, with what was changed of it, and not that change twice. In the folder it
     // stays as it was saved.
     let heard = |desk: &Desk| -> (f64, f32) {
-        let kept: Value =
-            serde_json::from_str(&desk.params.serialize_fields()["instrument_file"]).expect("JSON");
-        let setup = Setup::from_toml(kept["text"].as_str().expect("a text")).expect("it is a set-up");
+        let setup = Setup::from_toml(&kept_text(desk)).expect("it is a set-up");
         (setup.neck.action, desk.action())
     };
     assert_eq!(heard(&desk), (expected.neck.action * 0.5, 1.0));
@@ -114,18 +122,13 @@ fn what_is_replaced_waits_for_its_values() {
     let mut desk = Desk::new();
     save(&mut desk, "Mine 2");
     desk.enter("Luthier", "Action", "150");
-    let text = |desk: &Desk| {
-        let kept: Value =
-            serde_json::from_str(&desk.params.serialize_fields()["instrument_file"]).expect("JSON");
-        kept["text"].as_str().expect("a text").to_owned()
-    };
-    let before = text(&desk);
+    let before = kept_text(&desk);
     desk.host.be_late();
     save(&mut desk, "Mine 2");
-    assert_eq!((text(&desk), desk.action()), (before.clone(), 1.5));
+    assert_eq!((kept_text(&desk), desk.action()), (before.clone(), 1.5));
     desk.host.catch_up();
     desk.wait(0.05);
-    assert_ne!(text(&desk), before);
+    assert_ne!(kept_text(&desk), before);
     assert_eq!(desk.action(), 1.0);
 }
 
@@ -135,11 +138,7 @@ fn what_is_taken_back_before_it_came_does_not_come() {
     let mut desk = Desk::new();
     save(&mut desk, "Mine 4");
     desk.enter("Luthier", "Action", "50");
-    let heard = |desk: &Desk| {
-        let kept: Value =
-            serde_json::from_str(&desk.params.serialize_fields()["instrument_file"]).expect("JSON");
-        (kept["text"].as_str().expect("a text").to_owned(), desk.action())
-    };
+    let heard = |desk: &Desk| (kept_text(desk), desk.action());
     let before = heard(&desk);
     desk.host.be_late();
     save(&mut desk, "Mine 4");
@@ -209,34 +208,32 @@ fn what_a_session_keeps_gives_way_to_what_is_chosen() {
     let mut desk = Desk::new();
     let place = |desk: &Desk, name| desk.params.shelf.names().iter().position(|known| known == name);
     let number = place(&desk, "Kept cc").expect("it is there") as u32 + 1;
-    let kept = json!({ "number": number, "name": "Kept aa", "text": "based_on = \"bass\"\n" }).to_string();
-    let field = |desk: &Desk| desk.params.serialize_fields()["instrument_file"].clone();
-    desk.params.deserialize_fields(&[("instrument_file".to_owned(), kept.clone())].into());
+    let session = json!({ "number": number, "name": "Kept aa", "text": "based_on = \"bass\"\n" });
+    desk.params.deserialize_fields(&[("instrument_file".to_owned(), session.to_string())].into());
     let setter = ParamSetter::new(&*desk.host);
     setter.set_parameter(&desk.params.instrument.file, number as i32);
     desk.wait(0.1);
     assert_eq!(desk.params.shelf.name(number).as_deref(), Some("Kept aa"));
-    let parsed = |text: &str| -> Value { serde_json::from_str(text).expect("JSON") };
-    assert_eq!(parsed(&field(&desk)), parsed(&kept), "nobody has chosen anything yet");
+    assert_eq!(kept(&desk), session, "nobody has chosen anything yet");
     // The one after it in the list has its number.
     desk.click(desk.named("›"));
     desk.wait(0.1);
     assert_eq!(desk.params.instrument.file.value(), number as i32);
     assert_eq!(desk.params.shelf.name(number).as_deref(), Some("Kept cc"));
-    let found = parsed(&field(&desk));
+    let found = kept(&desk);
     assert_eq!((&found["name"], &found["text"]), (&json!("Kept cc"), &json!("based_on = \"steel\"\n")));
     // Back comes what the session kept, and so does what A was.
     desk.undo();
-    assert_eq!(parsed(&field(&desk)), parsed(&kept));
+    assert_eq!(kept(&desk), session);
     desk.redo();
-    assert_eq!(parsed(&field(&desk)), found);
+    assert_eq!(kept(&desk), found);
     desk.undo();
     desk.click(desk.named("B"));
     desk.wait(0.05);
-    for (button, expected) in [("›", &found), ("A", &parsed(&kept)), ("B", &found)] {
+    for (button, expected) in [("›", &found), ("A", &session), ("B", &found)] {
         desk.click(desk.named(button));
         desk.wait(0.1);
-        assert_eq!(parsed(&field(&desk)), *expected, "{button}");
+        assert_eq!(kept(&desk), *expected, "{button}");
     }
     // From another instrument altogether, and with a host that takes its time.
     desk.click(desk.named("A"));
@@ -254,7 +251,7 @@ fn what_a_session_keeps_gives_way_to_what_is_chosen() {
             desk.undo();
         }
     }
-    assert_eq!(parsed(&field(&desk)), parsed(&kept));
+    assert_eq!(kept(&desk), session);
     assert_eq!(desk.params.shelf.name(number).as_deref(), Some("Kept aa"));
     desk.click(desk.named("B"));
     desk.wait(0.1);
