@@ -1,9 +1,9 @@
 //! `cargo xtask hosts`: the VST3 bundle played by hosts that others wrote.
 //!
 //! DawDreamer and pedalboard (Python packages, pinned, in a virtual environment made under `target`) play a
-//! clip through the bundle. The sound must be that of `low-action render`, sample for sample after a
-//! constant shift, to 1e-4 of its size: pitch, onset and level then agree far below what is heard. So that
-//! this can fail, the same hosts play the clip with a note taken away, and that must not pass.
+//! clip through the bundle. The sound must be that of `low-action render`, sample for sample, to 1e-4 of its size: pitch, onset
+//! and level then agree far below what is heard. As a whole it may be late by the latency that the plugin tells, for which these
+//! hosts do not make up. So that this can fail, the same hosts play the clip with a note taken away, and that must not pass.
 //!
 //! Where Python or the packages cannot be had the command says so and passes over them; under `CI=true`
 //! that is a failure.

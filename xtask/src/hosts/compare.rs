@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
+use low_action_dsp::Instrument;
 
 /// A stereo sound.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +47,9 @@ impl Sound {
     }
 }
 
-/// Farthest shift looked for, samples: a host may play late by a block or two.
+/// What the plugin tells hosts, samples: a host makes up for all of it or for none.
+const LATENCY: usize = Instrument::LATENCY as usize;
+/// Farthest shift looked for, samples: a host that plays late by a block or two is told by how much.
 const FARTHEST: usize = 2048;
 
 /// How two sounds differ.
@@ -63,8 +66,13 @@ pub(super) struct Comparison {
 }
 
 impl Comparison {
-    /// Refuses a difference above `tolerance`, or a sound that is not there.
+    /// Refuses a difference above `tolerance`, a sound that is not there, or one that comes neither at its time nor by the
+    /// plugin's latency later.
     pub(super) fn accept(&self, tolerance: f64) -> Result<()> {
+        ensure!(
+            [0, LATENCY].contains(&self.shift),
+            "the sound is late by neither 0 nor {LATENCY} samples: {self}"
+        );
         ensure!(self.onset == Some(0), "the first sound is not where it should be: {self}");
         ensure!(self.relative_rms <= tolerance, "the sounds differ by more than {tolerance:e}: {self}");
         Ok(())
@@ -121,10 +129,13 @@ mod tests {
     }
 
     #[test]
-    fn a_late_sound_is_the_same_sound() {
-        let found = compare(&tone(0, 0.5, 0.05), &tone(512, 0.5, 0.05));
-        assert_eq!((found.shift, found.onset), (512, Some(0)));
-        assert!(found.accept(1e-4).is_ok(), "{found}");
+    fn a_late_sound_is_the_same_sound_as_late_as_was_told() {
+        let late = |samples| compare(&tone(0, 0.5, 0.05), &tone(samples, 0.5, 0.05));
+        for samples in [0, LATENCY] {
+            assert_eq!((late(samples).shift, late(samples).onset), (samples, Some(0)));
+            assert!(late(samples).accept(1e-4).is_ok(), "{}", late(samples));
+        }
+        assert!(late(LATENCY + 1).accept(1e-4).is_err(), "a sample later than the host was told");
     }
 
     #[test]
