@@ -7,10 +7,10 @@ use crate::active::Active;
 use crate::drive::Drive;
 use crate::field::Field;
 use crate::kernel::Products;
-use crate::model::Model;
+use crate::model::{Coasting, Model};
 use crate::solver::{Convergence, EnergyScale};
 use crate::state::State;
-use crate::string::{Scratch, pull};
+use crate::string::Scratch;
 
 /// Where rounding of the forces moves the string so much that the energy is off by more than this part of the
 /// largest, the string as it came out is solved for again.
@@ -35,17 +35,18 @@ impl State {
     ) -> Convergence {
         let mut convergence = Convergence::default();
         let free = self.stretching(products, scratch);
-        let free_pull = pull(model, free);
+        let free_pull = scratch.pull(free);
         self.touch(model, free_pull, scratch);
         let mut created = 0.0;
         for attempt in 0.. {
             let mut largest = 0.0;
             scratch.tried = 0.0;
             if scratch.active.is_empty() {
-                largest = self.advance(simd, model, free, scratch);
+                largest = self.advance(simd, free, scratch);
             } else {
                 // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
-                let factor = model.mobility * model.stretch * scratch.yielding;
+                let Coasting { mobility, stretch, .. } = scratch.coasting;
+                let factor = mobility * stretch * scratch.yielding;
                 let scale = self.energy_scale(scratch);
                 let mut products = *products;
                 let mut stretching = 0.0;
@@ -58,15 +59,15 @@ impl State {
                         scale,
                         &mut convergence,
                     );
-                    let spread = spread(model, &mut scratch.active, &mut scratch.prediction);
+                    let spread = spread(mobility, &mut scratch.active, &mut scratch.prediction);
                     products.along += spread.along;
                     scratch.tried += spread.sum;
                     let more = self.stretching(&products, scratch);
                     stretching += more;
-                    largest = self.advance(simd, model, more, scratch);
+                    largest = self.advance(simd, more, scratch);
                     // (It knows of what is added in this round.)
                     scratch.stretching = stretching;
-                    let rounding = f64::EPSILON * model.mobility * spread.sum * spread.sum;
+                    let rounding = f64::EPSILON * mobility * spread.sum * spread.sum;
                     let exact = rounding <= ROUNDING * self.energy_scale && created <= scale.credit;
                     if exact || round == REFINEMENTS {
                         break;
@@ -158,12 +159,12 @@ struct Spread {
 
 /// Adds the forces beyond the base to a prediction.
 #[inline(always)]
-fn spread(model: &Model, rows: &mut [Active], prediction: &mut Field) -> Spread {
+fn spread(mobility: f64, rows: &mut [Active], prediction: &mut Field) -> Spread {
     let mut done = Spread { along: 0.0, sum: 0.0 };
     for row in rows {
         let force = row.force - row.base;
-        row.reading.spread(prediction, model.mobility * row.sign * force);
-        done.along += model.mobility * force * row.pull;
+        row.reading.spread(prediction, mobility * row.sign * force);
+        done.along += mobility * force * row.pull;
         done.sum += force.abs();
     }
     done

@@ -30,6 +30,8 @@ pub struct Hand {
 pub struct Drive {
     /// Tension at n, N, above 0 and no more than the model's `tension_limit`: beyond it the scheme is not stable.
     pub tension: f64,
+    /// What a hand laid along the whole string adds to its loss σ₀ at n, 1/s: 0 or more, up to 1/k.
+    pub loss: f64,
     /// Forces on points of the string.
     pub pushes: Roomy<Push>,
     /// What the hand does to the finger in each slot; ignored where there is no finger. A finger goes where its hand is in a
@@ -45,6 +47,7 @@ impl Drive {
     pub fn new(model: &Model) -> Drive {
         Drive {
             tension: model.string.tension,
+            loss: 0.0,
             pushes: Roomy::with_capacity(PUSHES),
             hands: vec![Hand::default(); model.finger_slots],
             heights: Roomy::with_capacity(model.contacts.len()),

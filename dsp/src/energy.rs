@@ -108,8 +108,8 @@ impl Ledger {
         let finger = fingers_motion(model, &state.fingers);
         let energies = Energies { string, tension: stretched, contact, finger };
 
-        let mut losses = string_losses(model, &self.shapes);
-        let mut loss = losses.loss_0 + losses.loss_1;
+        let mut losses = string_losses(model, scratch.coasting.loss_0, &self.shapes);
+        let mut loss = losses.loss_0 + losses.loss_1 + losses.hand;
         let mut inputs = Inputs { finger: entered / k, ..Inputs::default() };
         let mut input = inputs.finger;
         for push in &drive.pushes {

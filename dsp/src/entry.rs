@@ -41,7 +41,7 @@ pub struct Losses {
     /// In contacts, as their laws have it: to the damping of pads, frets and board, and to the waves that a kinked
     /// fret sends off.
     pub contact: f64,
-    /// In the hands behind the fingers.
+    /// In the hands behind the fingers, and in one laid along the string.
     pub hand: f64,
 }
 

@@ -61,13 +61,14 @@ impl Finger {
     }
 
     /// Moves it by a step as if it were free, and makes it an active contact with a string of this displacement and motion at
-    /// n. Returns whether it touches that at n − 1 or n.
+    /// n, which one newton moves by its mobility, m/N, in a step. Returns whether it touches that at n − 1 or n.
     #[inline(always)]
     pub(crate) fn hold(
         &mut self,
         model: &Model,
         hand: &Hand,
         (displacement, motion): (&Field, &Field),
+        mobility: f64,
         slot: usize,
         active: &mut Active,
     ) -> bool {
@@ -105,7 +106,7 @@ impl Finger {
             before: Before::new(&self.law, penetration_before),
             rest: (free + motion_before) - slid - here.motion,
             own_mobility,
-            mobility: model.mobility,
+            mobility,
             ..Active::NOTHING
         };
         active.evaluate(2.0 * (now.motion - motion_before));

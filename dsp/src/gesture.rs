@@ -121,6 +121,14 @@ pub enum Gesture {
         /// Length of the ramp from the present force, s.
         duration: f64,
     },
+    /// Lays a hand along the whole string, so softly that it presses it nowhere and only brakes it: for a while the loss σ₀ of the
+    /// string is raised. It takes the place of one that is there. Left out where its loss is below 0, or it is not finite.
+    Still {
+        /// What it adds to the loss, 1/s, up to what brings the string to rest in a step.
+        loss: f64,
+        /// How long, s; one of 0 or less is nothing.
+        duration: f64,
+    },
     /// Changes the string's tension along a smooth ramp (a bend or a tremolo arm).
     Bend {
         /// Tension at the end of the ramp as a multiple of the string's own; limited to what the

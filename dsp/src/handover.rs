@@ -264,6 +264,7 @@ impl Hands {
             let reading = model.grid.reading(position);
             self.plucks.push(crate::hands::Pluck { position, reading, ..pluck.resampled(factor) });
         }
+        self.stilling = old.stilling.resampled(factor);
         for (held, before) in self.fingers.iter_mut().zip(&old.fingers) {
             *held = before.map(|before| before.carried(scale, factor));
         }

@@ -45,6 +45,15 @@ pub(crate) struct Pluck {
     pub duration: f64,
 }
 
+/// A hand laid along the string.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Stilling {
+    /// What it adds to the string's loss, 1/s.
+    loss: f64,
+    /// Samples for which it is still there.
+    left: u64,
+}
+
 /// A finger of the hands, as far as it is not in the string's state.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Held {
@@ -57,6 +66,21 @@ impl Pluck {
     /// The same push in samples of another length, of which there are `factor` for each of the old.
     pub fn resampled(self, factor: f64) -> Self {
         Pluck { done: (self.done as f64 * factor).round() as u64, ..self }
+    }
+}
+
+impl Stilling {
+    /// The same in samples of which there are `factor` for each of the old.
+    pub fn resampled(self, factor: f64) -> Self {
+        Stilling { left: (self.left as f64 * factor).round() as u64, ..self }
+    }
+
+    /// What it adds in the next step, 1/s.
+    #[inline]
+    fn step(&mut self) -> f64 {
+        let Some(left) = self.left.checked_sub(1) else { return 0.0 };
+        self.left = left;
+        self.loss
     }
 }
 
@@ -75,6 +99,7 @@ pub(crate) struct Hands {
     /// Of the string, Hz.
     pub sample_rate: f64,
     pub plucks: Roomy<Pluck>,
+    pub stilling: Stilling,
     pub fingers: [Option<Held>; FINGERS_PER_STRING],
     /// Tension that the string is bent to, N.
     pub bent: Ramp,
@@ -90,6 +115,7 @@ impl Hands {
         Hands {
             sample_rate,
             plucks: Roomy::with_capacity(PUSHES),
+            stilling: Stilling::default(),
             fingers: [None; FINGERS_PER_STRING],
             bent: Ramp::at(model.string.tension),
             tuned: Ramp::at(1.0),
@@ -100,6 +126,7 @@ impl Hands {
     /// Takes all hands away.
     pub fn reset(&mut self, model: &Model) {
         self.plucks.clear();
+        self.stilling = Stilling::default();
         self.fingers = [None; FINGERS_PER_STRING];
         self.bent = Ramp::at(model.string.tension);
         self.tuned = Ramp::at(1.0);
@@ -108,6 +135,7 @@ impl Hands {
     /// Whether nothing touches or bends the string.
     pub fn idle(&self) -> bool {
         self.plucks.is_empty()
+            && self.stilling.left == 0
             && self.bent.rests()
             && self.tuned.rests()
             && self.fingers.iter().all(Option::is_none)
@@ -182,6 +210,13 @@ impl Hands {
                 held.leaving = true;
                 true
             }
+            Gesture::Still { loss, duration } => {
+                let begins = loss >= 0.0 && loss.is_finite() && duration.is_finite();
+                if begins {
+                    self.stilling = Stilling { loss, left: self.samples(duration) };
+                }
+                begins
+            }
             Gesture::Bend { tension_ratio, duration } => {
                 let most = Self::highest_ratio(model);
                 let ratio = if tension_ratio.is_finite() { tension_ratio } else { 1.0 };
@@ -233,6 +268,7 @@ impl Hands {
         drive.tension = self.tension();
         self.bent.step();
         self.tuned.step();
+        drive.loss = self.stilling.step();
         drive.pushes.clear();
         let rate = self.sample_rate;
         self.plucks.retain_mut(|pluck| {

@@ -56,7 +56,7 @@ impl Kernel {
         };
         Kernel {
             reach,
-            stretch: model.stretch > 0.0,
+            stretch: model.coasting.stretch > 0.0,
             loss: model.string.loss_1 > 0.0,
             ends: Ends::new(&model.grid),
             keep: moving(&model.grid),

@@ -1,6 +1,7 @@
 //! The model of one string: every coefficient that stays the same while it is played.
 
 mod barrier;
+mod coasting;
 mod fixed;
 mod parameters;
 mod steepness;
@@ -15,6 +16,7 @@ use crate::grid::{Grid, Reading};
 use crate::scene::{FretPlacement, SolverSettings, Stencil};
 use crate::skyline::Blocks;
 pub use barrier::Barrier;
+pub(crate) use coasting::Coasting;
 pub use fixed::{Contact, ContactKind};
 pub use parameters::StringParameters;
 pub use steepness::stiffest;
@@ -35,18 +37,12 @@ pub struct Model {
     pub contacts: Vec<Contact>,
     /// Number of places for fingers.
     pub finger_slots: usize,
-    /// (1 − σ₀k)/(1 + σ₀k), how much of the motion is left after a step.
-    pub(crate) decay: f64,
-    /// 1/s = 1/(1 + σ₀k) = (1 + decay)/2, exactly.
-    pub(crate) inverse_s: f64,
-    /// k²/(ρhs): displacement in one step per newton at a grid point, m/N.
-    pub(crate) mobility: f64,
+    /// How the string goes on by itself while no hand is laid along it.
+    pub(crate) coasting: Coasting,
     /// 1/(2k), 1/s.
     pub(crate) half_rate: f64,
     /// The contacts beside each group of grid points.
     pub(crate) blocks: Blocks,
-    /// k²EA/(4ρLh³s), the strength of tension modulation in units of undivided second differences.
-    pub(crate) stretch: f64,
 }
 
 impl Model {
@@ -64,20 +60,8 @@ impl Model {
     ) -> Result<Model, Error> {
         let time_step = 1.0 / sample_rate;
         let grid = Self::grid(&string, settings.stencil, time_step)?;
-        // (1 + x) − 1 rounds `decay` to a multiple of 2⁻⁵², so that 1 + decay is exact: an inverse that
-        // is off by half an ulp would drift the energy by 1e-16 in every sample.
-        let decay = (1.0 + (1.0 - string.loss_0 * time_step) / (1.0 + string.loss_0 * time_step)) - 1.0;
-        let inverse_s = 0.5 * (1.0 + decay);
-        let loss_0 = (1.0 - decay) / (1.0 + decay) / time_step;
-        let k2 = time_step * time_step;
-        let h = grid.spacing;
-        let mobility = k2 * inverse_s / (string.linear_density * h);
-        let stretch = if string.tension_modulation {
-            k2 * string.axial_stiffness() * inverse_s
-                / (4.0 * string.linear_density * string.length * h * h * h)
-        } else {
-            0.0
-        };
+        let coasting = Coasting::new(&string, &grid, string.loss_0);
+        let Coasting { loss_0, mobility, .. } = coasting;
         let mut contacts = barrier.map_or(Ok(Vec::new()), |barrier| barrier.contacts(&grid))?;
         if let Some(barrier) = barrier {
             // A board's points have each a share of the stiffness: what is the stiffest speaks for all.
@@ -102,12 +86,9 @@ impl Model {
             settings,
             contacts,
             finger_slots,
-            decay,
-            inverse_s,
-            mobility,
+            coasting,
             half_rate: 0.5 / time_step,
             blocks,
-            stretch,
         })
     }
 
@@ -153,6 +134,16 @@ impl Model {
         Ok(Grid::new(string.length, low, time_step))
     }
 
+    /// How the string goes on by itself under a hand laid along it that adds so much to its loss, 1/s: 0 or more, and no more than
+    /// what brings a free point to rest in a step.
+    pub(crate) fn coasting_under(&self, loss: f64) -> Coasting {
+        let loss = loss.max(0.0).min(2.0 * self.half_rate);
+        if loss == 0.0 {
+            return self.coasting;
+        }
+        Coasting::new(&self.string, &self.grid, self.string.loss_0 + loss)
+    }
+
     /// The string's stiffness at a tension, N.
     pub fn stiffness(&self, tension: f64) -> Stiffness {
         let kappa = self.string.kappa_squared();
@@ -184,7 +175,7 @@ impl Model {
             return 0.0;
         }
         let lossy = damping * law.own_force(penetration) * self.half_rate;
-        let mobility = self.mobility + own_mobility;
+        let mobility = self.coasting.mobility + own_mobility;
         if lossy * mobility > STEEPEST { STEEPEST / mobility } else { lossy }
     }
 
@@ -211,7 +202,7 @@ impl Model {
 
     /// How far one newton between a finger and the string moves them apart in a step, m/N.
     fn mobility_under(&self, touch: &Touch) -> f64 {
-        self.mobility + Inertia::new(touch, self.grid.time_step).mobility
+        self.coasting.mobility + Inertia::new(touch, self.grid.time_step).mobility
     }
 }
 

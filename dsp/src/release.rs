@@ -18,10 +18,11 @@ impl State {
     /// As [`State::step`].
     pub fn let_go(&mut self, model: &Model, drive: &Drive) {
         let mut after = self.clone();
-        after.step(model, drive, &mut Scratch::new(model));
+        let mut scratch = Scratch::new(model);
+        after.step(model, drive, &mut scratch);
         for node in 1..model.grid.intervals {
             let cell = model.grid.cell(node);
-            self.motion[cell] = -after.motion[cell] / (1.0 + model.decay);
+            self.motion[cell] = -after.motion[cell] / (1.0 + scratch.coasting.decay);
         }
         for (finger, after) in self.fingers.iter_mut().zip(&after.fingers) {
             if let (Some(finger), Some(after)) = (finger, after) {

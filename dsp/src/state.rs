@@ -134,7 +134,7 @@ impl State {
         self.look_back(model);
         let (u, v) = (&self.displacement, &self.curvature);
         let product: f64 = (1..grid.intervals).map(|node| u[grid.cell(node)] * v[grid.cell(node)]).sum();
-        self.stretched = if model.stretch > 0.0 { -product } else { 0.0 };
+        self.stretched = if model.coasting.stretch > 0.0 { -product } else { 0.0 };
     }
 
     /// Finds how the string was bent a step ago.

@@ -8,7 +8,7 @@ use crate::field::Field;
 use crate::finger::FingerBefore;
 use crate::instructions::Instructions;
 use crate::kernel::{Advance, Kernel, Products, Weights};
-use crate::model::{Model, Stiffness};
+use crate::model::{Coasting, Model, Stiffness};
 use crate::roomy::Roomy;
 use crate::skyline::{Clearance, SAG, groups};
 use crate::solver::{Convergence, Solver};
@@ -20,6 +20,9 @@ pub struct Scratch {
     pub(crate) instructions: Instructions,
     pub(crate) kernel: Kernel,
     stiffness: Stiffness,
+    /// What a hand laid along the string added to its loss in the last step, 1/s, and how the string goes on by itself so.
+    loss: f64,
+    pub(crate) coasting: Coasting,
     weights: Weights,
     products: Products,
     string_energy: f64,
@@ -58,7 +61,9 @@ impl Scratch {
         Scratch {
             instructions: Instructions::best(),
             kernel: Kernel::new(model),
-            weights: Weights::new(model, &stiffness),
+            weights: Weights::new(model, &stiffness, &model.coasting),
+            loss: 0.0,
+            coasting: model.coasting,
             stiffness,
             products: Products::default(),
             string_energy: 0.0,
@@ -101,9 +106,18 @@ impl Scratch {
     #[inline(always)]
     pub(crate) fn margin(&self, model: &Model, near: f64, largest: f64) -> f64 {
         // Second differences of u are those of uⁿ, none larger than the root of the sum of their squares, and of d.
-        let squares =
-            if model.stretch > 0.0 { self.products.curvature } else { 2.0 * self.products.steepness };
+        let squares = if model.coasting.stretch > 0.0 {
+            self.products.curvature
+        } else {
+            2.0 * self.products.steepness
+        };
         near + SAG * (squares.sqrt() + 4.0 * largest)
+    }
+
+    /// ψ, by which dⁿ⁺¹ = w − ψ v, w with the forces of contacts in it: the tension that stretching adds, in the units of the step.
+    #[inline(always)]
+    pub(crate) fn pull(&self, stretching: f64) -> f64 {
+        -2.0 * self.coasting.stretch * stretching
     }
 
     /// The stiffness of the last step.
@@ -169,9 +183,14 @@ impl State {
     ) -> Convergence {
         // What is known of the energy before anything is computed.
         let resting = self.energy_scale.max(scratch.string_energy) > MOST_ENERGY;
-        if drive.tension != scratch.stiffness.tension && !resting {
-            scratch.stiffness = model.stiffness(drive.tension);
-            scratch.weights = Weights::new(model, &scratch.stiffness);
+        let bends = drive.tension != scratch.stiffness.tension && !resting;
+        if bends || drive.loss != scratch.loss {
+            if bends {
+                scratch.stiffness = model.stiffness(drive.tension);
+            }
+            scratch.loss = drive.loss;
+            scratch.coasting = model.coasting_under(drive.loss);
+            scratch.weights = Weights::new(model, &scratch.stiffness, &scratch.coasting);
         }
         let convergence = if model.contacts.is_empty() && self.no_finger_from == 0 {
             // Nothing of the last contact may be left in the record.
@@ -180,7 +199,7 @@ impl State {
             scratch.tried = 0.0;
             let products = self.predict(simd, model, drive, scratch);
             let stretching = self.stretching(&products, scratch);
-            self.advance(simd, model, stretching, scratch);
+            self.advance(simd, stretching, scratch);
             Convergence::default()
         } else {
             // What is known of contacts without the prediction need not wait for it.
@@ -208,13 +227,14 @@ impl State {
         let to = (&mut self.curvature, &mut scratch.prediction);
         let mut products = scratch.kernel.predict(simd, &scratch.weights, from, to);
         scratch.products = products;
-        scratch.yielding = 1.0 / (1.0 + model.stretch * products.curvature);
-        let steepness = if model.stretch > 0.0 { self.stretched } else { products.steepness };
+        let Coasting { mobility, stretch, .. } = scratch.coasting;
+        scratch.yielding = 1.0 / (1.0 + stretch * products.curvature);
+        let steepness = if stretch > 0.0 { self.stretched } else { products.steepness };
         let (k, h) = (model.grid.time_step, model.grid.spacing);
         scratch.string_energy = 0.5 * model.string.linear_density * h / (k * k) * products.motion
             + 0.5 * scratch.stiffness.tension / h * steepness;
         for push in &drive.pushes {
-            let motion = model.mobility * push.force;
+            let motion = mobility * push.force;
             push.reading.spread(&mut scratch.prediction, motion);
             products.along += motion * push.reading.of(&self.curvature);
         }
@@ -229,26 +249,15 @@ impl State {
 
     /// The motion to n + 1 from the prediction; returns the largest of a point, m.
     #[inline(always)]
-    pub(crate) fn advance<S: Simd>(
-        &self,
-        simd: S,
-        model: &Model,
-        stretching: f64,
-        scratch: &mut Scratch,
-    ) -> f64 {
+    pub(crate) fn advance<S: Simd>(&self, simd: S, stretching: f64, scratch: &mut Scratch) -> f64 {
         scratch.stretching = stretching;
+        let pull = scratch.pull(stretching);
         let Scratch { kernel, prediction, motion, displacement, .. } = scratch;
         let from = (&*prediction, &self.curvature, &self.displacement);
-        kernel.advance(simd, Advance { pull: pull(model, stretching), from, to: (motion, displacement) })
+        kernel.advance(simd, Advance { pull, from, to: (motion, displacement) })
     }
 }
 
 /// Above this energy, J, hands neither slide nor bend nor move a board: each of these multiplies what there is,
 /// and if it were repeated for ever would reach infinity.
 const MOST_ENERGY: f64 = 1e30;
-
-/// ψ, by which dⁿ⁺¹ = w − ψ v, w with the forces of contacts in it: the tension that stretching adds, in the units of the step.
-#[inline(always)]
-pub(crate) fn pull(model: &Model, stretching: f64) -> f64 {
-    -2.0 * model.stretch * stretching
-}

@@ -96,7 +96,8 @@ impl State {
             if resting {
                 hand.position = finger.position;
             }
-            let touches = finger.hold(model, &hand, string, slot, scratch.active.next());
+            let mobility = scratch.coasting.mobility;
+            let touches = finger.hold(model, &hand, string, mobility, slot, scratch.active.next());
             if !touches && let Some(finger) = scratch.active.pop() {
                 scratch.solver.aside.push(finger);
             }
@@ -171,7 +172,7 @@ impl State {
             before: Before::new(&contact.law, overlap.before),
             rest: motion - raised,
             raised,
-            mobility: model.mobility,
+            mobility: scratch.coasting.mobility,
             ..Active::NOTHING
         };
         active.evaluate(raised - 2.0 * motion);

@@ -56,6 +56,6 @@ pub(super) fn gross(
         fingers += answer * active.force.abs();
     }
     // Each change of penetration is a sum over all forces, and may be off by a last digit for each of them.
-    let sums = scratch.active.len() as f64 * model.mobility * forces * forces;
+    let sums = scratch.active.len() as f64 * scratch.coasting.mobility * forces * forces;
     kinetic + per_slope * slope + stretched + contacts + sums + fingers
 }

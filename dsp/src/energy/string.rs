@@ -74,15 +74,18 @@ pub(super) fn stiffness_change(model: &Model, new: &Stiffness, old: &Stiffness, 
     stiffness_energy(model, &change, now, &past, slope)
 }
 
-/// Powers lost in the string, W, from its motions dⁿ and dⁿ⁺¹; nothing elsewhere.
-pub(super) fn string_losses(model: &Model, shapes: &Shapes) -> Losses {
+/// Powers lost in the string and to a hand laid along it, which brings its loss σ₀ to `loss_0`, 1/s, together with its own: W,
+/// from its motions dⁿ and dⁿ⁺¹; nothing elsewhere.
+pub(super) fn string_losses(model: &Model, loss_0: f64, shapes: &Shapes) -> Losses {
     let (now, next) = (&shapes.motion_now, &shapes.motion);
     let (k, h) = (model.grid.time_step, model.grid.spacing);
     let string = &model.string;
     let mut losses = Losses::default();
-    if string.loss_0 > 0.0 {
+    if loss_0 > 0.0 {
         let square = sum(now.iter().zip(next).map(|(a, b)| (a + b) * (a + b)));
-        losses.loss_0 = 2.0 * string.linear_density * string.loss_0 * h * square / (4.0 * k * k);
+        let power = |loss: f64| 2.0 * string.linear_density * loss * h * square / (4.0 * k * k);
+        losses.loss_0 = power(string.loss_0);
+        losses.hand = power(loss_0 - string.loss_0);
     }
     if string.loss_1 > 0.0 {
         let square = sum((1..now.len()).map(|i| {

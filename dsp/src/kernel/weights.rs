@@ -1,6 +1,6 @@
 //! The coefficients of a prediction.
 
-use crate::model::{Model, Stiffness};
+use crate::model::{Coasting, Model, Stiffness};
 
 /// Coefficients of one prediction in undivided differences, all times 1/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,17 +14,17 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// The weights of a model at a stiffness.
-    pub fn new(model: &Model, stiffness: &Stiffness) -> Self {
+    /// The weights of a model at a stiffness and a loss.
+    pub fn new(model: &Model, stiffness: &Stiffness, coasting: &Coasting) -> Self {
         let (k, h2) = (model.grid.time_step, model.grid.spacing * model.grid.spacing);
-        let k2 = k * k * model.inverse_s;
+        let k2 = k * k * coasting.inverse_s;
         let second = k2 * stiffness.tension / (model.string.linear_density * h2);
         let fourth = k2 * stiffness.kappa_2 / (h2 * h2);
         let sixth = k2 * stiffness.kappa_6 / (h2 * h2 * h2);
-        let loss = 2.0 * model.string.loss_1 * k * model.inverse_s / h2;
+        let loss = 2.0 * model.string.loss_1 * k * coasting.inverse_s / h2;
         // second·v − fourth·δ²v + sixth·δ⁴v + loss·δ²d, gathered by neighbour; δ²d is what v has changed by.
         Weights {
-            motion: model.decay,
+            motion: coasting.decay,
             near: [second + 2.0 * fourth + 6.0 * sixth + loss, -fourth - 4.0 * sixth, sixth],
             before: loss,
         }

@@ -1,0 +1,44 @@
+//! How a string goes on by itself for a step, and how easily it is moved: all that depends on its loss σ₀.
+
+use super::StringParameters;
+use crate::grid::Grid;
+
+/// The coefficients of a step that depend on the loss of all frequencies alike.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Coasting {
+    /// The loss σ₀ that is realised, 1/s, which differs from the one asked for in the last digit.
+    pub loss_0: f64,
+    /// (1 − σ₀k)/(1 + σ₀k), how much of the motion is left after a step.
+    pub decay: f64,
+    /// 1/s = 1/(1 + σ₀k) = (1 + decay)/2, exactly.
+    pub inverse_s: f64,
+    /// k²/(ρhs): displacement in one step per newton at a grid point, m/N.
+    pub mobility: f64,
+    /// k²EA/(4ρLh³s), the strength of tension modulation in units of undivided second differences.
+    pub stretch: f64,
+}
+
+impl Coasting {
+    /// Of a string on its grid at a loss σ₀, 1/s.
+    pub fn new(string: &StringParameters, grid: &Grid, loss_0: f64) -> Self {
+        let (k, h) = (grid.time_step, grid.spacing);
+        // (1 + x) − 1 rounds `decay` to a multiple of 2⁻⁵², so that 1 + decay is exact: an inverse that
+        // is off by half an ulp would drift the energy by 1e-16 in every sample.
+        let decay = (1.0 + (1.0 - loss_0 * k) / (1.0 + loss_0 * k)) - 1.0;
+        let inverse_s = 0.5 * (1.0 + decay);
+        let k2 = k * k;
+        let stretch = if string.tension_modulation {
+            k2 * string.axial_stiffness() * inverse_s
+                / (4.0 * string.linear_density * string.length * h * h * h)
+        } else {
+            0.0
+        };
+        Coasting {
+            loss_0: (1.0 - decay) / (1.0 + decay) / k,
+            decay,
+            inverse_s,
+            mobility: k2 * inverse_s / (string.linear_density * h),
+            stretch,
+        }
+    }
+}
