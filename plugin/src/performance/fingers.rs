@@ -184,6 +184,31 @@ impl Fingers {
         self.hands.pluck_duration
     }
 
+    /// How long a stroke pushes, s; none for those that strike.
+    pub(crate) fn push_time(&self, stroke: Stroke) -> Option<f64> {
+        match self.pluck(stroke, 1.0, 0.0)? {
+            Gesture::Pluck { duration, .. } => Some(duration),
+            _ => None,
+        }
+    }
+
+    /// Period of the string as it is stopped, or as it will be at a fret (0 for none) if that is longer, s.
+    pub(crate) fn period(&self, fret: usize) -> f64 {
+        let length = self.geometry.length;
+        let stopped = length - self.geometry.finger_position(fret.max(self.capo[0]));
+        self.open_period() * (self.sounding_length().max(stopped) / length)
+    }
+
+    /// Whether a finger at a lower fret, not 0, takes over from the one that stops the string.
+    pub(crate) fn gives_way_to(&self, fret: usize) -> bool {
+        fret > 0 && self.fretting.is_some_and(|finger| !finger.bar && finger.fret > fret)
+    }
+
+    /// Period of the open string, s.
+    fn open_period(&self) -> f64 {
+        libm::exp2((69.0 - self.geometry.open_pitch) / 12.0) / 440.0
+    }
+
     /// The palm is to rest so hard on notes to come, 0 to 1, and on one that sounds.
     pub(crate) fn set_palm(&mut self, palm: f64, sounds: bool, at: &mut Moment<impl GestureSink>) {
         let sounding = self.sounding_length();

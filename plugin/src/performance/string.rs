@@ -13,6 +13,7 @@ mod legato;
 mod note;
 mod own;
 mod sighted;
+mod stilling;
 
 use low_action_dsp::setup::Player;
 
@@ -108,16 +109,23 @@ impl StringPlayer {
 
     /// Begins a note; one that sounds gives way.
     pub(crate) fn start(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
+        let stills = self.wants_stilling(start.fret);
         start.presses = start.presses.saturating_add(self.take_presses(start.channel, start.key));
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
         let strength = start.force();
-        self.begin(time, &start, strength);
-        let mut at = self.moment(time, out);
         let Articulation { mut stroke, stop, .. } = start.articulation;
-        self.fingers.press(start.manner.pressure, &mut at);
         // A finger that presses no fret has nothing to strike the string against.
         let taps = stroke == Stroke::Tap && stop == Stop::Press && start.fret > self.fingers.capo();
+        if stroke == Stroke::Tap {
+            stroke = Stroke::Down;
+        }
+        // A light finger at a node takes up what it is to take up.
+        let stilling = (stills && !taps && stop != Stop::Harmonic).then(|| self.stilling(stroke, start.fret));
+        start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
+        self.begin(time, &start, strength);
+        let mut at = self.moment(time, out);
+        self.fingers.press(start.manner.pressure, &mut at);
         self.parting = if taps { TAPPING } else { RESTING };
         if taps {
             if self.fingers.let_up(&mut at) {
@@ -126,11 +134,11 @@ impl StringPlayer {
                 self.fingers.hammer(start.fret, strength, &mut at);
             }
         } else {
-            if stroke == Stroke::Tap {
-                stroke = Stroke::Down;
-            }
             self.fingers.stop(start.fret, stop, start.landing(), &mut at);
             self.touch_node(start.wait, &mut at);
+            if let Some(stilling) = stilling {
+                self.still_before(start.wait, stilling, &mut at);
+            }
             let beside = start.deviation.place + start.manner.place + self.towards_antinode();
             let struck = Struck { stroke, strength, beside };
             if start.wait > 0.0 {
@@ -139,7 +147,8 @@ impl StringPlayer {
                 self.strike(struck, start.deviation.delay, &mut at);
             }
             if self.tremolo > 0.0 {
-                self.deeds.plan(at.after(start.wait + 1.0 / self.tremolo), Deed::Tremolo(struck));
+                let lead = if stop == Stop::Harmonic { 0.0 } else { self.stilling(stroke, start.fret).lead };
+                self.deeds.plan(at.after(start.wait + 1.0 / self.tremolo - lead), Deed::Tremolo(struck));
             }
         }
         self.follow(time, &start.manner);

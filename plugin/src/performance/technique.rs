@@ -32,6 +32,16 @@ pub const VELOCITY_CURVE: f64 = 1.5;
 pub(crate) const FARTHEST_PLUCK: f64 = 0.45;
 /// Nearest to the saddle a pluck may be, m: a fingertip's half width.
 pub(crate) const NEAREST_PLUCK: f64 = 0.006;
+/// How a hand stills a string that still sounds before it plucks it: for how much of a period, and by how much it raises the loss,
+/// as a multiple of a period's inverse. So the lowest partial is 8 dB down or more, all others 14 dB: 0.8 of what would
+/// just keep the lowest one from swinging takes most out of it in so short a time.
+pub(crate) const STILLING: (f64, f64) = (0.4, 5.0);
+/// At least for so long, s: until hands that rested there are off the string.
+pub(crate) const STILLED_AT_LEAST: f64 = 0.003;
+/// The hand may still be there while the plectrum begins to push, for this part of it: most of a push is at its end.
+pub(crate) const STILLED_PUSH: f64 = 0.7;
+/// Longest time by which a stroke may come later for that, s.
+pub(crate) const LONGEST_LEAD: f64 = 0.01;
 /// Shortest note, s from pluck to damping. It ends the push of any pluck and lets a note of no
 /// length at all be heard as a staccato.
 pub(crate) const SHORTEST_NOTE: f64 = 0.03;

@@ -1,6 +1,7 @@
 //! What is yet to be done to a note that sounds: strokes that are on their way, and touches that end.
 
 use super::StringPlayer;
+use super::stilling::{Stilling, still};
 use crate::performance::articulation::Stroke;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
@@ -21,6 +22,8 @@ pub(super) struct Struck {
 pub(super) enum Deed {
     /// A stroke.
     Strike(Struck),
+    /// The hand stills the string for a stroke that follows.
+    Still(Stilling),
     /// A stroke of a tremolo, back and forth, with the next one to follow.
     Tremolo(Struck),
     /// A finger strikes the string behind a fret, how hard, 0 to 1.
@@ -60,8 +63,9 @@ impl Deeds {
     /// No stroke comes any more.
     pub(super) fn forget_strokes(&mut self) {
         for deed in &mut self.0 {
-            *deed = deed
-                .filter(|(_, deed)| !matches!(deed, Deed::Strike(_) | Deed::Tremolo(_) | Deed::Tap { .. }));
+            *deed = deed.filter(|(_, deed)| {
+                !matches!(deed, Deed::Strike(_) | Deed::Still(_) | Deed::Tremolo(_) | Deed::Tap { .. })
+            });
         }
     }
 
@@ -98,6 +102,7 @@ impl StringPlayer {
         match self.deeds.take() {
             None => {}
             Some(Deed::Strike(struck)) => self.strike(struck, 0.0, at),
+            Some(Deed::Still(stilling)) => still(stilling, at),
             Some(Deed::Tremolo(struck)) => {
                 if self.tremolo <= 0.0 || self.note.is_none() {
                     return;
@@ -109,9 +114,15 @@ impl StringPlayer {
                 };
                 let struck = Struck { stroke, ..struck };
                 // Under the pedal it waits: a key below may come back.
-                if self.note.is_some_and(|note| note.key_down()) {
+                if let Some(note) = self.note.filter(|note| note.key_down()) {
                     self.touch_node(0.0, at);
-                    self.strike(struck, 0.0, at);
+                    if note.partial.is_some() {
+                        self.strike(struck, 0.0, at);
+                    } else {
+                        let stilling = self.stilling(stroke, note.fret);
+                        still(stilling, at);
+                        self.deeds.plan(at.after(stilling.lead), Deed::Strike(struck));
+                    }
                 }
                 self.deeds.plan(at.after(1.0 / self.tremolo).max(at.time + 1), Deed::Tremolo(struck));
             }

@@ -1,0 +1,54 @@
+//! How the hand stills a string that still sounds before it plucks it. A pluck only adds to what a string does: on one that
+//! swings as it left it, every stroke would be louder or softer than the first by how the two fall together.
+
+use low_action_dsp::Gesture;
+
+use super::StringPlayer;
+use super::deeds::Deed;
+use crate::performance::articulation::Stroke;
+use crate::performance::technique::*;
+use crate::performance::{GestureSink, Moment};
+
+/// A hand that is laid along a string for a stroke to come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stilling {
+    /// How long before the stroke it comes, s.
+    pub lead: f64,
+    /// How long it stays, s.
+    duration: f64,
+    /// What it adds to the loss of the string, 1/s.
+    loss: f64,
+}
+
+impl StringPlayer {
+    /// Whether the hand stills the string for a stroke on a fret, 0 for the open string: where it has sounded and nobody has
+    /// let it come to rest since. One that comes up from a fret to another would be held back on its way.
+    pub(super) fn wants_stilling(&self, fret: usize) -> bool {
+        let sounds_on = self.note.is_some() || self.ending.is_some() || self.touched;
+        sounds_on && !self.fingers.gives_way_to(fret)
+    }
+
+    /// How the hand stills the string for a stroke on a fret, 0 for the open string.
+    pub(super) fn stilling(&self, stroke: Stroke, fret: usize) -> Stilling {
+        let period = self.fingers.period(fret);
+        // A thumb takes some time to come.
+        let within = |stroke| STILLED_PUSH * self.fingers.push_time(stroke).unwrap_or(0.0);
+        let time = (STILLING.0 * period).max(STILLED_AT_LEAST);
+        let lead = (time - within(Stroke::Down)).clamp(0.0, LONGEST_LEAD);
+        Stilling { lead, duration: time.min(lead + within(stroke)), loss: STILLING.1 / period }
+    }
+
+    /// Has the hand still the string for a stroke so many seconds from now, no less than it comes before it.
+    pub(super) fn still_before(&mut self, wait: f64, stilling: Stilling, at: &mut Moment<impl GestureSink>) {
+        if wait > stilling.lead {
+            self.deeds.plan(at.after(wait - stilling.lead), Deed::Still(stilling));
+        } else {
+            still(stilling, at);
+        }
+    }
+}
+
+/// The hand comes.
+pub(super) fn still(Stilling { duration, loss, .. }: Stilling, at: &mut Moment<impl GestureSink>) {
+    at.does(Gesture::Still { loss, duration });
+}
