@@ -5,18 +5,20 @@
 //! time into other blocks changes no bit of it.
 
 mod handover;
+mod record;
+mod sink;
 
 use std::collections::VecDeque;
 
 pub use low_action_dsp::Quality;
 use low_action_dsp::setup::SetupString;
-use low_action_dsp::{EngineSettings, Instrument, Setup, TimedGesture};
+use low_action_dsp::{EngineSettings, Instrument, Setup};
 
 use crate::controls::Touching;
-use crate::performance::{
-    Compromises, GestureSink, InputMode, Performance, PlayedString, PlayerEvent, Style,
-};
+use crate::performance::{Compromises, InputMode, Performance, PlayedString, PlayerEvent, Style};
 pub use handover::Replacement;
+pub use record::Record;
+use sink::Sink;
 
 /// Samples handed from the player to the instrument at a time. It bounds how many gestures can be
 /// waiting in the instrument, however large the blocks asked for.
@@ -121,6 +123,8 @@ pub struct Engine {
     tail: f64,
     /// What this engine was before its last change, on its way out.
     outgoing: Option<Box<Replacement>>,
+    /// What the player does, if that is kept.
+    record: Option<Box<Record>>,
 }
 
 impl Engine {
@@ -134,13 +138,14 @@ impl Engine {
     pub fn new(options: &EngineOptions) -> Result<Self, low_action_dsp::Error> {
         let (performance, instrument) = options.build()?;
         let waiting = VecDeque::with_capacity(WAITING_EVENTS);
-        Ok(Self { performance, instrument, waiting, lost: 0, tail: options.tail(), outgoing: None })
+        let tail = options.tail();
+        Ok(Self { performance, instrument, waiting, lost: 0, tail, outgoing: None, record: None })
     }
 
     /// Has the hands act differently from the next sample on.
     pub fn touch(&mut self, touching: &Touching) {
-        let mut sink = Sink { instrument: &mut self.instrument, lost: &mut self.lost };
-        let now = sink.instrument.now();
+        let now = self.instrument.now();
+        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.record);
         self.performance.touch(now, touching, &mut sink);
     }
 
@@ -264,36 +269,25 @@ impl Engine {
         self.instrument.reset();
         self.waiting.clear();
         self.lost = 0;
+        if let Some(record) = &mut self.record {
+            **record = Record::default();
+        }
     }
 
     /// Has the player do all that belongs to the next `frames` samples.
     fn prepare(&mut self, frames: usize) {
         let until = self.instrument.now() + frames as u64;
         self.deliver(until);
-        let mut sink = Sink { instrument: &mut self.instrument, lost: &mut self.lost };
+        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.record);
         self.performance.advance(until, &mut sink);
     }
 
     /// Hands the player all events before sample `until`.
     fn deliver(&mut self, until: u64) {
-        let mut sink = Sink { instrument: &mut self.instrument, lost: &mut self.lost };
+        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.record);
         while let Some(&Waiting { time, event }) = self.waiting.front().filter(|next| next.time < until) {
             self.waiting.pop_front();
             self.performance.event(time, event, &mut sink);
         }
-    }
-}
-
-/// Hands gestures to the instrument.
-struct Sink<'a> {
-    instrument: &'a mut Instrument,
-    lost: &'a mut u64,
-}
-
-impl GestureSink for Sink<'_> {
-    fn gesture(&mut self, gesture: TimedGesture) {
-        // A step brings at most a handful of gestures a string and sample, far below the
-        // instrument's capacity; should it ever be full, the loss is counted.
-        *self.lost += u64::from(self.instrument.schedule(gesture).is_err());
     }
 }

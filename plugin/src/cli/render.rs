@@ -1,6 +1,7 @@
-//! The `render` command: a song through the engine into WAV files.
+//! The `render` command: a song through the engine into WAV files, and into labels of what was played.
 
 mod files;
+mod labels;
 mod options;
 mod playing;
 
@@ -22,6 +23,7 @@ use crate::midi_file::{LARGEST_FILE, Selection, Song};
 use crate::params::{InputChoice, StringOrder};
 use crate::performance::{Compromises, InputMode};
 use files::{Files, stem_paths};
+use labels::Source;
 pub use options::Tail;
 pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
 use playing::{Playing, Rendered};
@@ -52,8 +54,9 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     check_paths(arguments, setup_file, &output, &names)?;
     let files = Files::begin(arguments, &output, &names)?;
 
+    let source = Source { arguments, setup: &options.setup };
     let started = Instant::now();
-    let rendered = Playing { engine, song: &song, arguments, files }.play()?;
+    let rendered = Playing { engine, song: &song, source, files }.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
 }
 
@@ -140,7 +143,7 @@ fn output_path(arguments: &RenderArgs) -> Result<PathBuf> {
     }
 }
 
-/// Refuses to write two sounds to one file, or in the place of the song or the instrument's file, if it has one.
+/// Refuses to write two results to one file, or in the place of the song or the instrument's file, if it has one.
 fn check_paths(
     arguments: &RenderArgs,
     setup_file: Option<PathBuf>,
@@ -153,6 +156,7 @@ fn check_paths(
     let mut written = vec![("the sound".to_owned(), output.to_owned())];
     let stems = stem_paths(arguments, strings).into_iter().zip(strings);
     written.extend(stems.map(|(path, string)| (format!("the sound of string {string}"), path)));
+    written.extend(arguments.labels.clone().map(|labels| ("the labels".to_owned(), labels)));
     keep_apart(&read, &written)
 }
 

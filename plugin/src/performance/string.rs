@@ -6,6 +6,7 @@
 //! fretting finger and then the hand ease off, so slowly that their going makes no sound. What is to
 //! happen later is kept here as deadlines, because the next note may come first and call it off.
 
+mod annotated;
 mod deeds;
 mod ending;
 mod keys;
@@ -114,6 +115,7 @@ impl StringPlayer {
         let strength = start.force();
         self.begin(time, &start, strength);
         let mut at = self.moment(time, out);
+        at.tells(self.new_note(&start));
         let Articulation { mut stroke, stop, .. } = start.articulation;
         self.fingers.press(start.manner.pressure, &mut at);
         // A finger that presses no fret has nothing to strike the string against.
@@ -123,7 +125,7 @@ impl StringPlayer {
             if self.fingers.let_up(&mut at) {
                 self.deeds.plan(at.after(RISING), Deed::Tap { fret: start.fret, strength });
             } else {
-                self.fingers.hammer(start.fret, strength, &mut at);
+                self.tap(start.fret, strength, &mut at);
             }
         } else {
             if stroke == Stroke::Tap {
@@ -151,6 +153,7 @@ impl StringPlayer {
         self.note = Some(Note {
             channel: start.channel,
             key: start.key,
+            velocity: start.velocity,
             since: time + self.samples(start.wait),
             presses: start.presses,
             caught: false,

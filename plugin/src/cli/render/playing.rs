@@ -3,8 +3,8 @@
 use anyhow::Result;
 
 use super::files::Files;
+use super::labels::{Labelled, Source};
 use super::options::Tail;
-use crate::cli::RenderArgs;
 use crate::cli::progress::Progress;
 use crate::cli::wav::Findings;
 use crate::engine::{Engine, INAUDIBLE, QUIET};
@@ -31,14 +31,17 @@ pub(super) struct Rendered {
 pub(super) struct Playing<'a> {
     pub engine: Engine,
     pub song: &'a Song,
-    pub arguments: &'a RenderArgs,
+    pub source: Source<'a>,
     pub files: Files,
 }
 
 impl Playing<'_> {
     /// Plays it to its end and its tail, and lets the files appear.
     pub(super) fn play(mut self) -> Result<Rendered> {
-        let rate = self.arguments.sample_rate;
+        if self.files.labels.is_some() {
+            self.engine.record();
+        }
+        let rate = self.source.arguments.sample_rate;
         let mut progress = Progress::new((self.song.duration() * f64::from(rate)) as u64);
         let mut buffers = Buffers::new(self.files.stems.len(), Engine::LATENCY as usize);
         let mut peak = 0.0_f64;
@@ -56,7 +59,7 @@ impl Playing<'_> {
             progress.reach(self.engine.now());
         }
         let samples = |seconds: f64| (seconds * f64::from(rate)).round() as u64;
-        let tail = self.arguments.tail;
+        let tail = self.source.arguments.tail;
         let mut end = self.engine.now();
         loop {
             peak = peak.max(self.engine.level());
@@ -100,15 +103,18 @@ impl Playing<'_> {
         Ok(())
     }
 
-    fn finish(self) -> Result<Rendered> {
-        let [mix, stems] = self.files.finish()?;
+    fn finish(mut self) -> Result<Rendered> {
+        let samples = self.engine.now() - u64::from(Engine::LATENCY);
+        let record = self.engine.take_record();
+        let labelled =
+            Labelled { source: &self.source, instrument: self.engine.instrument(), record, samples };
+        let [mix, stems] = self.files.finish(labelled)?;
         Ok(Rendered {
             mix,
             stems,
             compromises: self.engine.compromises(),
             lost_events: self.engine.lost_events(),
-            seconds: (self.engine.now() - u64::from(Engine::LATENCY)) as f64
-                / f64::from(self.arguments.sample_rate),
+            seconds: samples as f64 / f64::from(self.source.arguments.sample_rate),
         })
     }
 }
