@@ -55,6 +55,7 @@ impl Files {
         if let Some(labels) = self.labels {
             drafts.push(labels.complete(labelled)?);
         }
+        drafts.sort_by_key(Draft::is_in_place);
         drafts.into_iter().try_for_each(Draft::publish)?;
         drop(self.folder);
         Ok([mix, stems])

@@ -19,6 +19,7 @@ use serde_json::Serializer;
 use crate::cli::names::shown;
 use crate::cli::output::Draft;
 use crate::engine::Record;
+use crate::performance::Compromises;
 use gestures::{LabelledBend, LabelledGesture, bends, gestures};
 use lines::Lines;
 use notes::{LabelledNote, notes};
@@ -30,6 +31,7 @@ pub(super) struct Labelled<'a> {
     pub source: &'a Source<'a>,
     pub instrument: &'a Instrument,
     pub record: Record,
+    pub compromises: Compromises,
     /// Samples of the sound, each of both channels.
     pub samples: u64,
 }
@@ -65,7 +67,8 @@ impl Labelled<'_> {
         let gestures = gestures(&self.record.gestures, self.clock());
 
         let about = self.source.about(self.samples);
-        let document = Document { about, strings, notes, bends, gestures };
+        let compromises = self.compromises;
+        let document = Document { about, compromises, strings, notes, bends, gestures };
         let mut out = BufWriter::new(file);
         document.serialize(&mut Serializer::with_formatter(&mut out, Lines::default()))?;
         out.flush()
@@ -81,6 +84,7 @@ impl Labelled<'_> {
 struct Document<'a> {
     #[serde(flatten)]
     about: About<'a>,
+    compromises: Compromises,
     strings: Vec<LabelledString>,
     notes: Vec<LabelledNote>,
     bends: Vec<LabelledBend>,

@@ -106,13 +106,14 @@ impl Playing<'_> {
     fn finish(mut self) -> Result<Rendered> {
         let samples = self.engine.now() - u64::from(Engine::LATENCY);
         let record = self.engine.take_record();
-        let labelled =
-            Labelled { source: &self.source, instrument: self.engine.instrument(), record, samples };
+        let compromises = self.engine.compromises();
+        let instrument = self.engine.instrument();
+        let labelled = Labelled { source: &self.source, instrument, record, compromises, samples };
         let [mix, stems] = self.files.finish(labelled)?;
         Ok(Rendered {
             mix,
             stems,
-            compromises: self.engine.compromises(),
+            compromises,
             lost_events: self.engine.lost_events(),
             seconds: samples as f64 / f64::from(self.source.arguments.sample_rate),
         })
