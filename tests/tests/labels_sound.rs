@@ -61,6 +61,29 @@ fn a_string_begins_to_sound_at_its_onset() {
 }
 
 #[test]
+fn an_onset_is_right_to_a_few_samples() {
+    let open = [40, 45, 50, 55, 59, 64];
+    let messages: Vec<_> =
+        open.iter().zip(0..).flat_map(|(&key, n)| held(key, 100, 100 + 500 * n, 400 + 500 * n)).collect();
+    let played = render(PROGRAM, &song(&messages), &["--variation", "0.5"]);
+    let pickup = &played.labels["setup"]["pickup"];
+    assert_eq!(played.notes().len(), 6);
+    for note in played.notes() {
+        let string = &list(&played.labels, "strings")[sample(note, "string") - 1];
+        let (length, onset) = (number(string, "length"), sample(note, "onset_sample"));
+        // The wave runs from the pluck to the edge of the coil's field at 2Lf. What it brings grows as a power of time, and is
+        // a ten-thousandth of its largest after some samples.
+        let coil = length - number(pickup, "position");
+        let way = (number(note, "stroke_position") - coil).abs() - 0.5 * number(pickup, "aperture");
+        let travel = way.max(0.0) / (2.0 * length * number(string, "frequency")) * RATE;
+        let sound = played.string_of(note);
+        let attack = peak(&sound[onset..onset + samples(0.03)]);
+        let first = first_above(sound, onset - samples(0.01), 1e-4 * attack) as f64 - onset as f64;
+        assert!((travel..travel + 8.0).contains(&first), "{first} samples, {travel} on the way: {note}");
+    }
+}
+
+#[test]
 fn what_fingers_strike_begins_there_too() {
     // On strings that were silent: plucked behind a fret, and tapped.
     let mut messages = vec![];
