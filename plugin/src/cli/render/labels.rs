@@ -51,15 +51,15 @@ impl LabelFile {
 
     /// Writes it, to be published.
     pub(super) fn complete(self, labelled: Labelled) -> Result<Draft> {
-        let written = self.draft.handle().and_then(|file| labelled.write(file));
+        let strings = labelled.source.strings(labelled.instrument)?;
+        let written = self.draft.handle().and_then(|file| labelled.write(strings, file));
         written.with_context(|| format!("cannot write {}", shown(&self.path)))?;
         Ok(self.draft)
     }
 }
 
 impl Labelled<'_> {
-    fn write(mut self, file: File) -> io::Result<()> {
-        let strings = self.source.strings(self.instrument);
+    fn write(mut self, strings: Vec<LabelledString>, file: File) -> io::Result<()> {
         let notes = notes(&self.record.annotations, &strings, self.clock());
         let bends = bends(&self.record.annotations, self.clock());
         // Those of equal times on one string stay in the order in which they are done.

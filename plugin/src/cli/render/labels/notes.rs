@@ -1,10 +1,11 @@
 //! Notes that sounded, a flat record for each.
 
 use low_action_dsp::Gesture;
+use low_action_dsp::setup::frequency;
 use serde::Serialize;
 
 use super::Clock;
-use super::source::{LabelledString, frequency};
+use super::source::LabelledString;
 use crate::performance::{Annotation, Excitation, NewNote, Stopped, Technique, TimedAnnotation};
 
 /// A note that sounded. What it has not is `null`.
@@ -18,7 +19,7 @@ pub(super) struct LabelledNote {
     channel: u8,
     key: u8,
     velocity: u8,
-    /// MIDI note number that sounds, and Hz.
+    /// MIDI note number in equal temperament, and what sounds, Hz.
     pitch: f64,
     frequency: f64,
     /// Samples of the sound, and s.
@@ -122,8 +123,11 @@ impl Course {
         let end = end.max(onset);
         let string = &strings[self.string];
         let partial = note.partial.or(excitation.pinched);
-        let over = 12.0 * libm::log2(f64::from(partial.unwrap_or(1)));
-        let pitch = string.pitch + note.fret as f64 + over;
+        let order = f64::from(partial.unwrap_or(1));
+        let plain = string.pitch + note.fret as f64;
+        // What a finger stops, the neck has its own say in.
+        let stopped = string.fret_frequencies.get(note.fret.wrapping_sub(1)).copied();
+        let stopped = stopped.filter(|_| excitation.stop == Stopped::Finger);
         let Stroke { position, force, speed, duration } = Stroke::of(excitation.gesture);
         Some(LabelledNote {
             string: string.string,
@@ -132,8 +136,8 @@ impl Course {
             channel: note.channel + 1,
             key: note.key,
             velocity: (note.velocity * 127.0).round() as u8,
-            pitch,
-            frequency: frequency(pitch),
+            pitch: plain + 12.0 * libm::log2(order),
+            frequency: order * stopped.unwrap_or_else(|| frequency(plain)),
             asked_sample: note.asked,
             asked: clock.seconds(note.asked),
             onset_sample: onset,

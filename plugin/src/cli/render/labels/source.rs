@@ -1,6 +1,8 @@
 //! What a sound was made from.
 
-use low_action_dsp::{Instrument, Setup};
+use low_action_dsp::intonation::{Intonated, stopped_frequencies};
+use low_action_dsp::setup::{SetupString, frequency};
+use low_action_dsp::{Error, Instrument, Setup};
 use nice_plug::prelude::Enum;
 use serde::Serialize;
 
@@ -54,8 +56,9 @@ pub(super) struct LabelledString {
     pub length: f64,
     /// N.
     pub tension: f64,
-    /// m from the nut, fret 1 first.
+    /// m from the nut, fret 1 first; and what sounds where a finger stops them, Hz.
     pub frets: Vec<f64>,
+    pub fret_frequencies: Vec<f64>,
 }
 
 impl Source<'_> {
@@ -84,11 +87,15 @@ impl Source<'_> {
     }
 
     /// The strings of the instrument as it sounds.
-    pub(super) fn strings(&self, instrument: &Instrument) -> Vec<LabelledString> {
-        let describe = |(index, string): (usize, &low_action_dsp::setup::SetupString)| {
+    pub(super) fn strings(&self, instrument: &Instrument) -> Result<Vec<LabelledString>, Error> {
+        let settings = self.arguments.quality.settings(instrument.sample_rate());
+        let describe = |(index, string): (usize, &SetupString)| {
             let geometry = instrument.geometry(index);
             let pitch = string.pitch + self.setup.tuning;
-            LabelledString {
+            let placed = Intonated { string: instrument.model(index).string, frets: geometry.frets.clone() };
+            let rate = instrument.ratio(index).value() * instrument.sample_rate();
+            let stopped = stopped_frequencies(self.setup, string, &placed, settings.stencil, rate)?;
+            Ok(LabelledString {
                 string: index + 1,
                 name: string.name.clone(),
                 pitch,
@@ -96,8 +103,9 @@ impl Source<'_> {
                 length: geometry.length,
                 // Z² = Tρ.
                 tension: geometry.wave_impedance * geometry.wave_impedance / string.linear_density,
-                frets: geometry.frets.clone(),
-            }
+                frets: placed.frets,
+                fret_frequencies: stopped,
+            })
         };
         self.setup.string.iter().enumerate().map(describe).collect()
     }
@@ -106,9 +114,4 @@ impl Source<'_> {
 /// The identifier of a choice.
 fn id<T: Enum>(choice: T, ids: Option<&'static [&'static str]>) -> Option<&'static str> {
     ids.unwrap_or_default().get(choice.to_index()).copied()
-}
-
-/// The frequency of a pitch in equal temperament, Hz: 69 is 440 Hz.
-pub(super) fn frequency(pitch: f64) -> f64 {
-    440.0 * libm::exp2((pitch - 69.0) / 12.0)
 }
