@@ -74,7 +74,9 @@ fn every_note_of_a_song_has_one_label() {
 }
 
 /// What is said of a note: key, technique, stop, whether it is a partial, whether it came back, how it ended.
-fn said(note: &Value) -> (u64, &str, &str, Option<u64>, bool, &str) {
+type Said<'a> = (u64, &'a str, &'a str, Option<u64>, bool, &'a str);
+
+fn said(note: &Value) -> Said<'_> {
     let word = |key: &str| note[key].as_str().expect("a word");
     let returned = note["returned"].as_bool().expect("yes or no");
     (
@@ -87,16 +89,19 @@ fn said(note: &Value) -> (u64, &str, &str, Option<u64>, bool, &str) {
     )
 }
 
+/// A message at its time, ms.
+type At = (u32, [u8; 3]);
+
 /// A controller at the beginning.
-fn cc(number: u8, value: u8) -> (u32, [u8; 3]) {
+fn cc(number: u8, value: u8) -> At {
     (0, [0xB0, number, value])
 }
 
-fn on(time: u32, key: u8) -> (u32, [u8; 3]) {
+fn on(time: u32, key: u8) -> At {
     (time, [0x90, key, 100])
 }
 
-fn off(time: u32, key: u8) -> (u32, [u8; 3]) {
+fn off(time: u32, key: u8) -> At {
     (time, [0x80, key, 0])
 }
 
@@ -135,8 +140,7 @@ fn strokes_and_stops_have_their_words() {
 fn what_connects_notes_and_what_ends_them_has_its_word() {
     let legato = cc(68, 127);
     let pluck = |key, end_by| (key, "pluck", "finger", None, false, end_by);
-    type Said<'a> = (u64, &'a str, &'a str, Option<u64>, bool, &'a str);
-    let cases: [(&[(u32, [u8; 3])], &[Said]); 9] = [
+    let cases: [(&[At], &[Said]); 9] = [
         // A trill: the note below comes back each time.
         (
             &[legato, on(0, 57), on(200, 59), off(400, 59), on(600, 59), off(800, 59), off(1000, 57)],
