@@ -82,6 +82,9 @@ impl SolverSettings {
 }
 
 impl StringSpec {
+    /// The largest velocity that a string may begin with, m/s, as of fingers.
+    const FASTEST: f64 = 1e3;
+
     /// Refuses values outside their range; `name` says which string this is.
     pub fn check(&self, name: &str) -> Result<(), Error> {
         within(&format!("{name}.length"), self.length, 1e-3, 1e3, "m")?;
@@ -91,10 +94,13 @@ impl StringSpec {
         within(&format!("{name}.core_radius"), self.core_radius, 0.0, 0.1, "m")?;
         within(&format!("{name}.loss_0"), self.loss_0, 0.0, 1e4, "1/s")?;
         within(&format!("{name}.loss_1"), self.loss_1, 0.0, 1e2, "m²/s")?;
-        if let Some(shape) = &self.shape {
-            let name = format!("{name}.shape");
-            Curve::Points(shape.clone()).check(&name, "place", -1.0, 1.0, "m")?;
-            for (i, &[place, _]) in shape.iter().enumerate() {
+        for (key, points, most, unit) in
+            [("shape", &self.shape, 1.0, "m"), ("velocity", &self.velocity, Self::FASTEST, "m/s")]
+        {
+            let Some(points) = points else { continue };
+            let name = format!("{name}.{key}");
+            Curve::Points(points.clone()).check(&name, "place", -most, most, unit)?;
+            for (i, &[place, _]) in points.iter().enumerate() {
                 within(&format!("place of point {} of {name}", i + 1), place, 0.0, self.length, "m")?;
             }
         }
