@@ -7,6 +7,7 @@ use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, OneOrEach};
 use crate::error::{Error, plain, within};
 use crate::gesture::Touch;
+use crate::model::Model;
 
 /// The most strings, plucks or fingers of a scene, a limit against descriptions that fill the memory.
 const MOST_THINGS: usize = 1000;
@@ -18,7 +19,7 @@ const MOST_FINGERS: usize = 100;
 impl Scene {
     /// Refuses every value outside its range, naming it as in the file.
     pub fn check(&self) -> Result<(), Error> {
-        within("sample_rate", self.sample_rate, 1e3, 1e7, "Hz")?;
+        within("sample_rate", self.sample_rate, *Model::RATES.start(), *Model::RATES.end(), "Hz")?;
         within("duration", self.duration, 0.0, 1e5, "s")?;
         self.solver.check()?;
         if self.string.is_empty() || self.string.len() > MOST_THINGS {
