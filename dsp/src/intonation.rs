@@ -158,6 +158,10 @@ impl<'a> Bench<'a> {
             let model = self.model(&tuned, &[]).map_err(strictly)?;
             let off = open_frequency(&model, 1) / target;
             tension /= off * off;
+            // Less than any number: slack beyond all measure.
+            if tension == 0.0 {
+                break;
+            }
             tuned = StringParameters { tension, tension_limit: tension * ratio, ..tuned };
             if (off - 1.0).abs() < PITCH_TOLERANCE {
                 return bearable(string, tension).map(|()| tuned);

@@ -343,3 +343,15 @@ fn each_term_is_booked_by_its_name() {
     };
     books(&format!("{string}{TAP}"), taken_away, &[], &["finger"]);
 }
+
+/// What is not there holds 0 J, and not the negative zero that a sum of nothing is.
+#[test]
+fn nothing_holds_no_energy() {
+    let mut simulation =
+        Simulation::new(&Scene::from_toml(STRING).expect("it is valid")).expect("it can be built");
+    simulation.open_ledger();
+    let energies = simulation.step().expect("the ledger is open").energies;
+    for energy in [energies.string, energies.tension, energies.contact, energies.finger] {
+        assert!(energy == 0.0 && energy.is_sign_positive(), "{energies:?}");
+    }
+}
