@@ -7,7 +7,9 @@ mod playing;
 
 use std::fs::File;
 use std::io::{self, Read};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::thread;
 use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
@@ -43,6 +45,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         variation: arguments.variation,
         seed: arguments.seed,
         bend_range,
+        threads: threads(arguments),
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
     let mut engine = Engine::new(&options).with_context(|| escaped(&arguments.instrument))?;
@@ -58,6 +61,12 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let started = Instant::now();
     let rendered = Playing { engine, song: &song, source, files }.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
+}
+
+/// How many threads share the strings: as many as asked for, or as this machine runs at once.
+fn threads(arguments: &RenderArgs) -> NonZeroUsize {
+    let asked = arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into()));
+    asked.unwrap_or_else(|| thread::available_parallelism().unwrap_or(NonZeroUsize::MIN))
 }
 
 /// What channels mean; refuses what would say so in vain.
