@@ -13,7 +13,7 @@ impl Instrument {
     /// a thread of sound. While another instrument fades ([`Instrument::hand_over`]) one thread does it all.
     ///
     /// # Panics
-    /// When a stem is shorter than the two channels, or no thread can be begun.
+    /// When a stem is shorter than the two channels.
     pub fn process_stems_by(
         &mut self,
         threads: NonZeroUsize,
@@ -38,7 +38,8 @@ impl Instrument {
         };
         thread::scope(|scope| {
             for _ in 1..threads {
-                scope.spawn(work);
+                // Where the system has no more threads, those that there are do its work.
+                let _ = thread::Builder::new().spawn_scoped(scope, work);
             }
             work();
         });
