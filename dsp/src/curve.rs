@@ -29,6 +29,22 @@ impl Curve {
         }
     }
 
+    /// The mean of all values between two places, the second farther on.
+    pub(crate) fn mean(&self, from: f64, to: f64) -> f64 {
+        let points = match self {
+            Curve::Constant(value) => return *value,
+            Curve::Points(points) => points,
+        };
+        let first = points.partition_point(|p| p[0] <= from);
+        let (mut sum, mut last) = (0.0, [from, self.at(from)]);
+        let inner = points[first..].iter().take_while(|p| p[0] < to);
+        for &point in inner.chain(&[[to, self.at(to)]]) {
+            sum += 0.5 * (last[1] + point[1]) * (point[0] - last[0]);
+            last = point;
+        }
+        sum / (to - from)
+    }
+
     /// The largest value taken.
     pub fn largest(&self) -> f64 {
         match self {

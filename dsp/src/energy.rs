@@ -201,7 +201,7 @@ fn board_energy(model: &Model, heights: &[f64], next: &Field, now: &Field, state
             let before = contact.law.energy(state.heights_before[i] - contact.reading.of(now));
             0.5 * (before + after)
         })
-        .sum()
+        .fold(0.0, add)
 }
 
 /// Σ½(Φⁿ + Φⁿ⁺¹) over fingers' pads, J; fingers as they are at n + 1.
@@ -215,12 +215,17 @@ fn fingers_energy(fingers: &[Option<Finger>], next: &Field, now: &Field) -> f64 
             let before = finger.law.energy(finger.reading_before.of(now) - height_now);
             0.5 * (before + after)
         })
-        .sum()
+        .fold(0.0, add)
 }
 
 /// ΣM̃/2(δu_f)², J.
 fn fingers_motion(model: &Model, fingers: &[Option<Finger>]) -> f64 {
     let k = model.grid.time_step;
     let square = |finger: &Finger| finger.inertia.mass * (finger.motion / k) * (finger.motion / k);
-    fingers.iter().flatten().map(|finger| 0.5 * square(finger)).sum()
+    fingers.iter().flatten().map(|finger| 0.5 * square(finger)).fold(0.0, add)
+}
+
+/// Adds two numbers, from 0 on: a `sum` of nothing is a negative zero, which nobody wants to read.
+fn add(sum: f64, next: f64) -> f64 {
+    sum + next
 }

@@ -98,7 +98,7 @@ impl Error {
         } else if message.starts_with("missing key") && !is_table {
             // Of the file as a whole: no line is to blame.
             message
-        } else if thing.is_empty() || message.starts_with("unknown key") {
+        } else if thing.is_empty() || OF_NO_KEY.iter().any(|words| message.starts_with(words)) {
             format!("line {line}: {message}")
         } else {
             format!("line {line}, {thing}: {message}")
@@ -125,10 +125,24 @@ fn thing_at_end(text: &str) -> Option<&str> {
     })
 }
 
+/// How messages begin in which the key before is not to blame.
+const OF_NO_KEY: [&str; 3] = ["unknown key", "key with no value", "unquoted keys"];
+
+/// What is said of something that is no value at all, such as `abc`, `5 mm` or `np.float64(5)`.
+const NO_VALUE: &str =
+    "this is no value: numbers look like 0.5 or 5e-3, texts stand in quotes, lists in square brackets";
+
 /// Words of the TOML reader, and what they are for who writes the file.
-const WORDS: [(&str, &str); 16] = [
+const WORDS: [(&str, &str); 23] = [
+    ("string values must be quoted, expected literal string", NO_VALUE),
+    ("invalid float, expected `nan`", NO_VALUE),
+    ("invalid float, expected `inf`", NO_VALUE),
+    ("invalid float, expected nothing", NO_VALUE),
+    ("invalid mantissa, expected digits", "a number has digits before its point, as 0.5"),
+    ("invalid fraction, expected digits", "a number has digits after its point, as 5.0"),
+    ("invalid exponent, expected digits", "a number has digits after its e, as 5e-3"),
     ("missing field", "missing key"),
-    ("there are no fields", "there are no others"),
+    ("there are no fields", "there are no others beside `kind`"),
     ("unknown field", "unknown key"),
     ("unknown variant", "unknown choice"),
     ("invalid type: map", "invalid type: table"),

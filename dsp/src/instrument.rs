@@ -4,6 +4,8 @@
 //! a whole run of samples at a time, at a multiple of the sample rate of its own ([`crate::settings`]);
 //! gestures cut runs at their exact samples, and so the samples are the same however they are asked for.
 
+use std::ops::Range;
+
 use crate::decimate::DELAY;
 use crate::drive::Drive;
 use crate::error::Error;
@@ -187,6 +189,11 @@ impl Instrument {
         self.queue.push(TimedGesture { time: gesture.time.max(self.now), ..gesture })
     }
 
+    /// How many gestures wait.
+    pub fn waiting(&self) -> usize {
+        self.queue.len()
+    }
+
     /// Renders the next samples in stereo: as many as the shorter of the two slices has.
     pub fn process(&mut self, left: &mut [f32], right: &mut [f32]) {
         self.process_stems(&mut [], left, right);
@@ -212,31 +219,39 @@ impl Instrument {
             }
             let until_gesture = self.queue.next_time().map_or(RUN as u64, |time| time - self.now);
             let run = (count - done).min(RUN).min(usize::try_from(until_gesture).unwrap_or(RUN));
-            for (index, voice) in self.voices.iter_mut().enumerate() {
-                voice.run(run);
-                if let Some(stem) = stems.get_mut(index) {
-                    for (out, sample) in stem[done..done + run].iter_mut().zip(&voice.run) {
-                        *out = heard(*sample);
-                    }
-                }
-            }
-            for stem in stems.iter_mut().skip(self.voices.len()) {
-                stem[done..done + run].fill(0.0);
-            }
-            for i in 0..run {
-                let [l, r] = self.stereo(i);
-                left[done + i] = heard(l);
-                right[done + i] = heard(r);
-            }
-            if !self.fade.rests() {
-                let end = done + run;
-                self.fade_from_before(done..end, stems, left, right);
-            }
-            for i in done..done + run {
-                self.level.see(f64::from(left[i]), f64::from(right[i]));
-            }
-            self.now += run as u64;
+            self.voices.iter_mut().for_each(|voice| voice.run(run));
+            self.mix(done..done + run, stems, left, right);
             done += run;
+        }
+    }
+
+    /// Mixes what the strings have played last into the samples `span`, and goes on to the next.
+    pub(crate) fn mix(
+        &mut self,
+        span: Range<usize>,
+        stems: &mut [&mut [f32]],
+        left: &mut [f32],
+        right: &mut [f32],
+    ) {
+        for (stem, voice) in stems.iter_mut().zip(&self.voices) {
+            for (out, sample) in stem[span.clone()].iter_mut().zip(&voice.run) {
+                *out = heard(*sample);
+            }
+        }
+        for stem in stems.iter_mut().skip(self.voices.len()) {
+            stem[span.clone()].fill(0.0);
+        }
+        for (i, at) in span.clone().enumerate() {
+            let [l, r] = self.stereo(i);
+            left[at] = heard(l);
+            right[at] = heard(r);
+        }
+        if !self.fade.rests() {
+            self.fade_from_before(span.clone(), stems, left, right);
+        }
+        self.now += span.len() as u64;
+        for at in span {
+            self.level.see(f64::from(left[at]), f64::from(right[at]));
         }
     }
 

@@ -60,13 +60,7 @@ pub fn intonate(
     stencil: Stencil,
     sample_rate: f64,
 ) -> Result<Intonated, Error> {
-    let bench = Bench {
-        setup,
-        neck: &setup.neck,
-        fretting: &setup.player.fretting,
-        settings: SolverSettings { stencil, ..SolverSettings::default() },
-        sample_rate,
-    };
+    let bench = Bench::new(setup, stencil, sample_rate);
     let target = std::f64::consts::TAU * frequency(string.pitch + setup.tuning);
     let tuned = bench.tuned(string, setup.highest_tension_ratio(), target)?;
     let mut frets = setup.neck.equal_places();
@@ -74,6 +68,27 @@ pub fn intonate(
         bench.place_frets(&tuned, target, &mut frets)?;
     }
     Ok(Intonated { string: tuned, frets })
+}
+
+/// The frequencies at which a string of a set-up sounds where its finger stops the frets, Hz, fret 1 first: those of equal
+/// temperament as far as its frets are placed for that, and else as sharp as pressing makes them.
+///
+/// # Errors
+/// As [`intonate`].
+pub fn stopped_frequencies(
+    setup: &Setup,
+    string: &SetupString,
+    placed: &Intonated,
+    stencil: Stencil,
+    sample_rate: f64,
+) -> Result<Vec<f64>, Error> {
+    let bench = Bench::new(setup, stencil, sample_rate);
+    let sounds = |fret: usize| {
+        let near = std::f64::consts::TAU * frequency(string.pitch + setup.tuning + (fret + 1) as f64);
+        let (angular, _) = bench.stopped(&placed.string, &placed.frets, fret, near, None)?;
+        Ok(angular / std::f64::consts::TAU)
+    };
+    (0..placed.frets.len()).map(sounds).collect()
 }
 
 /// A string of a set-up with the tension that would tune it if it were flexible.
@@ -117,7 +132,17 @@ fn bearable(string: &SetupString, tension: f64) -> Result<(), Error> {
     Err(Error::range("linear_density", plain(density), accepted))
 }
 
-impl Bench<'_> {
+impl<'a> Bench<'a> {
+    fn new(setup: &'a Setup, stencil: Stencil, sample_rate: f64) -> Self {
+        Self {
+            setup,
+            neck: &setup.neck,
+            fretting: &setup.player.fretting,
+            settings: SolverSettings { stencil, ..SolverSettings::default() },
+            sample_rate,
+        }
+    }
+
     fn model(&self, string: &StringParameters, frets: &[f64]) -> Result<Model, Error> {
         let barrier = self.setup.barrier(frets)?;
         Model::new(*string, Some(&barrier), 1, self.settings, self.sample_rate).map_err(Error::of_setup)
@@ -133,6 +158,10 @@ impl Bench<'_> {
             let model = self.model(&tuned, &[]).map_err(strictly)?;
             let off = open_frequency(&model, 1) / target;
             tension /= off * off;
+            // Less than any number: slack beyond all measure.
+            if tension == 0.0 {
+                break;
+            }
             tuned = StringParameters { tension, tension_limit: tension * ratio, ..tuned };
             if (off - 1.0).abs() < PITCH_TOLERANCE {
                 return bearable(string, tension).map(|()| tuned);

@@ -161,6 +161,7 @@ mod skyline;
 mod solver;
 pub mod state;
 pub mod string;
+mod threads;
 mod touching;
 mod voice;
 

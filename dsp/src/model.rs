@@ -7,8 +7,10 @@ mod parameters;
 mod steepness;
 mod stiffness;
 
+use std::ops::RangeInclusive;
+
 use crate::contact::ContactLaw;
-use crate::error::{Error, plain};
+use crate::error::{Error, plain, within};
 use crate::finger::Inertia;
 use crate::flexibility::Flexibility;
 use crate::gesture::Touch;
@@ -46,11 +48,14 @@ pub struct Model {
 }
 
 impl Model {
-    /// Compiles a string over a barrier, with room for fingers, at a sample rate in Hz.
+    /// What sample rates may be, Hz.
+    pub(crate) const RATES: RangeInclusive<f64> = 1e3..=1e7;
+
+    /// Compiles a string over a barrier, with room for fingers, at a sample rate in Hz, 1e3 to 1e7.
     ///
     /// # Errors
-    /// When the string is too short for its grid, a fret is off the string, or a contact is too stiff
-    /// to be told from rounding at this rate.
+    /// When a number is out of its range, the string is too short for its grid, a fret is off the string, or a contact is too
+    /// stiff to be told from rounding at this rate.
     pub fn new(
         string: StringParameters,
         barrier: Option<&Barrier>,
@@ -58,6 +63,9 @@ impl Model {
         settings: SolverSettings,
         sample_rate: f64,
     ) -> Result<Model, Error> {
+        string.check()?;
+        settings.check()?;
+        within("sample_rate", sample_rate, *Self::RATES.start(), *Self::RATES.end(), "Hz")?;
         let time_step = 1.0 / sample_rate;
         let grid = Self::grid(&string, settings.stencil, time_step)?;
         let coasting = Coasting::new(&string, &grid, string.loss_0);

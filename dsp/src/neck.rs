@@ -49,6 +49,9 @@ const LEAST_CLEARANCE: f64 = 1e-5;
 /// The most relief there is, m, however high the strings are.
 const MOST_RELIEF: f64 = 0.01;
 
+/// The highest action, m.
+const HIGHEST_ACTION: f64 = 0.05;
+
 /// How far the board goes on beyond the last fret, m.
 const OVERHANG: f64 = 0.008;
 
@@ -62,7 +65,12 @@ impl Neck {
         within("neck.scale_length", self.scale_length, 0.1, 5.0, "m")?;
         within("neck.frets", self.frets as f64, 0.0, 36.0, "")?;
         within("neck.nut_clearance", self.nut_clearance, LEAST_CLEARANCE, 0.02, "m")?;
-        within("neck.action", self.action, self.nut_clearance, 0.05, "m")?;
+        if !(self.nut_clearance..=HIGHEST_ACTION).contains(&self.action) {
+            // Either may be what is wrong.
+            let (least, most) = (plain(self.nut_clearance), plain(HIGHEST_ACTION));
+            let accepted = format!("it must lie between neck.nut_clearance, {least}, and {most} m");
+            return Err(Error::range("neck.action", plain(self.action), accepted));
+        }
         within("neck.fret_height", self.fret_height, 0.0, 0.02, "m")?;
         for (fret, wear) in &self.worn {
             within("neck.worn, fret", *fret as f64, 1.0, self.frets as f64, "")?;

@@ -34,6 +34,11 @@ impl Queue {
         Ok(())
     }
 
+    /// How many wait.
+    pub fn len(&self) -> usize {
+        self.waiting.len()
+    }
+
     /// The time of the next gesture.
     pub fn next_time(&self) -> Option<u64> {
         self.waiting.last().map(|gesture| gesture.time)

@@ -6,13 +6,13 @@ use crate::state::State;
 use crate::string::Scratch;
 
 impl State {
-    /// Lets go of a string held at rest in its shape, and of its fingers, at the moment of this sample: from what it is told
-    /// acts on them, finds where they would have been a sample before.
+    /// Lets go of a string held in its shape or thrown at a velocity, and of its fingers, at the moment of this sample: from
+    /// what it is told acts on them, finds where they would have been a sample before.
     ///
-    /// The velocity at a sample is the mean of the motions that lead to it and from it. Were the string simply where it is a
-    /// sample before, it would be released half a sample too early, and all that follows would be off by as much. A step
-    /// d⁺ = decay·d + q from d = 0 shows q, and d⁺ + d = 0 makes d = −q/(1 + decay), but for the part of it that `loss_1` damps in that step; likewise for a finger that comes at a
-    /// velocity. Allocates.
+    /// The velocity v at a sample is the mean of the motions that lead to it and from it. Were the string simply kv away from
+    /// where it is a sample before, it would be released half a sample too early, and all that follows would be off by as much.
+    /// A step d⁺ = decay·d + q from d = kv shows q, and d⁺ + d = 2kv makes d = (2kv − q)/(1 + decay), but for the part of it
+    /// that `loss_1` damps in that step; likewise for a finger. Allocates.
     ///
     /// # Panics
     /// As [`State::step`].
@@ -22,17 +22,21 @@ impl State {
         after.step(model, drive, &mut scratch);
         for node in 1..model.grid.intervals {
             let cell = model.grid.cell(node);
-            self.motion[cell] = -after.motion[cell] / (1.0 + scratch.coasting.decay);
+            self.motion[cell] = begun(self.motion[cell], after.motion[cell], scratch.coasting.decay);
         }
         for (finger, after) in self.fingers.iter_mut().zip(&after.fingers) {
             if let (Some(finger), Some(after)) = (finger, after) {
-                let (persistence, thrown) = (finger.inertia.persistence, finger.motion);
-                // d⁺ = persistence·d + q as well, and the mean of both is what it is thrown with.
-                let q = after.motion - persistence * thrown;
-                finger.motion = (2.0 * thrown - q) / (1.0 + persistence);
+                finger.motion = begun(finger.motion, after.motion, finger.inertia.persistence);
             }
         }
         self.close_shape(model);
         self.look_at_all(model);
     }
+}
+
+/// The motion d with which what is `thrown`, m per step, begins: a step from there has led to the motion `after`, of which so
+/// much is what `persists` of d that d⁺ = persists·d + q, and the mean of d and d⁺ is to be what it is thrown with.
+fn begun(thrown: f64, after: f64, persists: f64) -> f64 {
+    let q = after - persists * thrown;
+    (2.0 * thrown - q) / (1.0 + persists)
 }

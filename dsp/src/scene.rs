@@ -123,9 +123,12 @@ pub struct StringSpec {
     /// Whether stretching raises the tension.
     #[serde(default)]
     pub tension_modulation: bool,
-    /// Initial displacement `[[x, u], …]`, m, released from rest.
+    /// Initial displacement `[[x, u], …]`, m; without it the string begins at 0.
     #[serde(default, deserialize_with = "crate::curve::pairs")]
     pub shape: Option<Vec<[f64; 2]>>,
+    /// Initial velocity `[[x, v], …]`, m/s, up is positive; without it the string begins at rest.
+    #[serde(default, deserialize_with = "crate::curve::pairs")]
+    pub velocity: Option<Vec<[f64; 2]>>,
 }
 
 /// Board and frets under all strings.

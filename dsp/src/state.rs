@@ -116,13 +116,27 @@ impl State {
         self.energy_scale = 0.0;
     }
 
-    /// Gives the string a displacement over places (m over m from the nut), at rest. What was set is not yet released:
-    /// [`State::let_go`] does that at the moment of this sample; stepped without it, the string begins half a step early.
+    /// Gives the string a displacement over places (m over m from the nut), at rest or, by [`State::set_velocity`] afterwards,
+    /// at a velocity. What was set is not yet released: [`State::let_go`] does that at the moment of this sample; stepped
+    /// without it, the string begins half a step early.
     pub fn set_shape(&mut self, model: &Model, shape: &Curve) {
         for node in 1..model.grid.intervals {
             self.displacement[model.grid.cell(node)] = shape.at(model.grid.place(node));
         }
         self.motion.fill(0.0);
+        self.close_shape(model);
+        self.look_at_all(model);
+    }
+
+    /// Gives the string a velocity over places (m/s over m from the nut) beside the displacement it has: each grid point the
+    /// mean of what stands within half a spacing of it, so that even the narrowest hammer leaves its momentum. As with a shape,
+    /// [`State::let_go`] is to follow.
+    pub fn set_velocity(&mut self, model: &Model, velocity: &Curve) {
+        let (k, half) = (model.grid.time_step, 0.5 * model.grid.spacing);
+        for node in 1..model.grid.intervals {
+            let place = model.grid.place(node);
+            self.motion[model.grid.cell(node)] = k * velocity.mean(place - half, place + half);
+        }
         self.close_shape(model);
         self.look_at_all(model);
     }

@@ -1,10 +1,12 @@
 //! One string of an instrument: its model, its motion, the hands on it and what is heard of it.
 
+use std::ops::Range;
+
 use crate::decimate::Decimator;
 use crate::drive::Drive;
 use crate::energy::Ledger;
 use crate::error::Error;
-use crate::gesture::{FINGERS_PER_STRING, Gesture};
+use crate::gesture::{FINGERS_PER_STRING, Gesture, TimedGesture};
 use crate::hands::Hands;
 use crate::instrument::StringGeometry;
 use crate::intonation::intonate;
@@ -33,8 +35,8 @@ pub(crate) struct Voice {
     gain: f64,
     pub pan: [f64; 2],
     asleep: bool,
-    /// The last samples heard, up to [`RUN`].
-    pub run: [f64; RUN],
+    /// The last samples heard: up to [`RUN`], or as many as [`Voice::play`] was last asked for.
+    pub run: Vec<f64>,
     /// Whether `run` holds nothing but zeros, throughout, because nothing is left to be heard.
     pub silent: bool,
     settling: Settling,
@@ -100,7 +102,7 @@ impl Voice {
             gain: setup.gain * spec.level,
             pan: [libm::cos(angle), libm::sin(angle)],
             asleep: true,
-            run: [0.0; RUN],
+            run: vec![0.0; RUN],
             silent: true,
             settling: Settling { from: Roomy::with_capacity(model.contacts.len()), part: Ramp::at(1.0) },
             ledger: None,
@@ -136,11 +138,46 @@ impl Voice {
             return;
         }
         self.silent = false;
-        for index in 0..self.decimator.steps(samples) {
+        self.sound(0..samples);
+    }
+
+    /// Plays a stretch from sample `now` on into `run`, with its gestures in order of time: the same samples as those of
+    /// one [`Voice::run`] after another. Allocates where the stretch is longer than any before.
+    pub fn play<'a>(&mut self, now: u64, gestures: impl Iterator<Item = &'a TimedGesture>, samples: usize) {
+        if self.run.len() < samples {
+            self.run.resize(samples, 0.0);
+        }
+        let mut gestures = gestures.peekable();
+        let (mut done, mut sounded) = (0, false);
+        while done < samples {
+            let time = now + done as u64;
+            while let Some(due) = gestures.next_if(|next| next.time <= time) {
+                self.begin(due.gesture);
+            }
+            let until_gesture = gestures.peek().map_or(u64::MAX, |next| next.time - time);
+            let run = (samples - done).min(RUN).min(usize::try_from(until_gesture).unwrap_or(RUN));
+            let span = done..done + run;
+            if self.is_at_rest() {
+                self.run[span].fill(0.0);
+            } else {
+                sounded = true;
+                self.sound(span);
+            }
+            done += run;
+        }
+        self.silent = !sounded;
+        if self.silent {
+            self.run.fill(0.0);
+        }
+    }
+
+    /// Steps the string through the samples `span` of `run`, at most [`RUN`].
+    fn sound(&mut self, span: Range<usize>) {
+        for index in 0..self.decimator.steps(span.len()) {
             let value = self.gain * self.next();
             self.decimator.take(index, value);
         }
-        self.decimator.give(&mut self.run[..samples]);
+        self.decimator.give(&mut self.run[span]);
         self.observed.see_shape(&self.state);
     }
 
@@ -247,7 +284,7 @@ impl Voice {
         self.settling.part = Ramp::at(1.0);
         self.drive.heights.clear();
         self.asleep = true;
-        self.run = [0.0; RUN];
+        self.run.fill(0.0);
         self.silent = true;
         self.observed.begin_anew(&self.state);
         self.rebook();

@@ -71,6 +71,9 @@ fn string(spec: &StringSpec) -> String {
         let heights = range(points.iter().map(|point| 1e3 * point[1]));
         parts.push(format!("released from a shape of {heights} mm"));
     }
+    if let Some(points) = &spec.velocity {
+        parts.push(format!("thrown at {} m/s", range(points.iter().map(|point| point[1]))));
+    }
     format!("String: {}.", parts.join(", "))
 }
 
@@ -191,7 +194,7 @@ mod tests {
     fn scenes_that_differ_in_one_key_have_different_captions() {
         let string = "[[string]]\nlength = 0.65\nlinear_density = 5e-3\ntension = 60.0\nyoungs_modulus = 2e11\n\
                       core_radius = 4e-4\nloss_0 = 1.0\nloss_1 = 1e-4\ntension_modulation = true\n\
-                      shape = [[0.0, 0.0], [0.3, 1e-3], [0.65, 0.0]]\n";
+                      shape = [[0.0, 0.0], [0.3, 1e-3], [0.65, 0.0]]\nvelocity = [[0.0, 0.0], [0.1, 1.0], [0.2, 0.0]]\n";
         let text = format!(
             "sample_rate = 44100\nduration = 0.1\n[solver]\nmax_iterations = 50\ntolerance = 1e-15\n\
              stencil = \"paper\"\n{string}{string}[fretboard]\nstiffness = 1e10\nexponent = 1.5\ndamping = 0\n\
@@ -218,6 +221,7 @@ mod tests {
             (0, "loss_1 = 1e-4", "loss_1 = 2e-4"),
             (0, "true", "false"),
             (0, "1e-3]", "2e-3]"),
+            (0, "[0.1, 1.0]", "[0.1, 2.0]"),
             (halfway, "1e10", "1e11"),
             (halfway, "1.5", "1.6"),
             (halfway, "damping = 0", "damping = 0.3"),

@@ -5,22 +5,27 @@
 //! time into other blocks changes no bit of it.
 
 mod handover;
+mod record;
+mod sink;
 
 use std::collections::VecDeque;
+use std::num::NonZeroUsize;
 
 pub use low_action_dsp::Quality;
 use low_action_dsp::setup::SetupString;
-use low_action_dsp::{EngineSettings, Instrument, Setup, TimedGesture};
+use low_action_dsp::{EngineSettings, Instrument, Setup};
 
 use crate::controls::Touching;
-use crate::performance::{
-    Compromises, GestureSink, InputMode, Performance, PlayedString, PlayerEvent, Style,
-};
+use crate::performance::{Compromises, InputMode, Performance, PlayedString, PlayerEvent, Style};
 pub use handover::Replacement;
+pub use record::Record;
+use sink::Sink;
 
 /// Samples handed from the player to the instrument at a time. It bounds how many gestures can be
 /// waiting in the instrument, however large the blocks asked for.
 const STEP: usize = 64;
+/// Gestures that may wait when another step is prepared: an eighth of those that find room.
+const MANY_GESTURES: usize = 512;
 /// Events that can wait for their time; far more than any host sends for one block.
 const WAITING_EVENTS: usize = 16_384;
 /// Most stems written at once; set-ups have at most 32 strings.
@@ -50,6 +55,8 @@ pub struct EngineOptions {
     /// Semitones of a full turn of the pitch wheel, until registered parameter 0 sets another. The
     /// string itself bends no farther than its set-up leaves room for.
     pub bend_range: f64,
+    /// How many threads share the strings among them: 1, but where sound is rendered to a file. The bits are the same.
+    pub threads: NonZeroUsize,
 }
 
 impl EngineOptions {
@@ -69,6 +76,7 @@ impl EngineOptions {
             variation: Self::VARIATION,
             seed: 0,
             bend_range: Self::BEND_RANGE,
+            threads: NonZeroUsize::MIN,
         }
     }
 }
@@ -119,8 +127,11 @@ pub struct Engine {
     lost: u64,
     /// How long it rings at most, s.
     tail: f64,
+    threads: NonZeroUsize,
     /// What this engine was before its last change, on its way out.
     outgoing: Option<Box<Replacement>>,
+    /// What the player does, if that is kept.
+    record: Option<Box<Record>>,
 }
 
 impl Engine {
@@ -134,13 +145,14 @@ impl Engine {
     pub fn new(options: &EngineOptions) -> Result<Self, low_action_dsp::Error> {
         let (performance, instrument) = options.build()?;
         let waiting = VecDeque::with_capacity(WAITING_EVENTS);
-        Ok(Self { performance, instrument, waiting, lost: 0, tail: options.tail(), outgoing: None })
+        let (tail, threads) = (options.tail(), options.threads);
+        Ok(Self { performance, instrument, waiting, lost: 0, tail, threads, outgoing: None, record: None })
     }
 
     /// Has the hands act differently from the next sample on.
     pub fn touch(&mut self, touching: &Touching) {
-        let mut sink = Sink { instrument: &mut self.instrument, lost: &mut self.lost };
-        let now = sink.instrument.now();
+        let now = self.instrument.now();
+        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.record);
         self.performance.touch(now, touching, &mut sink);
     }
 
@@ -153,6 +165,11 @@ impl Engine {
     /// penetration, m, at which they stop, each brought into its range.
     pub fn set_effort(&mut self, max_iterations: usize, tolerance: f64) {
         self.instrument.set_effort(max_iterations, tolerance);
+    }
+
+    /// Whether another event finds room to wait for a later sample.
+    pub fn has_room(&self) -> bool {
+        self.waiting.len() < WAITING_EVENTS
     }
 
     /// Takes an event that happens `offset` samples after the start of the next block. Events at
@@ -175,10 +192,7 @@ impl Engine {
 
     /// Plays the next block. Both channels must be of one length; it may be any.
     pub fn process(&mut self, left: &mut [f32], right: &mut [f32]) {
-        for (left, right) in left.chunks_mut(STEP).zip(right.chunks_mut(STEP)) {
-            self.prepare(left.len());
-            self.instrument.process(left, right);
-        }
+        self.process_stems(&mut [], left, right);
     }
 
     /// Plays the next block and writes each string's own sound, before it is panned, to `stems`
@@ -186,15 +200,17 @@ impl Engine {
     /// without.
     pub fn process_stems(&mut self, stems: &mut [&mut [f32]], left: &mut [f32], right: &mut [f32]) {
         let count = stems.len().min(MOST_STEMS);
-        let steps = left.chunks_mut(STEP).zip(right.chunks_mut(STEP));
-        for (index, (left, right)) in steps.enumerate() {
-            let span = index * STEP..index * STEP + left.len();
+        let frames = left.len().min(right.len());
+        let mut done = 0;
+        while done < frames {
+            let span = done..done + self.prepare(frames - done);
+            done = span.end;
             let mut parts: [&mut [f32]; MOST_STEMS] = std::array::from_fn(|_| Default::default());
             for (part, stem) in parts.iter_mut().zip(stems.iter_mut()) {
                 *part = &mut stem[span.clone()];
             }
-            self.prepare(left.len());
-            self.instrument.process_stems(&mut parts[..count], left, right);
+            let (left, right) = (&mut left[span.clone()], &mut right[span]);
+            self.instrument.process_stems_by(self.threads, &mut parts[..count], left, right);
         }
     }
 
@@ -264,36 +280,34 @@ impl Engine {
         self.instrument.reset();
         self.waiting.clear();
         self.lost = 0;
+        if let Some(record) = &mut self.record {
+            **record = Record::default();
+        }
     }
 
-    /// Has the player do all that belongs to the next `frames` samples.
-    fn prepare(&mut self, frames: usize) {
-        let until = self.instrument.now() + frames as u64;
-        self.deliver(until);
-        let mut sink = Sink { instrument: &mut self.instrument, lost: &mut self.lost };
-        self.performance.advance(until, &mut sink);
+    /// Has the player do all that belongs to the next samples, [`STEP`] at most, and returns how many those are. Threads
+    /// have more to do at a time: as many as `frames`, as long as there is room for gestures.
+    fn prepare(&mut self, frames: usize) -> usize {
+        let mut prepared = 0;
+        loop {
+            prepared += STEP.min(frames - prepared);
+            let until = self.instrument.now() + prepared as u64;
+            self.deliver(until);
+            let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.record);
+            self.performance.advance(until, &mut sink);
+            let alone = self.threads == NonZeroUsize::MIN;
+            if alone || prepared == frames || self.instrument.waiting() > MANY_GESTURES {
+                return prepared;
+            }
+        }
     }
 
     /// Hands the player all events before sample `until`.
     fn deliver(&mut self, until: u64) {
-        let mut sink = Sink { instrument: &mut self.instrument, lost: &mut self.lost };
+        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.record);
         while let Some(&Waiting { time, event }) = self.waiting.front().filter(|next| next.time < until) {
             self.waiting.pop_front();
             self.performance.event(time, event, &mut sink);
         }
-    }
-}
-
-/// Hands gestures to the instrument.
-struct Sink<'a> {
-    instrument: &'a mut Instrument,
-    lost: &'a mut u64,
-}
-
-impl GestureSink for Sink<'_> {
-    fn gesture(&mut self, gesture: TimedGesture) {
-        // A step brings at most a handful of gestures a string and sample, far below the
-        // instrument's capacity; should it ever be full, the loss is counted.
-        *self.lost += u64::from(self.instrument.schedule(gesture).is_err());
     }
 }

@@ -17,6 +17,7 @@
 //! | what a note, pedal or controller does | `performance`: `control.rs` (messages), `string/` (fingers), `chord.rs` (who plays what); `docs/gestures.md` |
 //! | a parameter | `params.rs`, its range in `params/ranges.rs`, its words in `params/words.rs`, what it asks for in `plugin/order.rs`; `docs/plugin.md` |
 //! | a set-up that comes with the program | `dsp/instruments/presets` and `dsp/src/preset.rs`, a phrase in `plugin/examples/compose_music`; `docs/formats.md` |
+//! | what labels say of notes | `performance/annotation.rs`, put into words in `cli/render/labels`; `docs/formats.md` |
 //! | a command or an option | `cli/arguments.rs`, then the command's own file |
 //! | a control of the editor | `editor/panels`; `docs/editor.md` |
 

@@ -142,9 +142,20 @@ fn a_scene_leaves_nothing() {
     }
 }
 
-/// A song that takes minutes, with stems in folders that are not there yet.
-const SONG: [&str; 9] =
-    ["render", "-o", "old.wav", "--stems", "new/stems", "--quality", "reference", "--tail", "3600"];
+/// A song that takes minutes, with stems in folders that are not there yet, and labels.
+const SONG: [&str; 11] = [
+    "render",
+    "-o",
+    "old.wav",
+    "--stems",
+    "new/stems",
+    "--labels",
+    "new.json",
+    "--quality",
+    "reference",
+    "--tail",
+    "3600",
+];
 
 /// Stops at the first file and at the first folder. Where these are entered after they are made, 28 of 60 and 7 of 60 leave
 /// something: so many all go well by chance once in 290 000 times and once in 140.

@@ -7,6 +7,7 @@ pub mod dense;
 pub mod desk;
 pub mod hands;
 pub mod host;
+pub mod labelled;
 pub mod midi;
 pub mod numbers;
 pub mod paper;

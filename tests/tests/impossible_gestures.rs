@@ -38,6 +38,32 @@ fn assert_left_out(gesture: Gesture) {
 fn what_is_possible_is_heard() {
     let lift = Gesture::Lift { finger: FINGER, force: 1.0, duration: 0.001 };
     assert!(play(&[]) != play(&[lift]), "a lift opens the string");
+    let still = Gesture::Still { loss: 100.0, duration: 0.003 };
+    assert!(play(&[]) != play(&[still]), "a hand along the string brakes it");
+}
+
+#[test]
+fn hands_that_brake_nothing() {
+    for number in NUMBERS {
+        assert_left_out(Gesture::Still { loss: number, duration: 0.003 });
+        assert_left_out(Gesture::Still { loss: 100.0, duration: number });
+    }
+    // What drives the string is no hand, and one that is there for no time is none.
+    for (loss, duration) in
+        [(-1.0, 0.003), (-1e308, 0.003), (0.0, 1.0), (100.0, 0.0), (100.0, -1.0), (1e308, 1e-310)]
+    {
+        assert_left_out(Gesture::Still { loss, duration });
+    }
+}
+
+/// It can take no more than all of the motion that a step begins with.
+#[test]
+fn hands_that_brake_beyond_all_measure() {
+    for (loss, duration) in [(1e308, 0.01), (1e7, f64::MAX)] {
+        let sound = play(&[Gesture::Still { loss, duration }]);
+        assert!(sound.iter().all(|sample| sample.abs() < 1.0), "{loss} 1/s drive the string");
+        assert!(sound[14_000..].iter().all(|sample| sample.abs() < 1e-3), "{loss} 1/s leave it swinging");
+    }
 }
 
 #[test]

@@ -181,7 +181,7 @@ fn moving_lossy_frets_placed_and_removed_fingers() {
     moving_frets(&lossy(ALL, 1.0));
 }
 
-/// Moves the fretboard under a string, places fingers and takes them away, and checks the ledger.
+/// Moves the fretboard under a string, places fingers, takes them away and brakes it, and checks the ledger.
 fn moving_frets(fretboard: &str) {
     let scene = Scene::from_toml(&format!("{STRING}{LOSSES}{PRESS}{fretboard}")).expect("the scene is valid");
     let barrier = Barrier::from_spec(scene.fretboard.as_ref().expect("there is one"), 0.65);
@@ -219,6 +219,12 @@ fn moving_frets(fretboard: &str) {
             } else if n == 60000 {
                 state.remove_finger(1);
             }
+            // A hand is laid along it, up to one that brings it to rest in a step.
+            drive.loss = match n % 7000 {
+                3000..3300 => 300.0,
+                6000..6010 => 88200.0,
+                _ => 0.0,
+            };
             drive.heights.clear();
             if n % 20000 > 10000 {
                 let lift = 3e-4 * (time * 40.0).sin();
@@ -342,4 +348,20 @@ fn each_term_is_booked_by_its_name() {
         }
     };
     books(&format!("{string}{TAP}"), taken_away, &[], &["finger"]);
+    let braked = |n: u64, string: &mut SceneString| {
+        string.drive.loss = if n > 4000 { 300.0 } else { 0.0 };
+    };
+    books(&format!("{string}{PLUCK}"), braked, &["hand"], &["pluck"]);
+}
+
+/// What is not there holds 0 J, and not the negative zero that a sum of nothing is.
+#[test]
+fn nothing_holds_no_energy() {
+    let mut simulation =
+        Simulation::new(&Scene::from_toml(STRING).expect("it is valid")).expect("it can be built");
+    simulation.open_ledger();
+    let energies = simulation.step().expect("the ledger is open").energies;
+    for energy in [energies.string, energies.tension, energies.contact, energies.finger] {
+        assert!(energy == 0.0 && energy.is_sign_positive(), "{energies:?}");
+    }
 }

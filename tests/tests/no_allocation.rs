@@ -36,7 +36,7 @@ fn play(name: &str, setup: &Setup, mut instrument: Instrument) {
     let (mut left, mut right) = (vec![0.0; 512], vec![0.0; 512]);
     let touch = setup.player.fretting.touch;
     // How many gestures of each kind were taken, and how loud it was.
-    let (mut taken, mut loudest) = ([0; 7], 0.0);
+    let (mut taken, mut loudest) = ([0; 8], 0.0);
     assert_no_alloc(|| {
         for block in 0..100u64 {
             for (string, geometry) in geometry.iter().enumerate() {
@@ -47,6 +47,7 @@ fn play(name: &str, setup: &Setup, mut instrument: Instrument) {
                     Gesture::Place { finger, touch, position, clearance: 1e-4 },
                     Gesture::Press { finger, force: 6.0, duration: 0.004 },
                     Gesture::Pluck { position: away, force: 2.0, duration: 0.001 },
+                    Gesture::Still { loss: 1000.0, duration: 0.001 },
                     Gesture::Slide { finger, position: position + 0.01, duration: 0.01 },
                     Gesture::Bend { tension_ratio: 1.1, duration: 0.01 },
                     Gesture::Lift { finger, force: 3.0, duration: 0.002 },

@@ -128,6 +128,7 @@ proptest! {
                     Gesture::Press { duration, .. }
                     | Gesture::Slide { duration, .. }
                     | Gesture::Lift { duration, .. }
+                    | Gesture::Still { duration, .. }
                     | Gesture::Bend { duration, .. } => (0.0, 0.0, duration),
                     Gesture::Place { .. } => (0.0, 0.0, 0.0),
                 };
@@ -149,6 +150,10 @@ proptest! {
                         0.5 * length
                     }
                     Gesture::Slide { position, .. } | Gesture::Pluck { position, .. } => position,
+                    Gesture::Still { loss, .. } => {
+                        prop_assert!(loss > 0.0 && loss < 1e4, "{gesture:?}");
+                        0.5 * length
+                    }
                     Gesture::Bend { tension_ratio, .. } => {
                         prop_assert!(tension_ratio > 0.0, "{gesture:?}");
                         0.5 * length

@@ -86,6 +86,21 @@ fn values_out_of_range_are_refused() {
         ),
         ("tension = 60.0", "tension = [[0, 60], [1, -2]]", &["value of point 2 of string[1].tension = -2"]),
         ("tension = 60.0", "tension = 60\nshape = [[0.1, 0.001], [0.7, 0]]", &["shape = 0.7", "0.65"]),
+        (
+            "tension = 60.0",
+            "tension = 60\nvelocity = [[0.1, 1], [0.7, 0]]",
+            &["velocity = 0.7", "0 and 0.65 m"],
+        ),
+        (
+            "tension = 60.0",
+            "tension = 60\nvelocity = [[0.1, 0], [0.2, -1001]]",
+            &["value of point 2 of string[1].velocity = -1001", "-1000 and 1000 m/s"],
+        ),
+        (
+            "tension = 60.0",
+            "tension = 60\nvelocity = [[0.1, 0], [0.1, 1]]",
+            &["place of point 2 of string[1].velocity = 0.1", "above"],
+        ),
         ("loss_0 = 1.0", "loss_0 = -1.0", &["string[1].loss_0 = -1", "1/s"]),
         ("exponent = 2.3", "exponent = 0.5", &["fretboard.exponent = 0.5", "between 1 and 5"]),
         (
@@ -186,6 +201,16 @@ fn what_is_not_a_scene_is_refused() {
         ("loss_0 = 1.0", "losses = 1.0", &["line 8", "unknown key `losses`", "loss_0"]),
         ("loss_0 = 1.0", "loss_0 = \"none\"", &["line 8, loss_0", "\"none\"", "a number"]),
         ("loss_0 = 1.0", "loss_0 = ", &["line 8, loss_0"]),
+        ("loss_0 = 1.0", "loss_0 = abc", &["line 8, loss_0: this is no value", "0.5 or 5e-3"]),
+        ("loss_0 = 1.0", "loss_0 = 5 mm", &["line 8, loss_0: this is no value"]),
+        ("loss_0 = 1.0", "loss_0 = np.float64(1.0)", &["line 8, loss_0: this is no value"]),
+        ("loss_0 = 1.0", "loss_0 = infinity", &["line 8, loss_0: this is no value"]),
+        ("loss_0 = 1.0", "loss_0 = 1.2.3", &["line 8, loss_0: this is no value"]),
+        ("loss_0 = 1.0", "loss_0 = .5", &["line 8, loss_0: a number has digits before its point"]),
+        ("loss_0 = 1.0", "loss_0 = 5.", &["line 8, loss_0: a number has digits after its point"]),
+        ("loss_0 = 1.0", "loss_0 = 5e", &["line 8, loss_0: a number has digits after its e"]),
+        // Not of the key before.
+        ("loss_0 = 1.0", "loss_0: 1.0", &["line 8: key with no value"]),
         ("loss_0 = 1.0", "tension = 1.0", &["line 8, tension", "duplicate"]),
         ("length = 0.65\n", "", &["[[string]]", "missing key `length`"]),
         ("fret_top = -0.001\n", "", &["[fretboard]", "missing key `fret_top`", "-10 to 0 m"]),
@@ -225,6 +250,8 @@ fn what_is_not_a_scene_is_refused() {
             &["tension_modulation", "integer `1`", "`true` or `false`"],
         ),
         ("loss_0 = 1.0", "shape = []", &["string[1].shape = []", "at least one"]),
+        ("loss_0 = 1.0", "velocity = []", &["string[1].velocity = []", "at least one"]),
+        ("loss_0 = 1.0", "velocity = 1.0", &["velocity", "expected a list"]),
         ("board = -0.002", "board = [[0, -0.001, 3]]", &["line 12, board", "length 3", "pair"]),
         ("loss_0", "\"\\u001b[31m\\n\\u0007\"", &["line 8", "unknown key"]),
     ];

@@ -162,7 +162,11 @@ fn wrong_setups_are_refused_in_one_line() {
     let cases: [(&str, &str, &[&str]); 27] = [
         ("frets = 22", "frets = 99", &["neck.frets", "99"]),
         ("frets = 22", "fretz = 22", &["fretz"]),
-        ("action = 0.0016", "action = 0.0001", &["neck.action", "1e-4"]),
+        (
+            "action = 0.0016",
+            "action = 0.0001",
+            &["neck.action", "1e-4", "neck.nut_clearance, 4e-4, and 0.05 m"],
+        ),
         ("action = 0.0016", "action = nan", &["neck.action", "NaN"]),
         ("relief = 0.0002", "relief = 0.0018", &["neck.relief = 0.0018", "0.00165 m", "above the strings"]),
         ("\ndamping = 0.3", "\ndamping = -0.3", &["neck.damping", "-0.3", "100000 s/m"]),
@@ -189,7 +193,11 @@ fn wrong_setups_are_refused_in_one_line() {
         ),
         ("\"compensated\"", "[]", &["line 5, intonation: invalid type: list, expected `compensated`"]),
         ("kind = \"magnetic\"", "kind = 3", &["kind: invalid type: integer `3`, expected a text"]),
-        ("kind = \"magnetic\"", "kind = \"bridge\"", &["unknown key `aperture`, there are no others"]),
+        (
+            "kind = \"magnetic\"",
+            "kind = \"bridge\"",
+            &["unknown key `aperture`, there are no others beside `kind`"],
+        ),
         ("[neck]", "neck = 1\n[nock]", &["neck: invalid type: integer `1`, expected a table"]),
         ("[neck]", "[[neck]]", &["line 9, [[neck]]: there is only one: write [neck]"]),
     ];

@@ -3,24 +3,27 @@
 use super::{Contact, ContactKind};
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, OneOrEach};
-use crate::error::Error;
+use crate::error::{Error, within};
 use crate::grid::{Grid, Reading};
 use crate::scene::{FretPlacement, FretboardSpec};
+
+/// How far a board or a crown may be from the string at rest, m: ten times farther than anybody needs.
+const FARTHEST: f64 = 10.0;
 
 /// Board and frets under one string.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Barrier {
     /// Contact law of a fret, and of a board point unless `board_reference_spacing` is given.
     pub law: ContactLaw,
-    /// Hunt–Crossley damping of board and frets, s/m.
+    /// Hunt–Crossley damping of board and frets, s/m, 0 to 1e5.
     pub damping: f64,
-    /// Height of the board, m, over places, m; none beyond the ends of its points.
+    /// Height of the board, −10 to 10 m, over places, m, in increasing order; none beyond the ends of its points.
     pub board: Option<Curve>,
-    /// Places, m from the nut, and heights, m, of the crowns.
+    /// Places, m from the nut, and heights, −10 to 10 m, of the crowns.
     pub frets: Vec<[f64; 2]>,
     /// Where frets act on the grid.
     pub placement: FretPlacement,
-    /// Spacing for which the law's stiffness holds at board points, m.
+    /// Spacing for which the law's stiffness holds at board points, m, 1e-6 to 1e3.
     pub board_reference_spacing: Option<f64>,
 }
 
@@ -49,9 +52,25 @@ impl Barrier {
         })
     }
 
+    /// Refuses what no barrier can have. (Whether frets are on the string is seen on its grid.)
+    fn check(&self) -> Result<(), Error> {
+        within("fretboard.damping", self.damping, 0.0, 1e5, "s/m")?;
+        if let Some(board) = &self.board {
+            board.check("fretboard.board", "place", -FARTHEST, FARTHEST, "m")?;
+        }
+        for (i, [_, height]) in self.frets.iter().enumerate() {
+            within(&format!("fretboard.fret_top[{}]", i + 1), *height, -FARTHEST, FARTHEST, "m")?;
+        }
+        if let Some(spacing) = self.board_reference_spacing {
+            within("fretboard.board_reference_spacing", spacing, 1e-6, 1e3, "m")?;
+        }
+        Ok(())
+    }
+
     /// The contacts over a grid, in order of place. Where several share a point, the highest stands
     /// for all: the barrier is one height at each point, and a fret at a grid point replaces the board.
     pub(super) fn contacts(&self, grid: &Grid) -> Result<Vec<Contact>, Error> {
+        self.check()?;
         let mut contacts = Vec::new();
         let damping = self.damping;
         if let Some(board) = &self.board {

@@ -1,8 +1,9 @@
 //! The physical numbers of one string.
 
+use crate::error::{Error, plain};
 use crate::scene::StringSpec;
 
-/// The physical numbers of one string.
+/// The physical numbers of one string: the first four above 0, the others 0 or more, all of them finite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StringParameters {
     /// Length, m.
@@ -39,6 +40,41 @@ impl StringParameters {
             loss_1: spec.loss_1,
             tension_modulation: spec.tension_modulation,
         }
+    }
+
+    /// Refuses what no string can have.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let above_zero = [
+            ("length", self.length, "m"),
+            ("linear_density", self.linear_density, "kg/m"),
+            ("tension", self.tension, "N"),
+            ("tension_limit", self.tension_limit, "N"),
+        ];
+        for (name, value, unit) in above_zero {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::range(
+                    name,
+                    plain(value),
+                    format!("it must be above 0 {unit}, and finite"),
+                ));
+            }
+        }
+        let zero_or_more = [
+            ("youngs_modulus", self.youngs_modulus, "Pa"),
+            ("core_radius", self.core_radius, "m"),
+            ("loss_0", self.loss_0, "1/s"),
+            ("loss_1", self.loss_1, "m²/s"),
+        ];
+        for (name, value, unit) in zero_or_more {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(Error::range(
+                    name,
+                    plain(value),
+                    format!("it must be 0 {unit} or more, and finite"),
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// Axial stiffness EA, N, of the core.

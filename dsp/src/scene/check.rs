@@ -7,6 +7,7 @@ use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, OneOrEach};
 use crate::error::{Error, plain, within};
 use crate::gesture::Touch;
+use crate::model::Model;
 
 /// The most strings, plucks or fingers of a scene, a limit against descriptions that fill the memory.
 const MOST_THINGS: usize = 1000;
@@ -18,7 +19,7 @@ const MOST_FINGERS: usize = 100;
 impl Scene {
     /// Refuses every value outside its range, naming it as in the file.
     pub fn check(&self) -> Result<(), Error> {
-        within("sample_rate", self.sample_rate, 1e3, 1e7, "Hz")?;
+        within("sample_rate", self.sample_rate, *Model::RATES.start(), *Model::RATES.end(), "Hz")?;
         within("duration", self.duration, 0.0, 1e5, "s")?;
         self.solver.check()?;
         if self.string.is_empty() || self.string.len() > MOST_THINGS {
@@ -82,6 +83,9 @@ impl SolverSettings {
 }
 
 impl StringSpec {
+    /// The largest velocity that a string may begin with, m/s, as of fingers.
+    const FASTEST: f64 = 1e3;
+
     /// Refuses values outside their range; `name` says which string this is.
     pub fn check(&self, name: &str) -> Result<(), Error> {
         within(&format!("{name}.length"), self.length, 1e-3, 1e3, "m")?;
@@ -91,10 +95,13 @@ impl StringSpec {
         within(&format!("{name}.core_radius"), self.core_radius, 0.0, 0.1, "m")?;
         within(&format!("{name}.loss_0"), self.loss_0, 0.0, 1e4, "1/s")?;
         within(&format!("{name}.loss_1"), self.loss_1, 0.0, 1e2, "m²/s")?;
-        if let Some(shape) = &self.shape {
-            let name = format!("{name}.shape");
-            Curve::Points(shape.clone()).check(&name, "place", -1.0, 1.0, "m")?;
-            for (i, &[place, _]) in shape.iter().enumerate() {
+        for (key, points, most, unit) in
+            [("shape", &self.shape, 1.0, "m"), ("velocity", &self.velocity, Self::FASTEST, "m/s")]
+        {
+            let Some(points) = points else { continue };
+            let name = format!("{name}.{key}");
+            Curve::Points(points.clone()).check(&name, "place", -most, most, unit)?;
+            for (i, &[place, _]) in points.iter().enumerate() {
                 within(&format!("place of point {} of {name}", i + 1), place, 0.0, self.length, "m")?;
             }
         }

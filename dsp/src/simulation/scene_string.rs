@@ -88,6 +88,9 @@ impl SceneString {
         if let Some(shape) = &spec.shape {
             state.set_shape(&model, &Curve::Points(shape.clone()));
         }
+        if let Some(velocity) = &spec.velocity {
+            state.set_velocity(&model, &Curve::Points(velocity.clone()));
+        }
         for (slot, (finger_index, finger)) in fingers.iter().enumerate() {
             let place = finger.position.at(0.0);
             state
@@ -103,7 +106,7 @@ impl SceneString {
         };
         let mut drive = Drive::new(&model);
         drive.pushes.reserve(scene.pluck.len());
-        if spec.shape.is_some() || !fingers.is_empty() {
+        if spec.shape.is_some() || spec.velocity.is_some() || !fingers.is_empty() {
             for (hand, (_, finger)) in drive.hands.iter_mut().zip(&fingers) {
                 *hand = Hand { position: finger.position.at(0.0), force: finger.force.at(0.0) };
             }
@@ -139,6 +142,7 @@ impl SceneString {
     pub(super) fn prepare(&mut self, clock: Clock) {
         self.drive.pushes.clear();
         self.drive.heights.clear();
+        self.drive.loss = 0.0;
         match self.steady {
             Some(tension) => self.drive.tension = tension,
             None => self.follow(clock),

@@ -24,6 +24,8 @@ Examples:
   low-action render song.mid --track 2 --tail 5 --stems strings/
   low-action render take.mid --input strings --bend-range 12
                                                from a MIDI guitar
+  low-action render song.mid --labels song.json
+                                               with ground truth of every note
 
 Notes go to the string and fret nearest to the hand; those no string can give move by octaves. \
 Channel 10 is percussion and left out unless asked for with --channel 10. Where channels are strings, or notes \
@@ -88,6 +90,13 @@ pub struct RenderArgs {
     /// files that are there. Each song needs a folder of its own.
     #[arg(long, value_name = "DIR")]
     pub stems: Option<PathBuf>,
+    /// Also write what was played into this file, in place of any that is there, - for standard output: for each note that
+    /// sounds its string, fret, pitch, times and technique, and every gesture of the hands, as JSON. The sound is the same.
+    #[arg(long, value_name = "FILE")]
+    pub labels: Option<PathBuf>,
+    /// Threads that share the strings among them, 1 to 64 [default: as many as there are processors]. The sound is the same bits.
+    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=64))]
+    pub threads: Option<u8>,
     /// Size of the small differences between one pluck and the next, 0 (none: the hand does the same each time; what
     /// sounds still depends on how the string moves when it is plucked) to 1.
     #[arg(long, value_name = "AMOUNT", default_value_t = EngineOptions::VARIATION, value_parser = render::parse_variation)]

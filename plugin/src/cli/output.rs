@@ -60,6 +60,12 @@ impl Draft {
         self.file.try_clone()
     }
 
+    /// Whether it only has to be renamed to appear. What has to be copied, to a device or a pipe, may still fail: of several
+    /// results it comes first.
+    pub fn is_in_place(&self) -> bool {
+        matches!(self.target, Target::File(_))
+    }
+
     /// Lets the finished result appear.
     ///
     /// # Errors

@@ -1,12 +1,15 @@
-//! The `render` command: a song through the engine into WAV files.
+//! The `render` command: a song through the engine into WAV files, and into labels of what was played.
 
 mod files;
+mod labels;
 mod options;
 mod playing;
 
 use std::fs::File;
 use std::io::{self, Read};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::thread;
 use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
@@ -22,6 +25,7 @@ use crate::midi_file::{LARGEST_FILE, Selection, Song};
 use crate::params::{InputChoice, StringOrder};
 use crate::performance::{Compromises, InputMode};
 use files::{Files, stem_paths};
+use labels::Source;
 pub use options::Tail;
 pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
 use playing::{Playing, Rendered};
@@ -41,6 +45,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         variation: arguments.variation,
         seed: arguments.seed,
         bend_range,
+        threads: threads(arguments),
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
     let mut engine = Engine::new(&options).with_context(|| escaped(&arguments.instrument))?;
@@ -52,9 +57,16 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     check_paths(arguments, setup_file, &output, &names)?;
     let files = Files::begin(arguments, &output, &names)?;
 
+    let source = Source { arguments, setup: &options.setup };
     let started = Instant::now();
-    let rendered = Playing { engine, song: &song, arguments, files }.play()?;
+    let rendered = Playing { engine, song: &song, source, files }.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
+}
+
+/// How many threads share the strings: as many as asked for, or as this machine runs at once.
+fn threads(arguments: &RenderArgs) -> NonZeroUsize {
+    let asked = arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into()));
+    asked.unwrap_or_else(|| thread::available_parallelism().unwrap_or(NonZeroUsize::MIN))
 }
 
 /// What channels mean; refuses what would say so in vain.
@@ -140,7 +152,7 @@ fn output_path(arguments: &RenderArgs) -> Result<PathBuf> {
     }
 }
 
-/// Refuses to write two sounds to one file, or in the place of the song or the instrument's file, if it has one.
+/// Refuses to write two results to one file, or in the place of the song or the instrument's file, if it has one.
 fn check_paths(
     arguments: &RenderArgs,
     setup_file: Option<PathBuf>,
@@ -153,6 +165,7 @@ fn check_paths(
     let mut written = vec![("the sound".to_owned(), output.to_owned())];
     let stems = stem_paths(arguments, strings).into_iter().zip(strings);
     written.extend(stems.map(|(path, string)| (format!("the sound of string {string}"), path)));
+    written.extend(arguments.labels.clone().map(|labels| ("the labels".to_owned(), labels)));
     keep_apart(&read, &written)
 }
 

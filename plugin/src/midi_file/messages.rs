@@ -24,7 +24,7 @@ pub enum MidiFileError {
         found: usize,
     },
     /// The header counts more tracks than there are.
-    #[error("truncated MIDI file: the header announces {expected} tracks, {found} are there")]
+    #[error("truncated MIDI file: the header's count of tracks is {expected}, and {found} can be found")]
     MissingTracks {
         /// Tracks announced.
         expected: usize,
@@ -48,13 +48,22 @@ pub enum MidiFileError {
         offset: usize,
     },
     /// The asked track is not there.
-    #[error("no track {asked}: the file has {count}, so --track takes 1 to {count}")]
+    #[error("no track {asked}: the file has {count} in all{}", choice(*count))]
     NoSuchTrack {
         /// Track asked for, counted from 1.
         asked: usize,
         /// Tracks in the file.
         count: usize,
     },
+}
+
+/// What `--track` takes where there are so many.
+fn choice(count: usize) -> String {
+    match count {
+        0 => String::new(),
+        1 => ", so --track takes 1 only".into(),
+        _ => format!(", so --track takes 1 to {count}"),
+    }
 }
 
 /// Something to tell the user about a file that plays nevertheless.

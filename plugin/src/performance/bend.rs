@@ -10,7 +10,7 @@ use low_action_dsp::Gesture;
 
 use super::fingers::Fingers;
 use super::technique::{BEND_INTERVAL, BEND_RAMP, BEND_SPEED, OUT_OF_TUNE, VIBRATO, VIBRATO_STEP};
-use super::{GestureSink, Moment};
+use super::{Annotation, GestureSink, Moment};
 
 /// What is asked of a string and what has been done about it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,6 +27,8 @@ pub(crate) struct Bend {
     vibrato: f64,
     /// Bend by tension last sent, semitones.
     sent: f64,
+    /// All of the bend as last told, semitones.
+    told: f64,
     /// Frets the finger has been slid by.
     slid: i32,
     /// Semitones the finger has glided.
@@ -109,18 +111,23 @@ impl Bend {
         }
         self.followed = asked;
         let mut pulled = self.arm;
-        let reached;
+        let (reached, moved);
+        let mut taken = BEND_RAMP;
         if fingers.glides() {
             let goal = asked + swing;
-            reached = fingers.glide(goal, duration(goal - self.glided), at) - swing;
+            taken = duration(goal - self.glided);
+            moved = fingers.glide(goal, taken, at);
+            reached = moved - swing;
             self.glided = goal;
         } else {
             let wanted = if asked.abs() > most { asked.round() as i32 } else { 0 };
             if wanted != self.slid {
-                self.slid = fingers.slide(wanted, duration(f64::from(wanted - self.slid)), at);
+                taken = duration(f64::from(wanted - self.slid));
+                self.slid = fingers.slide(wanted, taken, at).0;
             }
-            let tension = (asked - f64::from(self.slid)).clamp(-most, most);
-            reached = f64::from(self.slid) + tension;
+            moved = f64::from(self.slid);
+            let tension = (asked - moved).clamp(-most, most);
+            reached = moved + tension;
             pulled = tension + self.arm + swing;
         }
         let change = pulled - self.sent;
@@ -128,6 +135,12 @@ impl Bend {
             self.sent = pulled;
             let tension_ratio = fingers.tension_ratio(pulled);
             at.does(Gesture::Bend { tension_ratio, duration: duration(change) });
+        }
+        // The grid of the string bears no more.
+        let semitones = moved + pulled.min(most);
+        if semitones != self.told {
+            self.told = semitones;
+            at.tells(Annotation::Bent { semitones, duration: taken.max(duration(change)) });
         }
         (asked - reached).abs() > OUT_OF_TUNE
     }

@@ -25,7 +25,9 @@ use super::{CHANNELS, GestureSink, InputMode, Performance};
 pub(super) struct Struck {
     pub wanted: Wanted,
     pub velocity: f64,
-    /// How often its key went down.
+    /// Sample at which its key went down.
+    pub asked: u64,
+    /// How often that was.
     pub presses: u32,
     /// What the note has for itself, its channel's share included.
     pub manner: Manner,
@@ -81,7 +83,15 @@ impl Performance {
                 self.count_move(false, wanted.is_moved());
                 let (manner, articulation) =
                     (self.manner(channel), self.channels[usize::from(channel)].articulation);
-                self.chord.push(Struck { wanted, velocity, presses: 1, manner, articulation, waited: false });
+                self.chord.push(Struck {
+                    wanted,
+                    velocity,
+                    asked: self.now,
+                    presses: 1,
+                    manner,
+                    articulation,
+                    waited: false,
+                });
             }
             Some(_) => self.compromises.left_out += 1,
             None => self.compromises.without_string += 1,
@@ -185,7 +195,7 @@ impl Performance {
 
     /// What a string is told of the note of the chord that is placed there.
     fn start(&mut self, index: usize, placement: Placement, strum: Option<&Strum>) -> Start {
-        let Struck { wanted, velocity, presses, manner, .. } = self.chord[index];
+        let Struck { wanted, velocity, asked, presses, manner, .. } = self.chord[index];
         let mut articulation = self.articulation(index);
         if articulation.stroke == Stroke::Alternate {
             articulation.stroke = if self.upward { Stroke::Up } else { Stroke::Down };
@@ -201,6 +211,8 @@ impl Performance {
         Start {
             channel: wanted.channel,
             key: wanted.key,
+            velocity,
+            asked,
             presses,
             fret,
             strength: self.touching.strength(velocity),

@@ -1,7 +1,9 @@
 //! Notes that are not played as they are written.
 
+use serde::Serialize;
+
 /// What the player could not do as written.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Compromises {
     /// Notes moved by octaves because no string, or none that was left, gives them.
     pub moved_by_octaves: u64,

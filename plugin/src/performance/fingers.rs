@@ -3,6 +3,7 @@
 //! Two slots belong to fingers that stop the string. The one that sounds is `fretting`; another may be
 //! held down behind it (`anchor`), so that a pull-off finds it there, or touch the string lightly.
 
+mod excitation;
 mod leaving;
 mod legato;
 mod sighted;
@@ -56,6 +57,8 @@ pub(crate) struct Fingers {
     next_slot: FingerSlot,
     /// Slot of a finger that touches the string lightly.
     light: Option<FingerSlot>,
+    /// Where that touches it, m from the nut.
+    touched: f64,
     /// By slot, what lifts at once a finger that is leaving, and the sample by which it is off the string.
     departing: [Option<(Gesture, u64)>; FINGERS_PER_STRING],
     /// Which slots hold a damper that rests on the string.
@@ -84,6 +87,7 @@ impl Fingers {
             anchor: None,
             next_slot: 0,
             light: None,
+            touched: 0.0,
             departing: [None; FINGERS_PER_STRING],
             resting: [false; FINGERS_PER_STRING],
             right: RightHand::default(),
@@ -96,7 +100,7 @@ impl Fingers {
 
     /// All away.
     pub(crate) fn reset(&mut self) {
-        (self.fretting, self.anchor, self.light) = (None, None, None);
+        (self.fretting, self.anchor, self.light, self.touched) = (None, None, None, 0.0);
         self.departing = [None; FINGERS_PER_STRING];
         self.next_slot = 0;
         self.resting = [false; FINGERS_PER_STRING];
@@ -109,6 +113,7 @@ impl Fingers {
     /// Takes over the fingers on this string, when it has been given another model.
     pub(crate) fn take_over(&mut self, old: &Self) {
         (self.fretting, self.anchor, self.light) = (old.fretting, old.anchor, old.light);
+        self.touched = old.touched;
         (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
         self.right.take_over(&old.right);
         (self.home, self.glided, self.pressure) = (old.home, old.glided, old.pressure);

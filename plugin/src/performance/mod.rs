@@ -4,10 +4,11 @@
 //! [`low_action_dsp::TimedGesture`]s: which string and fret (`hand`), notes that begin together or take over
 //! from one another (`chord`), what fingers and plucks a note takes from its start to its silence (`string`),
 //! how hands are told to play (`articulation`, `switches`), what pedals and wheels say (`channel`) and do to
-//! it (`control`, `bend`), and how one pluck differs from the next (`variation`). There are no host types
-//! here, nothing is allocated after construction, and the result depends only on the events and their times,
+//! it (`control`, `bend`), and how one pluck differs from the next (`variation`). Beside the gestures it tells what
+//! becomes of the notes ([`Annotation`]), for labels. There are no host types here, nothing is allocated after construction, and the result depends only on the events and their times,
 //! not on how the time between them is cut into blocks.
 
+mod annotation;
 mod articulation;
 mod bend;
 mod channel;
@@ -28,6 +29,7 @@ mod variation;
 use low_action_dsp::setup::Player;
 
 use crate::controls::Touching;
+pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedAnnotation};
 use articulation::Stop;
 use channel::Channel;
 use chord::{Late, Struck};

@@ -2,11 +2,16 @@
 
 use low_action_dsp::{Gesture, TimedGesture};
 
+use super::{Annotation, TimedAnnotation};
+
 /// Somewhere gestures go: the instrument, or a list in a test.
 pub trait GestureSink {
     /// Takes a gesture. Those of one string come in order of time, except that a pluck may be
     /// handed over up to a millisecond ahead of it.
     fn gesture(&mut self, gesture: TimedGesture);
+
+    /// Is told what becomes of a note. Most do not listen.
+    fn annotation(&mut self, _annotation: TimedAnnotation) {}
 }
 
 impl GestureSink for Vec<TimedGesture> {
@@ -32,6 +37,17 @@ impl<S: GestureSink> Moment<'_, S> {
     /// Makes a gesture so many seconds from now.
     pub(crate) fn does_later(&mut self, seconds: f64, gesture: Gesture) {
         self.out.gesture(TimedGesture { time: self.after(seconds), string: self.string, gesture });
+    }
+
+    /// Tells what becomes of the string's note now.
+    pub(crate) fn tells(&mut self, annotation: Annotation) {
+        self.tells_later(0.0, annotation);
+    }
+
+    /// Tells what becomes of it so many seconds from now.
+    pub(crate) fn tells_later(&mut self, seconds: f64, annotation: Annotation) {
+        let time = self.after(seconds);
+        self.out.annotation(TimedAnnotation { time, string: self.string, annotation });
     }
 
     /// The sample so many seconds from now.

@@ -93,13 +93,22 @@ impl Field<'_> {
     /// The node nearest to the pluck, m from the nut, that a thumb can graze: of the third partial of what
     /// sounds or a higher one.
     fn pinched(&self) -> f64 {
+        self.geometry.length - self.sounding / f64::from(self.pinched_partial())
+    }
+
+    /// The partial that has it.
+    pub(crate) fn pinched_partial(&self) -> u32 {
         let from_saddle = self.hands.pluck_position.min(FARTHEST_PLUCK * self.sounding);
-        let order = (self.sounding / from_saddle).round().clamp(PINCHED.0, PINCHED.1);
-        self.geometry.length - self.sounding / order
+        (self.sounding / from_saddle).round().clamp(PINCHED.0, PINCHED.1) as u32
     }
 }
 
 impl RightHand {
+    /// Pressure of the palm on notes to come, and on the one that sounds, 0 to 1.
+    pub(crate) fn palm(&self) -> f64 {
+        self.palm
+    }
+
     /// Takes over from another.
     pub(crate) fn take_over(&mut self, old: &Self) {
         (self.laid, self.palm, self.clear) = (old.laid, old.palm, old.clear);
@@ -160,15 +169,21 @@ impl RightHand {
         self.laid = wanted;
     }
 
-    /// The thumb is thrown at the string; gives the time after which it leaves, s.
-    pub(crate) fn slap(&mut self, strength: f64, field: &Field, at: &mut Moment<impl GestureSink>) -> f64 {
+    /// The thumb is thrown at the string; gives back the throw.
+    pub(crate) fn slap(
+        &mut self,
+        strength: f64,
+        field: &Field,
+        at: &mut Moment<impl GestureSink>,
+    ) -> Gesture {
         let finger = RIGHT_HAND;
         let position = field.slapped();
         let speed = SLAP_SPEED.0 + SLAP_SPEED.1 * strength;
-        at.does(Gesture::Throw { finger, touch: THUMB, position, clearance: SLAP_CLEARANCE, speed });
+        let thrown = Gesture::Throw { finger, touch: THUMB, position, clearance: SLAP_CLEARANCE, speed };
+        at.does(thrown);
         at.does(Gesture::Press { finger, force: SLAP_FORCE * strength.min(1.0), duration: 0.0 });
         self.laid = Laid::Thumb;
-        SLAP_TIME
+        thrown
     }
 
     /// The thumb bounces off the string it was thrown at.

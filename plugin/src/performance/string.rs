@@ -6,6 +6,7 @@
 //! fretting finger and then the hand ease off, so slowly that their going makes no sound. What is to
 //! happen later is kept here as deadlines, because the next note may come first and call it off.
 
+mod annotated;
 mod deeds;
 mod ending;
 mod keys;
@@ -125,13 +126,14 @@ impl StringPlayer {
         start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
         self.begin(time, &start, strength);
         let mut at = self.moment(time, out);
+        at.tells(self.new_note(&start));
         self.fingers.press(start.manner.pressure, &mut at);
         self.parting = if taps { TAPPING } else { RESTING };
         if taps {
             if self.fingers.let_up(&mut at) {
                 self.deeds.plan(at.after(RISING), Deed::Tap { fret: start.fret, strength });
             } else {
-                self.fingers.hammer(start.fret, strength, &mut at);
+                self.tap(start.fret, strength, &mut at);
             }
         } else {
             self.fingers.stop(start.fret, stop, start.landing(), &mut at);
@@ -160,6 +162,7 @@ impl StringPlayer {
         self.note = Some(Note {
             channel: start.channel,
             key: start.key,
+            velocity: start.velocity,
             since: time + self.samples(start.wait),
             presses: start.presses,
             caught: false,

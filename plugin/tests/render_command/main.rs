@@ -4,6 +4,7 @@
 // A panic is a test's report.
 #![allow(clippy::unwrap_used)]
 
+mod labels;
 mod refusals;
 mod room;
 mod sounds;

@@ -75,6 +75,8 @@ fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
     let whole = song();
     fs::write(room.path("cut.mid"), &whole[..whole.len() - 9]).unwrap();
     fs::write(room.path("text.mid"), "not music").unwrap();
+    fs::write(room.path("none.mid"), b"MThd\0\0\0\x06\0\x01\0\0\0\x60").unwrap();
+    fs::write(room.path("fewer.mid"), b"MThd\0\0\0\x06\0\x01\0\x01\0\x60").unwrap();
     fs::write(room.path("empty"), "").unwrap();
     fs::create_dir(room.path("folder")).unwrap();
     fs::write(room.path("bad.toml"), "name = \"x\"\nbogus = 1\n").unwrap();
@@ -86,7 +88,12 @@ fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
         (&["render", "text.mid"], "not a MIDI file"),
         (&["render", "empty"], "not a MIDI file"),
         (&["render", "cut.mid"], "truncated MIDI file"),
-        (&["render", "song.mid", "--track", "2"], "--track takes 1 to 1"),
+        (
+            &["render", "song.mid", "--track", "2"],
+            "no track 2: the file has 1 in all, so --track takes 1 only",
+        ),
+        (&["render", "none.mid", "--track", "1"], "none.mid: no track 1: the file has 0 in all\n"),
+        (&["render", "fewer.mid"], "the header's count of tracks is 1, and 0 can be found"),
         (&["render", "song.mid", "-o", "no/such/folder/x.wav"], "cannot write no/such/folder/x.wav"),
         (&["render", "song.mid", "-o", "text.mid/x.wav"], "cannot write text.mid/x.wav"),
         (&["render", "song.mid", "-o", "folder"], "it is a folder"),

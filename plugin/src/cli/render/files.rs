@@ -1,4 +1,4 @@
-//! The files of one rendering: the stereo sound, and on request each string's own.
+//! The files of one rendering: the stereo sound, and on request each string's own and the labels.
 
 use std::ffi::OsString;
 use std::fs;
@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
+use super::labels::{LabelFile, Labelled};
 use crate::cli::names::shown;
 use crate::cli::output::Draft;
 use crate::cli::unfinished::NewFolders;
@@ -16,6 +17,7 @@ use crate::cli::{RenderArgs, say};
 pub(super) struct Files {
     pub mix: WavFile,
     pub stems: Vec<WavFile>,
+    pub labels: Option<LabelFile>,
     /// Vanishes after the files in it, and only without them.
     folder: NewFolders,
 }
@@ -31,15 +33,16 @@ impl Files {
         let folder = folder.transpose()?.unwrap_or_default();
         let paths = stem_paths(arguments, strings);
         let stems = paths.iter().map(|path| WavFile::begin(path, 1, rate, depth)).collect::<Result<_>>()?;
+        let labels = arguments.labels.as_deref().map(LabelFile::begin).transpose()?;
         if let Some(folder) = &arguments.stems {
             warn_of_others(folder, &paths, output);
         }
-        Ok(Self { mix, stems, folder })
+        Ok(Self { mix, stems, labels, folder })
     }
 
     /// Completes all files, then lets them appear: a disk that is full for one leaves none. Returns what
     /// was found in the stereo file and in the strings' own.
-    pub(super) fn finish(self) -> Result<[Findings; 2]> {
+    pub(super) fn finish(self, labelled: Labelled) -> Result<[Findings; 2]> {
         let (draft, mix) = self.mix.complete()?;
         let mut drafts = vec![draft];
         let mut stems = Findings::default();
@@ -49,6 +52,10 @@ impl Files {
             stems.not_finite += findings.not_finite;
             drafts.push(draft);
         }
+        if let Some(labels) = self.labels {
+            drafts.push(labels.complete(labelled)?);
+        }
+        drafts.sort_by_key(Draft::is_in_place);
         drafts.into_iter().try_for_each(Draft::publish)?;
         drop(self.folder);
         Ok([mix, stems])

@@ -1,18 +1,22 @@
 //! A song on its way through the engine into files.
 
+use std::iter::Peekable;
+
 use anyhow::Result;
 
 use super::files::Files;
+use super::labels::{Labelled, Source};
 use super::options::Tail;
-use crate::cli::RenderArgs;
 use crate::cli::progress::Progress;
 use crate::cli::wav::Findings;
 use crate::engine::{Engine, INAUDIBLE, QUIET};
 use crate::midi_file::Song;
-use crate::performance::Compromises;
+use crate::performance::{Compromises, PlayerEvent};
 
-/// Samples computed at a time.
-const BLOCK: usize = 512;
+/// Samples computed at a time: enough for threads to be worth their beginning.
+const BLOCK: usize = 8192;
+/// Samples of a tail computed before its end is looked for again.
+const LOOK: usize = 512;
 /// Shortest tail of `auto`, s: as far back as the engine's level looks, and once more.
 const SHORTEST_TAIL: f64 = 0.1;
 
@@ -31,38 +35,40 @@ pub(super) struct Rendered {
 pub(super) struct Playing<'a> {
     pub engine: Engine,
     pub song: &'a Song,
-    pub arguments: &'a RenderArgs,
+    pub source: Source<'a>,
     pub files: Files,
 }
 
 impl Playing<'_> {
     /// Plays it to its end and its tail, and lets the files appear.
     pub(super) fn play(mut self) -> Result<Rendered> {
-        let rate = self.arguments.sample_rate;
+        if self.files.labels.is_some() {
+            self.engine.record();
+        }
+        let rate = self.source.arguments.sample_rate;
         let mut progress = Progress::new((self.song.duration() * f64::from(rate)) as u64);
         let mut buffers = Buffers::new(self.files.stems.len(), Engine::LATENCY as usize);
         let mut peak = 0.0_f64;
         let mut events =
             self.song.events.iter().map(|event| (event.time.sample(rate), event.event)).peekable();
-        // Blocks end at events, so that any number of them may share a sample.
+        let last = self.song.events.last().map_or(0, |event| event.time.sample(rate));
         loop {
-            while let Some((_, event)) = events.next_if(|&(time, _)| time <= self.engine.now()) {
-                self.engine.event(0, event);
+            let left = last - self.engine.now();
+            let frames = self.hand_over(&mut events, left.min(BLOCK as u64));
+            if left == 0 {
+                break;
             }
-            let Some(&(next, _)) = events.peek() else { break };
-            let frames = (next - self.engine.now()).min(BLOCK as u64);
-            self.block(&mut buffers, frames as usize)?;
-            peak = peak.max(self.engine.level());
+            peak = peak.max(self.block(&mut buffers, frames as usize)?);
             progress.reach(self.engine.now());
         }
         let samples = |seconds: f64| (seconds * f64::from(rate)).round() as u64;
-        let tail = self.arguments.tail;
+        let tail = self.source.arguments.tail;
         let mut end = self.engine.now();
         loop {
             peak = peak.max(self.engine.level());
             if self.engine.is_behind() {
                 // Notes of the last chord that wait for strings belong to the song, not to its tail.
-                self.block(&mut buffers, BLOCK)?;
+                self.block(&mut buffers, LOOK)?;
                 end = self.engine.now();
                 continue;
             }
@@ -72,7 +78,7 @@ impl Playing<'_> {
             if left == 0 || (tail == Tail::Auto && since >= samples(SHORTEST_TAIL) && quiet) {
                 break;
             }
-            self.block(&mut buffers, left.min(BLOCK as u64) as usize)?;
+            self.block(&mut buffers, left.min(LOOK as u64) as usize)?;
         }
         // What happened last is still to be heard.
         self.block(&mut buffers, Engine::LATENCY as usize)?;
@@ -80,8 +86,28 @@ impl Playing<'_> {
         self.finish()
     }
 
-    /// Computes so many samples and writes them, but for the first, which hold what was before the song.
-    fn block(&mut self, buffers: &mut Buffers, frames: usize) -> Result<()> {
+    /// Gives the engine the events of the next `frames` samples. Returns how many samples those are that it has all events of:
+    /// fewer where more come than can wait. (Those of the present sample need not.)
+    fn hand_over(
+        &mut self,
+        events: &mut Peekable<impl Iterator<Item = (u64, PlayerEvent)>>,
+        frames: u64,
+    ) -> u64 {
+        let now = self.engine.now();
+        while let Some(&(time, event)) = events.peek() {
+            let offset = time.saturating_sub(now);
+            if offset > 0 && (offset >= frames || !self.engine.has_room()) {
+                return offset.min(frames);
+            }
+            self.engine.event(offset as u32, event);
+            events.next();
+        }
+        frames
+    }
+
+    /// Computes so many samples and writes them, but for the first, which hold what was before the song. Returns the largest
+    /// size of them all, 1 is full scale.
+    fn block(&mut self, buffers: &mut Buffers, frames: usize) -> Result<f64> {
         let Buffers { left, right, stems, early } = buffers;
         let (left, right) = (&mut left[..frames], &mut right[..frames]);
         if stems.is_empty() {
@@ -97,18 +123,22 @@ impl Playing<'_> {
         for (file, stem) in self.files.stems.iter_mut().zip(stems) {
             file.write(stem[skipped..frames].iter().copied())?;
         }
-        Ok(())
+        Ok(left.iter().chain(&*right).fold(0.0, |most, &sample| most.max(f64::from(sample.abs()))))
     }
 
-    fn finish(self) -> Result<Rendered> {
-        let [mix, stems] = self.files.finish()?;
+    fn finish(mut self) -> Result<Rendered> {
+        let samples = self.engine.now() - u64::from(Engine::LATENCY);
+        let record = self.engine.take_record();
+        let compromises = self.engine.compromises();
+        let instrument = self.engine.instrument();
+        let labelled = Labelled { source: &self.source, instrument, record, compromises, samples };
+        let [mix, stems] = self.files.finish(labelled)?;
         Ok(Rendered {
             mix,
             stems,
-            compromises: self.engine.compromises(),
+            compromises,
             lost_events: self.engine.lost_events(),
-            seconds: (self.engine.now() - u64::from(Engine::LATENCY)) as f64
-                / f64::from(self.arguments.sample_rate),
+            seconds: samples as f64 / f64::from(self.source.arguments.sample_rate),
         })
     }
 }

@@ -5,11 +5,15 @@ use low_action_dsp::{FingerSlot, Gesture};
 use super::{Finger, Fingers, lifting};
 use crate::performance::articulation::{Stop, Stroke};
 use crate::performance::technique::*;
-use crate::performance::{GestureSink, Moment};
+use crate::performance::{GestureSink, Moment, Technique};
+
+/// The string goes on sounding, and nothing is done for it.
+const CONTINUED: (Technique, Option<Gesture>) = (Technique::Continued, None);
 
 impl Fingers {
     /// The string goes on sounding from another fret: by a slide of so many seconds if the finger can, or
-    /// else by a hammer or a pull, how hard, 0 to 1. A bar is laid on an open string and not thrown.
+    /// else by a hammer or a pull, how hard, 0 to 1. A bar is laid on an open string and not thrown. Gives back what was done,
+    /// and the gesture that did it.
     pub(crate) fn change(
         &mut self,
         fret: usize,
@@ -17,34 +21,52 @@ impl Fingers {
         bar: bool,
         strength: f64,
         at: &mut Moment<impl GestureSink>,
-    ) {
+    ) -> (Technique, Option<Gesture>) {
         let stopped = self.slidable().map_or(self.capo[1], |finger| finger.fret);
         match slide.filter(|_| fret > self.capo[1] && self.slidable().is_some()) {
             _ if fret == stopped => self.go_on(fret, strength, at),
-            Some(duration) => self.slide_to(fret, duration, at),
-            None if fret > stopped && bar => self.stop(fret, Stop::Bar, strength, at),
-            None if fret > stopped => self.hammer(fret, strength, at),
-            None => self.pull_off(fret, strength, at),
+            Some(duration) => (Technique::Slide, self.slide_to(fret, duration, at)),
+            None if fret > stopped && bar => {
+                self.stop(fret, Stop::Bar, strength, at);
+                (Technique::HammerOn, None)
+            }
+            None if fret > stopped => (Technique::HammerOn, Some(self.hammer(fret, strength, at))),
+            None => match self.pull_off(fret, strength, at) {
+                None => CONTINUED,
+                pull => (Technique::PullOff, pull),
+            },
         }
     }
 
     /// The string is stopped where the next note has it, by a finger that has slid there or by none. If it sounds it goes on;
     /// if a light finger or a damper rests on it, it is plucked, how hard, 0 to 1.
-    fn go_on(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
+    fn go_on(
+        &mut self,
+        fret: usize,
+        strength: f64,
+        at: &mut Moment<impl GestureSink>,
+    ) -> (Technique, Option<Gesture>) {
         self.home = fret;
         if self.light.is_none() && self.resting_slots().next().is_none() {
-            return;
+            return CONTINUED;
         }
         self.make_way(at);
         self.lay_capo(at);
-        if let Some(pluck) = self.pluck(Stroke::Down, strength, 0.0) {
+        let pluck = self.pluck(Stroke::Down, strength, 0.0);
+        if let Some(pluck) = pluck {
             at.does(pluck);
         }
+        (Technique::Pluck, pluck)
     }
 
     /// A finger comes down so fast that the string sounds by it: how hard, 0 to 1. One that stops a lower
-    /// fret stays down behind it.
-    pub(crate) fn hammer(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
+    /// fret stays down behind it. Gives back the throw.
+    pub(crate) fn hammer(
+        &mut self,
+        fret: usize,
+        strength: f64,
+        at: &mut Moment<impl GestureSink>,
+    ) -> Gesture {
         self.make_way(at);
         self.lay_capo(at);
         let before = self.fretting.take();
@@ -55,7 +77,7 @@ impl Fingers {
             Some(old) => at.does(old.gives_way()),
             None => {}
         }
-        self.come_down(fret, HAMMER_SPEED.0 + HAMMER_SPEED.1 * strength, at);
+        self.come_down(fret, HAMMER_SPEED.0 + HAMMER_SPEED.1 * strength, at)
     }
 
     /// The finger that stops the string leaves, for another to strike it; `false` if there is none. What damps the
@@ -69,10 +91,15 @@ impl Fingers {
     }
 
     /// The finger that sounds plucks the string as it leaves, how hard, 0 to 1; one behind it, or the nut,
-    /// stops the string then.
-    pub(crate) fn pull_off(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
+    /// stops the string then. Gives back the pluck, if there is a finger.
+    pub(crate) fn pull_off(
+        &mut self,
+        fret: usize,
+        strength: f64,
+        at: &mut Moment<impl GestureSink>,
+    ) -> Option<Gesture> {
         self.make_way(at);
-        let Some(old) = self.fretting.take() else { return };
+        let old = self.fretting.take()?;
         self.home = fret;
         self.glided = 0.0;
         self.next_slot = (old.slot + 1) % FRETTING_SLOTS;
@@ -83,11 +110,13 @@ impl Fingers {
         }
         let (part, duration) = PULL_OFF;
         let force = part * strength * self.hands.pluck_force;
-        at.does(Gesture::Pluck { position: self.pressed(&old), force, duration });
+        let pluck = Gesture::Pluck { position: self.pressed(&old), force, duration };
+        at.does(pluck);
         at.does(match old.bar {
             true => old.gives_way(),
             false => lifting(old.slot, old.touch, self.letting_go(pulling(strength))),
         });
+        Some(pluck)
     }
 
     /// A finger stops the string behind the one of a slot before that one leaves: an anchor that is there already, or a
@@ -100,7 +129,8 @@ impl Fingers {
         at: &mut Moment<impl GestureSink>,
     ) {
         let Some(anchor) = anchor.filter(|anchor| anchor.fret == fret) else {
-            return self.come_down(fret, BEHIND_SPEED, at);
+            self.come_down(fret, BEHIND_SPEED, at);
+            return;
         };
         self.fretting = Some(anchor);
         self.next_slot = leaving;
@@ -116,8 +146,8 @@ impl Fingers {
     }
 
     /// Throws a finger at the string behind a fret.
-    fn come_down(&mut self, fret: usize, speed: f64, at: &mut Moment<impl GestureSink>) {
-        self.come_down_at(fret, self.geometry.finger_position(fret), speed, at);
+    fn come_down(&mut self, fret: usize, speed: f64, at: &mut Moment<impl GestureSink>) -> Gesture {
+        self.come_down_at(fret, self.geometry.finger_position(fret), speed, at)
     }
 
     /// Throws a finger at the string at a place, m from the nut, where it stops a fret.
@@ -127,24 +157,26 @@ impl Fingers {
         position: f64,
         speed: f64,
         at: &mut Moment<impl GestureSink>,
-    ) {
+    ) -> Gesture {
         let force = self.force();
         let mut touch = self.hands.fretting.touch;
         touch.hand_damping = touch.hand_damping.min(force / (HAMMER_GRIP * speed));
         (self.home, self.glided) = (fret, 0.0);
         let finger = self.take_slot(fret, touch, false);
         let clearance = self.hands.fretting.hover;
-        at.does(Gesture::Throw { finger, touch, position, clearance, speed });
+        let thrown = Gesture::Throw { finger, touch, position, clearance, speed };
+        at.does(thrown);
         at.does(Gesture::Press { finger, force, duration: HAMMER_LANDING });
+        thrown
     }
 
-    /// The finger that sounds slides to another fret, which is the note's own from then on.
-    pub(crate) fn slide_to(&mut self, fret: usize, duration: f64, at: &mut Moment<impl GestureSink>) {
+    /// The finger that sounds slides to another fret, which is the note's own from then on. Gives back the slide.
+    fn slide_to(&mut self, fret: usize, duration: f64, at: &mut Moment<impl GestureSink>) -> Option<Gesture> {
         (self.home, self.glided) = (fret, 0.0);
         if let Some(finger) = &mut self.fretting {
             finger.arrives = at.after(duration);
         }
-        self.slide(0, duration, at);
+        self.slide(0, duration, at).1
     }
 
     /// How long a finger takes that is to be elsewhere after so many seconds: no wheel and no vibrato hurries one that is on
@@ -162,13 +194,19 @@ impl Fingers {
     }
 
     /// Slides the fretting finger so many frets away from where the note began, as far as there are frets.
-    /// Gives back how many it is away then; an open string cannot be slid.
-    pub(crate) fn slide(&mut self, frets: i32, duration: f64, at: &mut Moment<impl GestureSink>) -> i32 {
+    /// Gives back how many it is away then, and the slide if it moves; an open string cannot be slid.
+    pub(crate) fn slide(
+        &mut self,
+        frets: i32,
+        duration: f64,
+        at: &mut Moment<impl GestureSink>,
+    ) -> (i32, Option<Gesture>) {
         let last = self.geometry.frets.len() as i32;
         let first = self.capo[1] as i32 + 1;
-        let Some(sliding) = self.slidable() else { return 0 };
+        let Some(sliding) = self.slidable() else { return (0, None) };
         let Finger { slot, fret: at_fret, bar, .. } = sliding;
         let fret = (self.home as i32 + frets).clamp(first.min(last), last);
+        let mut slide = None;
         if fret as usize != at_fret {
             self.lift_anchor(fret as usize, at);
             if let Some(finger) = &mut self.fretting {
@@ -176,9 +214,11 @@ impl Fingers {
             }
             let position = self.place(fret as usize, bar);
             let duration = Self::unhurried(&sliding, duration, at);
-            at.does(Gesture::Slide { finger: slot, position, duration });
+            let moves = Gesture::Slide { finger: slot, position, duration };
+            at.does(moves);
+            slide = Some(moves);
         }
-        fret - self.home as i32
+        (fret - self.home as i32, slide)
     }
 
     fn slidable(&self) -> Option<Finger> {

@@ -44,6 +44,7 @@ impl Fingers {
         // is still on its way up; the dampers are not.
         let finger = if self.fretting.is_some() { LIGHT } else { self.next_slot };
         self.light = Some(finger);
+        self.touched = position;
         self.departing[finger] = None;
         at.does(Gesture::Place { finger, touch, position, clearance: 0.0 });
         at.does(Gesture::Press { finger, force, duration: PALM_LANDING });
@@ -119,8 +120,8 @@ impl Fingers {
         }
     }
 
-    /// The thumb is thrown at the string, how hard, 0 to 1; gives the time after which it bounces off, s.
-    pub(crate) fn slap(&mut self, strength: f64, at: &mut Moment<impl GestureSink>) -> f64 {
+    /// The thumb is thrown at the string, how hard, 0 to 1; gives back the throw.
+    pub(crate) fn slap(&mut self, strength: f64, at: &mut Moment<impl GestureSink>) -> Gesture {
         let sounding = self.sounding_length();
         let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
         self.right.slap(strength, &field, at)

@@ -4,7 +4,7 @@ use super::StringPlayer;
 use super::stilling::{Stilling, still};
 use crate::performance::articulation::Stroke;
 use crate::performance::technique::*;
-use crate::performance::{GestureSink, Moment};
+use crate::performance::{GestureSink, Moment, Technique};
 
 /// A stroke of the right hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,7 +126,7 @@ impl StringPlayer {
                 }
                 self.deeds.plan(at.after(1.0 / self.tremolo).max(at.time + 1), Deed::Tremolo(struck));
             }
-            Some(Deed::Tap { fret, strength }) => self.fingers.hammer(fret, strength, at),
+            Some(Deed::Tap { fret, strength }) => self.tap(fret, strength, at),
             Some(Deed::LeaveNode) => self.fingers.leave_node(at),
             Some(Deed::Bounce) => {
                 self.fingers.bounce(at);
@@ -165,15 +165,23 @@ impl StringPlayer {
         std::mem::replace(&mut self.tremolo, rate)
     }
 
+    /// A finger strikes the string behind a fret, how hard, 0 to 1.
+    pub(super) fn tap(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
+        let thrown = self.fingers.hammer(fret, strength, at);
+        self.tells_sound(0.0, Technique::Tap, Some(thrown), at);
+    }
+
     /// The right hand strikes, so many seconds from now.
     pub(super) fn strike(&mut self, struck: Struck, delay: f64, at: &mut Moment<impl GestureSink>) {
         let Struck { stroke, strength, beside } = struck;
         if stroke == Stroke::Slap {
-            let time = self.fingers.slap(strength, at);
-            return self.deeds.plan(at.after(time), Deed::Bounce);
+            let thrown = self.fingers.slap(strength, at);
+            self.tells_sound(0.0, Technique::Slap, Some(thrown), at);
+            return self.deeds.plan(at.after(SLAP_TIME), Deed::Bounce);
         }
         if let Some(pluck) = self.fingers.pluck(stroke, strength, beside) {
             at.does_later(delay, pluck);
+            self.tells_sound(delay, Technique::of(stroke), Some(pluck), at);
         }
         if stroke == Stroke::Pinch {
             self.deeds.plan(at.after(delay + self.fingers.pluck_duration()), Deed::Graze);

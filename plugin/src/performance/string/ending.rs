@@ -3,7 +3,7 @@
 use super::deeds::Deeds;
 use super::{StringPlayer, UNDER};
 use crate::performance::technique::*;
-use crate::performance::{GestureSink, Moment};
+use crate::performance::{Annotation, GestureSink, Moment};
 
 /// The steps by which a note is ended, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +33,7 @@ impl StringPlayer {
             Ending::Damp => {
                 (self.deeds, self.touched) = (Deeds::default(), false);
                 self.fingers.damp(self.parting, &mut at);
+                at.tells(Annotation::Damped);
                 let next = if self.fingers.stopped() { Ending::EaseOff } else { Ending::Leave };
                 Some((self.parting.relaxing, next))
             }

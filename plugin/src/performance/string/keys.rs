@@ -1,8 +1,8 @@
 //! What keeps a note sounding, and lets it end: its key, the pedals, and the messages that stop everything.
 
 use super::{StringPlayer, UNDER};
-use crate::performance::GestureSink;
 use crate::performance::technique::SHORTEST_NOTE;
+use crate::performance::{Annotation, GestureSink};
 
 impl StringPlayer {
     /// Lets go of a key, if it is this string's: one note-off for each of its presses, as MIDI has it. A file whose notes of
@@ -19,7 +19,11 @@ impl StringPlayer {
             return self.release_under(channel, key);
         };
         note.presses -= 1;
-        if !note.key_down() && !pedal && !note.caught {
+        let (up, kept) = (!note.key_down(), pedal || note.caught);
+        if up {
+            self.moment(time, out).tells(Annotation::Released);
+        }
+        if up && !kept {
             self.go_back_or_end(time, out);
         }
         true
@@ -57,8 +61,12 @@ impl StringPlayer {
         out: &mut impl GestureSink,
     ) {
         if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel) {
+            let (down, kept) = (note.key_down(), pedal || note.caught);
             note.presses = 0;
-            if !pedal && !note.caught {
+            if down {
+                self.moment(time, out).tells(Annotation::Released);
+            }
+            if !kept {
                 self.go_back_or_end(time, out);
             }
         }

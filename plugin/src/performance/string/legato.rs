@@ -31,7 +31,9 @@ impl StringPlayer {
         let (slide, bar) = self.note.map_or((None, false), |note| (note.slide, note.bar));
         let mut at = self.moment(time, out);
         self.fingers.press(start.manner.pressure, &mut at);
-        self.fingers.change(start.fret, slide, bar, strength, &mut at);
+        at.tells(self.new_note(&start));
+        let (technique, gesture) = self.fingers.change(start.fret, slide, bar, strength, &mut at);
+        self.tells_sound(0.0, technique, gesture, &mut at);
         self.follow(time, &start.manner);
     }
 
@@ -79,7 +81,10 @@ impl StringPlayer {
         self.bend.begin(back.channel);
         self.deeds.forget_tap();
         let mut at = self.moment(time, out);
-        self.fingers.change(back.fret, from.slide, from.bar, from.strength, &mut at);
+        at.tells(self.returning_note(&back, time));
+        let (technique, gesture) =
+            self.fingers.change(back.fret, from.slide, from.bar, from.strength, &mut at);
+        self.tells_sound(0.0, technique, gesture, &mut at);
         self.fingers.press(back.pressure, &mut at);
         self.bend.tune(time, back.tuning);
         self.bend.set_vibrato(time, back.vibrato);

@@ -11,6 +11,10 @@ pub(crate) struct Start {
     pub channel: u8,
     /// Its key, as sent.
     pub key: u8,
+    /// How hard it was struck, 0 to 1.
+    pub velocity: f64,
+    /// Sample at which that was.
+    pub asked: u64,
     /// How often the key went down for it.
     pub presses: u32,
     /// Fret, 0 for the open string.
@@ -80,6 +84,8 @@ impl Manner {
 pub(super) struct Note {
     pub channel: u8,
     pub key: u8,
+    /// How hard that was struck, 0 to 1.
+    pub velocity: f64,
     pub since: u64,
     /// How often its key went down that has not gone up again: each press has a note-off of its own.
     pub presses: u32,

@@ -4,7 +4,7 @@ use low_action_dsp::Gesture;
 
 use super::{Deeds, Ending, StringPlayer, UNDER};
 use crate::performance::technique::{HARDEST_POINTED, POINTED_RINGING};
-use crate::performance::{GestureSink, StringDeed};
+use crate::performance::{Annotation, GestureSink, StringDeed};
 
 impl StringPlayer {
     /// Something is done to the string.
@@ -29,6 +29,7 @@ impl StringPlayer {
             }
             StringDeed::Press { position } => {
                 // The note that sounded is no more.
+                self.moment(time, out).tells(Annotation::Damped);
                 (self.note, self.under, self.deeds) = (None, [None; UNDER], Deeds::default());
                 self.take_in_hand(time);
                 let mut at = self.moment(time, out);

@@ -236,6 +236,7 @@ fn tuned(setup: &Setup, spec: &SetupString) -> StringSpec {
         loss_1: spec.loss_1,
         tension_modulation: setup.tension_modulation,
         shape: None,
+        velocity: None,
     }
 }
 

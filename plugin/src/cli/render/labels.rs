@@ -1,0 +1,112 @@
+//! Labels of a rendering: what was played when on which string, as one JSON object that stands alone.
+//!
+//! The player tells it as it plays ([`Record`]); here it is put into words and numbers. None is guessed from the sound.
+
+mod gestures;
+mod lines;
+mod notes;
+mod source;
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use low_action_dsp::Instrument;
+use serde::Serialize;
+use serde_json::Serializer;
+
+use crate::cli::names::shown;
+use crate::cli::output::Draft;
+use crate::engine::Record;
+use crate::performance::Compromises;
+use gestures::{LabelledBend, LabelledGesture, bends, gestures};
+use lines::Lines;
+use notes::{LabelledNote, notes};
+pub(super) use source::Source;
+use source::{About, LabelledString};
+
+/// What labels are of: a sound of so many samples.
+pub(super) struct Labelled<'a> {
+    pub source: &'a Source<'a>,
+    pub instrument: &'a Instrument,
+    pub record: Record,
+    pub compromises: Compromises,
+    /// Samples of the sound, each of both channels.
+    pub samples: u64,
+}
+
+/// A file of labels. It is opened at the beginning, so that a place where nothing can be written is found out before anything
+/// is computed.
+pub(super) struct LabelFile {
+    path: PathBuf,
+    draft: Draft,
+}
+
+impl LabelFile {
+    /// Begins a file that appears at `path` when it is published.
+    pub(super) fn begin(path: &Path) -> Result<Self> {
+        Ok(Self { path: path.to_owned(), draft: Draft::begin(path)? })
+    }
+
+    /// Writes it, to be published.
+    pub(super) fn complete(self, labelled: Labelled) -> Result<Draft> {
+        let strings = labelled.source.strings(labelled.instrument)?;
+        let written = self.draft.handle().and_then(|file| labelled.write(strings, file));
+        written.with_context(|| format!("cannot write {}", shown(&self.path)))?;
+        Ok(self.draft)
+    }
+}
+
+impl Labelled<'_> {
+    fn write(mut self, strings: Vec<LabelledString>, file: File) -> io::Result<()> {
+        let notes = notes(&self.record.annotations, &strings, self.clock());
+        let bends = bends(&self.record.annotations, self.clock());
+        // Those of equal times on one string stay in the order in which they are done.
+        self.record.gestures.sort_by_key(|gesture| (gesture.time, gesture.string));
+        let gestures = gestures(&self.record.gestures, self.clock());
+
+        let about = self.source.about(self.samples);
+        let compromises = self.compromises;
+        let document = Document { about, compromises, strings, notes, bends, gestures };
+        let mut out = BufWriter::new(file);
+        document.serialize(&mut Serializer::with_formatter(&mut out, Lines::default()))?;
+        out.flush()
+    }
+
+    fn clock(&self) -> Clock {
+        Clock { sample_rate: f64::from(self.source.arguments.sample_rate), samples: self.samples }
+    }
+}
+
+/// All of it, in the order of the file.
+#[derive(Serialize)]
+struct Document<'a> {
+    #[serde(flatten)]
+    about: About<'a>,
+    compromises: Compromises,
+    strings: Vec<LabelledString>,
+    notes: Vec<LabelledNote>,
+    bends: Vec<LabelledBend>,
+    gestures: Vec<LabelledGesture>,
+}
+
+/// The samples of the sound.
+#[derive(Debug, Clone, Copy)]
+struct Clock {
+    /// Hz.
+    sample_rate: f64,
+    samples: u64,
+}
+
+impl Clock {
+    /// When a sample is, s.
+    fn seconds(self, sample: u64) -> f64 {
+        sample as f64 / self.sample_rate
+    }
+
+    /// Whether the sound has it.
+    fn has(self, sample: u64) -> bool {
+        sample < self.samples
+    }
+}

@@ -1,0 +1,117 @@
+//! What a sound was made from.
+
+use low_action_dsp::intonation::{Intonated, stopped_frequencies};
+use low_action_dsp::setup::{SetupString, frequency};
+use low_action_dsp::{Error, Instrument, Setup};
+use nice_plug::prelude::Enum;
+use serde::Serialize;
+
+use crate::cli::RenderArgs;
+use crate::params::{InputChoice, StringOrder};
+
+/// What a sound is made from.
+pub(in crate::cli::render) struct Source<'a> {
+    pub arguments: &'a RenderArgs,
+    pub setup: &'a Setup,
+}
+
+/// All that is said of a sound as a whole: with the song, enough to make it again.
+#[derive(Debug, Serialize)]
+pub(super) struct About<'a> {
+    /// Name and version.
+    program: &'static str,
+    /// As asked for; none for the built-in demo.
+    song: Option<String>,
+    instrument: &'a str,
+    quality: &'static str,
+    /// Hz.
+    sample_rate: u32,
+    samples: u64,
+    /// s.
+    duration: f64,
+    variation: f64,
+    seed: u64,
+    track: Option<u16>,
+    channel: Option<u8>,
+    input: Option<&'static str>,
+    first_channel: Option<u8>,
+    string_order: Option<&'static str>,
+    /// Semitones.
+    bend_range: Option<f64>,
+    ignore_rpn: bool,
+    /// As a set-up file has it.
+    setup: &'a Setup,
+}
+
+/// A string of the instrument.
+#[derive(Debug, Serialize)]
+pub(super) struct LabelledString {
+    /// From 1.
+    pub string: usize,
+    pub name: String,
+    /// Of the open string, MIDI note number; and Hz.
+    pub pitch: f64,
+    pub frequency: f64,
+    /// m.
+    pub length: f64,
+    /// N.
+    pub tension: f64,
+    /// m from the nut, fret 1 first; and what sounds where a finger stops them, Hz.
+    pub frets: Vec<f64>,
+    pub fret_frequencies: Vec<f64>,
+}
+
+impl Source<'_> {
+    /// What is to be said of a sound of so many samples.
+    pub(super) fn about(&self, samples: u64) -> About<'_> {
+        let Self { arguments, setup } = *self;
+        About {
+            program: concat!("low-action ", env!("CARGO_PKG_VERSION")),
+            song: arguments.song.as_ref().map(|song| song.to_string_lossy().into_owned()),
+            instrument: &arguments.instrument,
+            quality: arguments.quality.name(),
+            sample_rate: arguments.sample_rate,
+            samples,
+            duration: samples as f64 / f64::from(arguments.sample_rate),
+            variation: arguments.variation,
+            seed: arguments.seed,
+            track: arguments.track,
+            channel: arguments.channel,
+            input: id(arguments.input, InputChoice::ids()),
+            first_channel: arguments.first_channel,
+            string_order: arguments.string_order.and_then(|order| id(order, StringOrder::ids())),
+            bend_range: arguments.bend_range,
+            ignore_rpn: arguments.ignore_rpn,
+            setup,
+        }
+    }
+
+    /// The strings of the instrument as it sounds.
+    pub(super) fn strings(&self, instrument: &Instrument) -> Result<Vec<LabelledString>, Error> {
+        let settings = self.arguments.quality.settings(instrument.sample_rate());
+        let describe = |(index, string): (usize, &SetupString)| {
+            let geometry = instrument.geometry(index);
+            let pitch = string.pitch + self.setup.tuning;
+            let placed = Intonated { string: instrument.model(index).string, frets: geometry.frets.clone() };
+            let rate = instrument.ratio(index).value() * instrument.sample_rate();
+            let stopped = stopped_frequencies(self.setup, string, &placed, settings.stencil, rate)?;
+            Ok(LabelledString {
+                string: index + 1,
+                name: string.name.clone(),
+                pitch,
+                frequency: frequency(pitch),
+                length: geometry.length,
+                // Z² = Tρ.
+                tension: geometry.wave_impedance * geometry.wave_impedance / string.linear_density,
+                frets: placed.frets,
+                fret_frequencies: stopped,
+            })
+        };
+        self.setup.string.iter().enumerate().map(describe).collect()
+    }
+}
+
+/// The identifier of a choice.
+fn id<T: Enum>(choice: T, ids: Option<&'static [&'static str]>) -> Option<&'static str> {
+    ids.unwrap_or_default().get(choice.to_index()).copied()
+}

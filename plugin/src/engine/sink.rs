@@ -1,0 +1,44 @@
+//! Where gestures go from the player.
+
+use low_action_dsp::{Instrument, TimedGesture};
+
+use super::Record;
+use crate::performance::{GestureSink, TimedAnnotation};
+
+/// Hands gestures to the instrument, and keeps what is to be kept.
+pub(super) struct Sink<'a> {
+    instrument: &'a mut Instrument,
+    lost: &'a mut u64,
+    record: Option<&'a mut Record>,
+}
+
+impl<'a> Sink<'a> {
+    pub(super) fn of(
+        instrument: &'a mut Instrument,
+        lost: &'a mut u64,
+        record: &'a mut Option<Box<Record>>,
+    ) -> Self {
+        Self { instrument, lost, record: record.as_deref_mut() }
+    }
+}
+
+impl GestureSink for Sink<'_> {
+    fn gesture(&mut self, gesture: TimedGesture) {
+        // A step brings at most a handful of gestures a string and sample, far below the
+        // instrument's capacity; should it ever be full, the loss is counted.
+        match self.instrument.schedule(gesture) {
+            Err(_) => *self.lost += 1,
+            Ok(()) => {
+                if let Some(record) = &mut self.record {
+                    record.gestures.push(gesture);
+                }
+            }
+        }
+    }
+
+    fn annotation(&mut self, annotation: TimedAnnotation) {
+        if let Some(record) = &mut self.record {
+            record.annotations.push(annotation);
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! The promise: what labels say of a note is what sounds. Its string begins at its onset, has its pitch, bent as they say,
+//! and is silent where they say nothing.
+
+use std::fs;
+use std::path::Path;
+
+use low_action_tests::labelled::{Labelled, RATE, list, number, render, sample, song};
+use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{amplitude, decibels, peak};
+use serde_json::Value;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_low-action-command");
+
+/// Samples of so many seconds.
+fn samples(seconds: f64) -> usize {
+    (seconds * RATE) as usize
+}
+
+/// A song of the documentation.
+fn documented(name: &str, options: &[&str]) -> Labelled {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(name);
+    render(PROGRAM, &fs::read(path).expect("readable"), options)
+}
+
+/// A pluck and its end.
+fn held(key: u8, velocity: u8, from: u32, to: u32) -> [(u32, [u8; 3]); 2] {
+    [(from, [0x90, key, velocity]), (to, [0x80, key, 0])]
+}
+
+/// The first sample of a sound from `from` on that is more than so large.
+fn first_above(sound: &[f32], from: usize, size: f64) -> usize {
+    sound[from..].iter().position(|&sample| f64::from(sample.abs()) > size).map_or(usize::MAX, |n| from + n)
+}
+
+#[test]
+fn a_string_begins_to_sound_at_its_onset() {
+    // Open strings in a slow strum, which no finger touches before; then, when the hands that damped them have gone, one by one,
+    // as late as they may be.
+    let open = [40, 45, 50, 55, 59, 64];
+    let mut messages = vec![(0, [0xB0, 21, 127])];
+    messages.extend(open.map(|key| (0, [0x90, key, 90])));
+    messages.extend(open.map(|key| (1000, [0x80, key, 0])));
+    messages.push((2500, [0xB0, 21, 0]));
+    messages.extend(
+        (0..6).flat_map(|n| held(open[n], 30 + 15 * n as u8, 2500 + 300 * n as u32, 2700 + 300 * n as u32)),
+    );
+    let played = render(PROGRAM, &song(&messages), &["--variation", "1"]);
+    assert_eq!(played.notes().len(), 12);
+    let mut latest = 0;
+    for note in played.notes() {
+        let sound = played.string_of(note);
+        let (asked, onset) = (sample(note, "asked_sample"), sample(note, "onset_sample"));
+        let attack = peak(&sound[onset..onset + samples(0.03)]);
+        let first = first_above(sound, asked, 0.01 * attack);
+        // What is documented of plucks; nothing before, but for the ripple of the filters that bring strings to the rate.
+        assert!((onset..onset + samples(0.003)).contains(&first), "{first}: {note}");
+        latest = latest.max(onset - asked);
+    }
+    // The last string of the strum.
+    assert!((samples(0.39)..samples(0.41)).contains(&latest), "{latest}");
+}
+
+#[test]
+fn an_onset_is_right_to_a_few_samples() {
+    let open = [40, 45, 50, 55, 59, 64];
+    let messages: Vec<_> =
+        open.iter().zip(0..).flat_map(|(&key, n)| held(key, 100, 100 + 500 * n, 400 + 500 * n)).collect();
+    let played = render(PROGRAM, &song(&messages), &["--variation", "0.5"]);
+    let pickup = &played.labels["setup"]["pickup"];
+    assert_eq!(played.notes().len(), 6);
+    for note in played.notes() {
+        let string = &list(&played.labels, "strings")[sample(note, "string") - 1];
+        let (length, onset) = (number(string, "length"), sample(note, "onset_sample"));
+        // The wave runs from the pluck to the edge of the coil's field at 2Lf. What it brings grows as a power of time, and is
+        // a ten-thousandth of its largest after some samples.
+        let coil = length - number(pickup, "position");
+        let way = (number(note, "stroke_position") - coil).abs() - 0.5 * number(pickup, "aperture");
+        let travel = way.max(0.0) / (2.0 * length * number(string, "frequency")) * RATE;
+        let sound = played.string_of(note);
+        let attack = peak(&sound[onset..onset + samples(0.03)]);
+        let first = first_above(sound, onset - samples(0.01), 1e-4 * attack) as f64 - onset as f64;
+        assert!((travel..travel + 8.0).contains(&first), "{first} samples, {travel} on the way: {note}");
+    }
+}
+
+#[test]
+fn what_fingers_strike_begins_there_too() {
+    // On strings that were silent: plucked behind a fret, and tapped.
+    let mut messages = vec![];
+    for (turn, key) in [41, 50, 57, 66].into_iter().enumerate() {
+        let from = 1000 * turn as u32;
+        messages.push((from, [0xB0, 22, 0]));
+        messages.extend(held(key, 100, from, from + 200));
+        messages.push((from + 500, [0xB0, 22, 7]));
+        messages.extend(held(key + 3, 100, from + 500, from + 700));
+    }
+    let played = render(PROGRAM, &song(&messages), &["--variation", "1"]);
+    let mut techniques = Vec::new();
+    for note in played.notes() {
+        let sound = played.string_of(note);
+        let onset = sample(note, "onset_sample");
+        let attack = peak(&sound[onset..onset + samples(0.03)]);
+        let early = samples(0.001);
+        let first = first_above(sound, onset.saturating_sub(3 * early), 0.02 * attack);
+        // A finger may land up to a millisecond before its pluck. What is struck runs to the pickup: 0.7 and 5.5 ms at most.
+        let late = if note["technique"] == "tap" { samples(0.0062) } else { samples(0.003) };
+        assert!((onset.saturating_sub(early)..onset + late).contains(&first), "{first}: {note}");
+        techniques.push(note["technique"].as_str().expect("a word"));
+    }
+    assert_eq!(techniques, ["pluck", "tap"].repeat(4));
+}
+
+/// Where the bends of a string stand at some sample, semitones: each goes from where the one before has come by 3x² − 2x³.
+fn bend_at(bends: &[Value], string: usize, at: usize) -> f64 {
+    let own: Vec<&Value> = bends.iter().filter(|bend| sample(bend, "string") == string).collect();
+    let mut value = 0.0;
+    for (index, bend) in own.iter().enumerate() {
+        let until = own.get(index + 1).map_or(at, |next| sample(next, "sample").min(at));
+        let since = until.saturating_sub(sample(bend, "sample")) as f64 / RATE;
+        let x = (since / number(bend, "duration")).min(1.0);
+        value += (number(bend, "semitones") - value) * x * x * (3.0 - 2.0 * x);
+        if until == at {
+            break;
+        }
+    }
+    value
+}
+
+/// Checks the pitch of all notes that last, and gives their number. `most` is how far off they may be, cents.
+fn check_pitches(name: &str, played: &Labelled, most: f64) -> usize {
+    let bends = list(&played.labels, "bends");
+    let mut checked = 0;
+    for note in played.notes().iter().filter(|note| note["stop"] != "muted") {
+        let string = sample(note, "string");
+        // Slides are under way at first, and thumbs and light fingers leave.
+        let settled = match note["technique"].as_str() {
+            Some("slide") => number(note, "stroke_duration"),
+            _ if !note["partial"].is_null() => 0.1,
+            _ => 0.0,
+        };
+        let from = sample(note, "onset_sample") + samples(0.05 + settled);
+        let to = sample(note, "end_sample").min(from + samples(0.5));
+        let still =
+            |bend: &Value| sample(bend, "string") != string || !(from..to).contains(&sample(bend, "sample"));
+        if to < from + samples(0.15) || !bends.iter().all(still) {
+            continue;
+        }
+        let sound = &played.string_of(note)[from..to];
+        let pitch = number(note, "frequency") * (bend_at(bends, string, from) / 12.0).exp2();
+        let off = cents(frequency_near(sound, RATE, pitch), pitch);
+        assert!(off.abs() < most, "{name}: {off} cents: {note}");
+        // It is no partial of what sounds, and no fraction of it.
+        let size = |part: f64| decibels(amplitude(sound, RATE, pitch * part) / amplitude(sound, RATE, pitch));
+        assert!(
+            size(0.5) < -15.0 && size(1.0 / 3.0) < -15.0,
+            "{name}: {} {} dB: {note}",
+            size(0.5),
+            size(1.0 / 3.0)
+        );
+        let loud = decibels(amplitude(sound, RATE, pitch) / peak(sound));
+        assert!(loud > -40.0, "{name}: {loud} dB: {note}");
+        checked += 1;
+    }
+    checked
+}
+
+#[test]
+fn a_note_has_its_pitch() {
+    // A cent for the quality, half a cent for hard plucks; the sixth partial of G3 is 2.3 sharp by stiffness.
+    let songs = [
+        ("gestures/hammer_and_pull.mid", &[][..], 3.0, 20),
+        ("gestures/harmonics.mid", &[], 3.0, 15),
+        ("gestures/pinch.mid", &[], 3.0, 6),
+        ("gestures/slide.mid", &[], 3.0, 7),
+        // A capo behind the finger stretches the string, too: E2 by 4.8 cents, and a hard pluck by 2 more.
+        ("gestures/capo_and_barre.mid", &["--instrument", "steel"], 7.0, 15),
+        // The end of a string under a bar gives way.
+        ("gestures/bar.mid", &["--instrument", "lap-steel"], 3.0, 4),
+        ("gestures/too_many_notes.mid", &[], 3.0, 10),
+        // As sharp as pressing makes it, and plucked hard.
+        ("phrases/school-guitar.mid", &["--instrument", "school-guitar"], 3.0, 9),
+    ];
+    for (name, options, most, least) in songs {
+        let checked = check_pitches(name, &documented(name, options), most);
+        assert!(checked >= least, "{name}: {checked} notes last");
+    }
+}
+
+#[test]
+fn bends_are_what_is_heard_all_the_way() {
+    // A wheel that goes up by two semitones in steps, and a vibrato.
+    let mut messages = vec![(0, [0x90, 62, 100])];
+    messages.extend((0..=32).map(|n: u8| (300 + 20 * u32::from(n), [0xE0, 0, 64 + (2 * n).min(63)])));
+    messages.extend([(1500, [0x80, 62, 0]), (2000, [0xE0, 0, 64])]);
+    messages.extend([(2100, [0xB0, 1, 127]), (2100, [0x90, 70, 100]), (3100, [0x80, 70, 0])]);
+    let played = render(PROGRAM, &song(&messages), &[]);
+    let bends = list(&played.labels, "bends");
+    let window = samples(0.024);
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    for note in played.notes() {
+        let sound = played.string_of(note);
+        let (from, to) = (sample(note, "onset_sample") + samples(0.1), sample(note, "end_sample") - window);
+        for at in (from..to).step_by(samples(0.005)) {
+            let bend = bend_at(bends, sample(note, "string"), at);
+            let pitch = number(note, "frequency") * (bend / 12.0).exp2();
+            let heard = frequency_near(&sound[at - window / 2..at + window / 2], RATE, pitch);
+            // 3 cents for where a bend ends, and as much again for a window in which it goes on.
+            assert!(cents(heard, pitch).abs() < 6.0, "{} cents at {at}: {note}", cents(heard, pitch));
+            range = [range[0].min(bend), range[1].max(bend)];
+        }
+    }
+    assert!(range[0] < -0.4 && range[1] > 1.9, "{range:?}");
+}
+
+#[test]
+fn strings_are_silent_where_labels_say_nothing() {
+    let mut messages: Vec<(u32, [u8; 3])> = Vec::new();
+    for (turn, key) in [40, 50, 57, 64, 43, 55, 70].into_iter().enumerate() {
+        let from = 700 * turn as u32;
+        messages.extend(held(key, 100, from, from + 300));
+    }
+    let played = render(PROGRAM, &song(&messages), &["--tail", "2"]);
+    assert_eq!(played.notes().len(), 7);
+    for (index, sound) in played.strings.iter().enumerate() {
+        let own: Vec<&Value> =
+            played.notes().iter().filter(|note| sample(note, "string") == index + 1).collect();
+        // Filters ripple a little ahead of what happens.
+        let mut loudest = 1e-4_f64;
+        let mut quiet = 0;
+        for note in own {
+            let (asked, end) = (sample(note, "asked_sample"), sample(note, "end_sample"));
+            // Nothing at all before the first, and what hands that leave make is 60 dB below 0.4 s after the end.
+            let before = if quiet < asked { peak(&sound[quiet..asked]) } else { 0.0 };
+            assert!(before <= 1e-3 * loudest, "{before} beside {loudest} before {note}");
+            loudest = loudest.max(peak(&sound[asked..end]));
+            quiet = end + samples(0.4);
+        }
+        let after = if quiet == 0 { peak(sound) } else { peak(&sound[quiet..]) };
+        assert!(after <= 1e-3 * loudest, "{after} beside {loudest} at the end of string {}", index + 1);
+    }
+}
+
+#[test]
+fn what_is_called_off_has_no_label() {
+    // All sound off while the hand is on its way over open strings.
+    let mut messages = vec![(0, [0xB0, 21, 127])];
+    messages.extend([40, 45, 50, 55, 59, 64].map(|key| (0, [0x90, key, 90])));
+    messages.push((200, [0xB0, 120, 0]));
+    let played = render(PROGRAM, &song(&messages), &[]);
+    for (index, sound) in played.strings.iter().enumerate() {
+        let labels = played.notes().iter().filter(|note| sample(note, "string") == index + 1).count();
+        assert_eq!(
+            labels == 1,
+            peak(sound) > 1e-3,
+            "string {}: {labels} labels, peak {}",
+            index + 1,
+            peak(sound)
+        );
+    }
+    assert_eq!(played.notes().len(), 3, "0, 80 and 160 ms");
+}

@@ -1,0 +1,116 @@
+//! Promise: whoever builds a model without a scene is told, by name and value, of what no string, board or fret can be; nothing is
+//! compiled of it.
+
+use low_action_dsp::contact::ContactLaw;
+use low_action_dsp::curve::Curve;
+use low_action_dsp::scene::FretPlacement;
+use low_action_dsp::{Barrier, Model, SolverSettings, StringParameters};
+
+const RATE: f64 = 48_000.0;
+
+const STRING: StringParameters = StringParameters {
+    length: 0.65,
+    linear_density: 5.25e-3,
+    tension: 60.0,
+    tension_limit: 70.0,
+    youngs_modulus: 2e11,
+    core_radius: 4.3e-4,
+    loss_0: 1.0,
+    loss_1: 1e-4,
+    tension_modulation: true,
+};
+
+fn barrier() -> Barrier {
+    Barrier {
+        law: ContactLaw::new("fretboard", 1e10, 1.5).expect("it is a law"),
+        damping: 0.3,
+        board: Some(Curve::Points(vec![[0.0, -2e-3], [0.5, -2.5e-3]])),
+        frets: vec![[0.04, -1e-3], [0.08, -1e-3]],
+        placement: FretPlacement::Kinked,
+        board_reference_spacing: Some(5e-3),
+    }
+}
+
+#[track_caller]
+fn assert_refused(built: Result<Model, low_action_dsp::Error>, words: &[&str]) {
+    let said = built.map(|model| model.grid.intervals).expect_err("it is refused").to_string();
+    assert!(!said.contains('\n'), "{said}");
+    for word in words {
+        assert!(said.contains(word), "`{word}` is not in `{said}`");
+    }
+}
+
+#[test]
+fn the_model_itself_is_accepted() {
+    for barrier in [None, Some(barrier())] {
+        let built = Model::new(STRING, barrier.as_ref(), 2, SolverSettings::default(), RATE);
+        assert!(built.expect("it can be built").grid.intervals > 50);
+    }
+    // An ideal string, and one that is never bent beyond its own tension.
+    let ideal =
+        StringParameters { youngs_modulus: 0.0, core_radius: 0.0, loss_0: 0.0, loss_1: 0.0, ..STRING };
+    assert!(Model::new(ideal, None, 0, SolverSettings::default(), RATE).is_ok());
+}
+
+#[test]
+fn strings_that_cannot_be_are_refused() {
+    let build = |string| Model::new(string, None, 0, SolverSettings::default(), RATE);
+    for (wrong, shown) in [(-1.0, "-1"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
+        let refused = |name: &str, string| {
+            assert_refused(
+                build(string),
+                &[&format!("{name} = {shown} is refused: it must be"), "and finite"],
+            );
+        };
+        refused("length", StringParameters { length: wrong, ..STRING });
+        refused("linear_density", StringParameters { linear_density: wrong, ..STRING });
+        refused("tension", StringParameters { tension: wrong, ..STRING });
+        refused("tension_limit", StringParameters { tension_limit: wrong, ..STRING });
+        refused("youngs_modulus", StringParameters { youngs_modulus: wrong, ..STRING });
+        refused("core_radius", StringParameters { core_radius: wrong, ..STRING });
+        refused("loss_0", StringParameters { loss_0: wrong, ..STRING });
+        refused("loss_1", StringParameters { loss_1: wrong, ..STRING });
+    }
+    assert_refused(build(StringParameters { tension: 0.0, ..STRING }), &["tension = 0", "above 0 N"]);
+    assert_refused(build(StringParameters { linear_density: 0.0, ..STRING }), &["above 0 kg/m"]);
+}
+
+#[test]
+fn rates_and_solvers_that_cannot_be_are_refused() {
+    for rate in [0.0, -RATE, 999.0, 2e7, f64::NAN, f64::INFINITY] {
+        let built = Model::new(STRING, None, 0, SolverSettings::default(), rate);
+        assert_refused(built, &["sample_rate", "between 1000 and 1e7 Hz"]);
+    }
+    let endless = SolverSettings { max_iterations: 1_000_000, ..SolverSettings::default() };
+    assert_refused(Model::new(STRING, None, 0, endless, RATE), &["solver.max_iterations = 1e6", "1000"]);
+    let vague = SolverSettings { tolerance: f64::NAN, ..SolverSettings::default() };
+    assert_refused(Model::new(STRING, None, 0, vague, RATE), &["solver.tolerance = NaN", "0.001 m"]);
+}
+
+#[test]
+fn boards_and_frets_that_cannot_be_are_refused() {
+    let build = |barrier: Barrier| Model::new(STRING, Some(&barrier), 0, SolverSettings::default(), RATE);
+    let points = |points: &[[f64; 2]]| Some(Curve::Points(points.to_vec()));
+    assert_refused(build(Barrier { damping: -0.3, ..barrier() }), &["fretboard.damping = -0.3", "s/m"]);
+    assert_refused(build(Barrier { board: points(&[]), ..barrier() }), &["fretboard.board", "at least one"]);
+    assert_refused(
+        build(Barrier { board: points(&[[0.3, -1e-3], [0.2, -1e-3]]), ..barrier() }),
+        &["place of point 2 of fretboard.board = 0.2", "above"],
+    );
+    assert_refused(
+        build(Barrier { board: Some(Curve::Constant(f64::NAN)), ..barrier() }),
+        &["fretboard.board = NaN", "between -10 and 10 m"],
+    );
+    assert_refused(
+        build(Barrier { frets: vec![[0.04, -1e-3], [0.08, f64::NAN]], ..barrier() }),
+        &["fretboard.fret_top[2] = NaN", "between -10 and 10 m"],
+    );
+    assert_refused(
+        build(Barrier { frets: vec![[0.66, -1e-3]], ..barrier() }),
+        &["fretboard.frets[1] = 0.66", "below 0.65 m"],
+    );
+    assert_refused(
+        build(Barrier { board_reference_spacing: Some(0.0), ..barrier() }),
+        &["fretboard.board_reference_spacing = 0", "1e-6"],
+    );
+}
