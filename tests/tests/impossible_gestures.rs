@@ -56,13 +56,16 @@ fn hands_that_brake_nothing() {
     }
 }
 
-/// It can take no more than all of the motion that a step begins with.
+/// It can take no more than all of the motion that a step begins with. Under that the string creeps back, partials p at c²γ²/(2σ₀)
+/// with σ₀ = 1/k, 20 p² a second, and does not ring at 2800 p: it moves 40 dB more slowly, or 26 with several partials together.
 #[test]
 fn hands_that_brake_beyond_all_measure() {
+    let ringing = play(&[])[6000..7200].iter().fold(0.0f32, |most, sample| most.max(sample.abs()));
     for (loss, duration) in [(1e308, 0.01), (1e7, f64::MAX)] {
         let sound = play(&[Gesture::Still { loss, duration }]);
-        assert!(sound.iter().all(|sample| sample.abs() < 1.0), "{loss} 1/s drive the string");
-        assert!(sound[14_000..].iter().all(|sample| sample.abs() < 1e-3), "{loss} 1/s leave it swinging");
+        assert!(sound.iter().all(|sample| sample.abs() < 1.0), "{loss:e} 1/s drive the string");
+        let most = sound[7500..7600].iter().fold(0.0f32, |most, sample| most.max(sample.abs()));
+        assert!(most < 0.05 * ringing, "{loss:e} 1/s leave {most} of {ringing}");
     }
 }
 
