@@ -105,6 +105,10 @@ impl Row for Active {
         self.mobility * (self.sign * other.sign * self.reading.overlap(&other.reading))
     }
     #[inline]
+    fn own_coupling(&self) -> f64 {
+        self.mobility * self.reading.own_overlap()
+    }
+    #[inline]
     fn own_mobility(&self) -> f64 {
         self.own_mobility
     }

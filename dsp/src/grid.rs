@@ -78,6 +78,8 @@ pub struct Reading {
     pub weights: [f64; 4],
     /// Where they stand in a field.
     cells: [u32; 4],
+    /// The overlap with itself.
+    own_overlap: f64,
 }
 
 /// The largest Σ|hg| of any reading: cubic interpolation half way between nodes weighs
@@ -89,7 +91,8 @@ const AT_NODE: f64 = 1e-9;
 
 impl Reading {
     /// Reads nothing.
-    pub(crate) const NOTHING: Reading = Reading { first: 0, weights: [0.0; 4], cells: [0; 4] };
+    pub(crate) const NOTHING: Reading =
+        Reading { first: 0, weights: [0.0; 4], cells: [0; 4], own_overlap: 0.0 };
 
     fn new(grid: &Grid, position: f64) -> Self {
         // Cubic Lagrange weights of the nodes cell − 1 … cell + 2 at fraction p of the cell.
@@ -146,7 +149,9 @@ impl Reading {
     }
 
     fn over(grid: &Grid, first: usize, weights: [f64; 4]) -> Self {
-        Reading { first, weights, cells: [0, 1, 2, 3].map(|offset| grid.cell(first + offset) as u32) }
+        let cells = [0, 1, 2, 3].map(|offset| grid.cell(first + offset) as u32);
+        let reading = Reading { first, weights, cells, own_overlap: 0.0 };
+        Reading { own_overlap: reading.overlap(&reading), ..reading }
     }
 
     /// The place read, in nodes from the nut, exact but in the last two spacings of the string.
@@ -200,6 +205,12 @@ impl Reading {
         for (cell, weight) in self.cells.iter().zip(self.weights) {
             v[*cell as usize] += weight * amount;
         }
+    }
+
+    /// Σ over nodes of the squares of the weights: the [`overlap`](Reading::overlap) with itself.
+    #[inline(always)]
+    pub(crate) fn own_overlap(&self) -> f64 {
+        self.own_overlap
     }
 
     /// Σ over nodes of the product of two readings' weights, h²gᵀg′: how strongly they couple.

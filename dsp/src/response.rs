@@ -75,6 +75,10 @@ pub(crate) trait Row {
     fn span(&self) -> (usize, usize);
     /// Product with another contact: mobility of the string between them, signs included, m/N.
     fn coupling(&self, other: &Self) -> f64;
+    /// The same with itself.
+    fn own_coupling(&self) -> f64 {
+        self.coupling(self)
+    }
     /// The contact's own mobility besides the string's (a finger's), m/N.
     fn own_mobility(&self) -> f64;
     /// Its share z of the tension pull.

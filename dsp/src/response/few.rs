@@ -16,7 +16,7 @@ impl<const N: usize> Few<N> {
         let mut entries = [[0.0; N]; N];
         for i in 0..N {
             for j in 0..=i {
-                let string = rows[i].coupling(&rows[j]);
+                let string = if i == j { rows[i].own_coupling() } else { rows[i].coupling(&rows[j]) };
                 entries[i][j] = string - pull_factor * (rows[i].pull() * rows[j].pull());
                 entries[j][i] = entries[i][j];
             }
