@@ -93,6 +93,7 @@ fn notes_out_of_reach_are_strummed() {
         .map(|timed| timed.time)
         .collect();
     times.sort_unstable();
-    // 0.4 s over the six strings.
-    assert_eq!(times, [0, 1, 2, 3, 4, 5].map(|way| NEXT + 3_840 * way));
+    // 0.4 s over the six strings, which still ring: before the first stroke the hand has to come, at most 3 ms.
+    assert!((NEXT..NEXT + 144).contains(&times[0]), "{times:?}");
+    assert_eq!(times[1..], [1, 2, 3, 4, 5].map(|way| NEXT + 3_840 * way));
 }

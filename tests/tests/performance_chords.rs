@@ -51,7 +51,12 @@ fn what_finds_no_string_comes_later() {
     let mut events: Vec<(u64, PlayerEvent)> = keys.iter().map(|&key| (0, on(key, 90))).collect();
     let mut performance = player();
     let times: Vec<u64> = plucks(&play(&mut performance, &events)).iter().map(|pluck| pluck.0).collect();
-    assert_eq!(times, [0, 0, 0, 0, 0, 0, 3360, 6720]);
+    assert_eq!(times[..6], [0; 6]);
+    // A string that rings is stilled first, in at most 3 ms.
+    for (time, asked) in times[6..].iter().zip([3360, 6720]) {
+        assert!((asked..asked + 144).contains(time), "{times:?}");
+    }
+    assert_eq!(times.len(), 8);
     assert_eq!(performance.compromises().arpeggiated, 2);
     // Keys that go up before their notes have come are heard nevertheless, and end.
     events.extend(keys.iter().map(|&key| (480, off(key))));

@@ -102,7 +102,9 @@ fn a_release_ends_its_own_note_and_no_other() {
     assert_eq!(dampings(&gestures), [(2 * WHILE, 1)]);
     // A stolen note's release must not cut the note that took its string: E2 and F2 share one.
     let gestures = play(&[(0, on(40)), (WHILE, on(41)), (2 * WHILE, off(40)), (3 * WHILE, off(41))]);
-    assert_eq!(plucks(&gestures), [(0, 5), (WHILE, 5)]);
+    let [(0, 5), (later, 5)] = plucks(&gestures)[..] else { panic!("{gestures:?}") };
+    // The hand stills the string first, in at most 3 ms.
+    assert!((WHILE..WHILE + 144).contains(&later), "{later}");
     assert_eq!(dampings(&gestures), [(3 * WHILE, 5)]);
 }
 
@@ -287,8 +289,8 @@ fn variation_is_seeded_small_and_off_at_zero() {
     assert_eq!(take(1.0, 5), take(1.0, 5));
     assert_ne!(take(1.0, 5), take(1.0, 6));
     assert_eq!(take(0.0, 5), take(0.0, 6));
-    for (n, (time, _)) in plucks(&take(1.0, 5)).into_iter().enumerate() {
-        assert!((0..=48).contains(&(time as i64 - n as i64 * WHILE as i64)), "at most a millisecond late");
+    for ((time, _), (exact, _)) in plucks(&take(1.0, 5)).into_iter().zip(plucks(&take(0.0, 5))) {
+        assert!((exact..=exact + 48).contains(&time), "{time} for {exact}: at most a millisecond late");
     }
 }
 

@@ -110,6 +110,7 @@ impl StringPlayer {
 
     /// Begins a note; one that sounds gives way.
     pub(crate) fn start(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
+        self.strike_in_time(&mut self.moment(time, out));
         let stills = self.wants_stilling(start.fret);
         start.presses = start.presses.saturating_add(self.take_presses(start.channel, start.key));
         self.under = [None; UNDER];

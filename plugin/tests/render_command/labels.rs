@@ -168,6 +168,7 @@ fn numbers_are_to_the_last_bit_what_the_strings_are_given() {
             Gesture::Press { finger, force, duration } | Gesture::Lift { finger, force, duration } => {
                 vec![("finger", finger as f64 + 1.0), ("force", force), ("duration", duration)]
             }
+            Gesture::Still { loss, duration } => vec![("loss", loss), ("duration", duration)],
             other => panic!("{other:?} is not in this song"),
         };
         for &(key, value) in numbers {

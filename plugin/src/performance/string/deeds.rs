@@ -69,6 +69,17 @@ impl Deeds {
         }
     }
 
+    /// Takes out the stroke that is to come before a time.
+    pub(super) fn take_stroke(&mut self, until: u64) -> Option<Struck> {
+        self.0.iter_mut().find_map(|slot| match *slot {
+            Some((time, Deed::Strike(struck))) if time < until => {
+                *slot = None;
+                Some(struck)
+            }
+            _ => None,
+        })
+    }
+
     /// A tremolo ends.
     fn forget_tremolo(&mut self) {
         for deed in &mut self.0 {

@@ -46,6 +46,14 @@ impl StringPlayer {
             still(stilling, at);
         }
     }
+
+    /// A stroke whose hand is on its way falls at once, where another note takes its string: no note is lost by having
+    /// waited for a string to be stilled.
+    pub(super) fn strike_in_time(&mut self, at: &mut Moment<impl GestureSink>) {
+        if let Some(struck) = self.deeds.take_stroke(at.after(LONGEST_LEAD) + 1) {
+            self.strike(struck, 0.0, at);
+        }
+    }
 }
 
 /// The hand comes.
