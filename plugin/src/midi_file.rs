@@ -71,7 +71,11 @@ impl Song {
             return Err(MidiFileError::NoSuchTrack { asked, count: chunks.tracks.len() });
         }
         let (division, song) = (chunks.division, Song::empty());
-        let mut reader = Reader { selection, division, no_tempos: 0, found: Vec::new(), song };
+        let cut = chunks.cut.map(|_| chunks.tracks.len() - 1);
+        let mut reader = Reader { selection, division, cut, no_tempos: 0, found: Vec::new(), song };
+        if let Some([expected, found]) = chunks.cut {
+            reader.song.warnings.push(SongWarning::CutOff { track: chunks.tracks.len(), expected, found });
+        }
         if chunks.left_out > 0 {
             let (announced, left_out) = (chunks.tracks.len(), chunks.left_out);
             reader.song.warnings.push(SongWarning::TracksLeftOut { announced, left_out });
@@ -129,6 +133,8 @@ struct Track {
 struct Reader {
     selection: Selection,
     division: Division,
+    /// Index of the track whose end is not there, if there is one.
+    cut: Option<usize>,
     /// Changes to a tempo that is none, passed over.
     no_tempos: usize,
     /// Everything that is for a player, in order of time, and whether it is selected.
@@ -153,6 +159,10 @@ impl Reader {
                 break;
             }
             let Some(Ok(event)) = iterator.next() else {
+                if self.cut == Some(index) {
+                    ended = true;
+                    break;
+                }
                 return Err(MidiFileError::BadEvent { track: index + 1, offset });
             };
             // Many files carry running status across a meta event, though the standard ends it there.
@@ -178,7 +188,7 @@ impl Reader {
             };
             track.ticks.extend(kind.map(|kind| Tick { at: track.end, kind }));
         }
-        if !ended {
+        if !ended && self.cut != Some(index) {
             self.song.warnings.push(SongWarning::NoEndOfTrack { track: index + 1 });
         }
         Ok(track)
@@ -228,6 +238,7 @@ impl Reader {
             let notes = notes - count_notes(&events);
             warnings.extend((notes > 0).then_some(SongWarning::DrumsSkipped { notes }));
         }
+        warnings.extend(messages::not_followed(&events));
         warnings.extend((count_notes(&events) == 0).then_some(SongWarning::NoNotes));
         Song { events, warnings }
     }

@@ -117,6 +117,8 @@ fn strokes_and_stops_have_their_words() {
         (&[cc(22, 5)], 57, "pop", "finger", None),
         // 0.577 m from the finger to the saddle, 0.12 m to the pluck.
         (&[cc(22, 6)], 57, "pinch", "finger", Some(5)),
+        // With the hand 45 mm nearer to it.
+        (&[cc(74, 100), cc(22, 6)], 57, "pinch", "finger", Some(8)),
         (&[cc(22, 7)], 57, "tap", "finger", None),
         // What no finger presses to a fret is plucked.
         (&[cc(22, 7)], 64, "pluck", "open", None),

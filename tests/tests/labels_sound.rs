@@ -170,7 +170,8 @@ fn a_note_has_its_pitch() {
     let songs = [
         ("gestures/hammer_and_pull.mid", &[][..], 3.0, 20),
         ("gestures/harmonics.mid", &[], 3.0, 15),
-        ("gestures/pinch.mid", &[], 3.0, 6),
+        // The hand moves to the eighth partial of a stopped D3, which stiffness (866 B n² cents, B = 5.9e-5) has 3.2 sharp.
+        ("gestures/pinch.mid", &[], 4.7, 6),
         ("gestures/slide.mid", &[], 3.0, 7),
         // A capo behind the finger stretches the string, too: E2 by 4.8 cents, and a hard pluck by 2 more.
         ("gestures/capo_and_barre.mid", &["--instrument", "steel"], 7.0, 15),

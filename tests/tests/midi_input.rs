@@ -195,15 +195,67 @@ fn what_is_no_midi_file_is_refused() {
     }
 }
 
+/// A download that broke off is the same music up to there, as long as no whole track is missing: it plays, and says that it
+/// is cut off. With a track less it would be other music, and is refused.
 #[test]
-fn every_truncation_is_refused() {
-    let notes = track(&[(0, &[0x90, 60, 100]), (96, &[0x80, 60, 0])]);
+fn a_last_track_that_is_cut_off_plays_and_every_other_truncation_is_refused() {
+    let notes = track(&[(0, &[0x90, 60, 100]), (96, &[0x80, 60, 0]), (0, &[0x90, 62, 100])]);
+    let data = notes.len();
     let whole = file(1, 96, &[notes.clone(), notes]);
     for length in 0..whole.len() {
+        let there = (length + data).saturating_sub(whole.len());
+        if there > 0 {
+            let song = read(&whole[..length]);
+            // The first track, and of the second the events that are whole.
+            let keys: Vec<u8> = note_ons(&song).into_iter().map(|(_, key)| key).collect();
+            let expected: &[u8] = match there {
+                ..4 => &[60, 62],
+                4..12 => &[60, 60, 62],
+                _ => &[60, 60, 62, 62],
+            };
+            assert_eq!(keys, expected, "{there} bytes of the last track");
+            assert_eq!(song.warnings, [SongWarning::CutOff { track: 2, expected: data, found: there }]);
+            let told = song.warnings[0].to_string();
+            assert!(told.starts_with("truncated MIDI file: track 2 announces"), "{told}");
+            continue;
+        }
         let message = refused(&whole[..length]);
         let expected = if length < 4 { "MIDI file" } else { "truncated MIDI file" };
         assert!(message.contains(expected), "{length} bytes: {message}");
     }
+}
+
+/// A chunk's length that is too large for a file that has all there is to play, as some programs write.
+#[test]
+fn a_track_that_announces_too_much_plays_to_its_end() {
+    let mut bytes = file(0, 96, &[track(&[(0, &[0x90, 60, 100]), (96, &[0x80, 60, 0])])]);
+    bytes[21] += 3;
+    let song = read(&bytes);
+    assert_eq!((note_ons(&song).len(), song.events.len()), (1, 2));
+    assert!(matches!(song.warnings[..], [SongWarning::CutOff { .. }]), "{:?}", song.warnings);
+}
+
+#[test]
+fn volume_and_pan_that_ask_for_something_are_told_once() {
+    let told = |controllers: &[[u8; 3]]| {
+        let mut events: Vec<(u32, &[u8])> = controllers.iter().map(|event| (0, &event[..])).collect();
+        events.push((0, &[0x90, 60, 100]));
+        let warnings = read(&file(0, 96, &[track(&events)])).warnings;
+        assert!(warnings.len() <= 1, "{warnings:?}");
+        warnings.first().map(ToString::to_string).unwrap_or_default()
+    };
+    assert_eq!(
+        told(&[[0xB0, 7, 90], [0xB0, 7, 80]]),
+        "controller 7 (volume) is passed over: use 11, or gain in a set-up file"
+    );
+    assert_eq!(told(&[[0xB0, 10, 0]]), "controller 10 (pan) is passed over: use pan in a set-up file");
+    assert_eq!(
+        told(&[[0xB0, 10, 127], [0xB0, 7, 0]]),
+        "controllers 7 (volume) and 10 (pan) are passed over: use 11, or gain and pan in a set-up file"
+    );
+    // What General MIDI begins with anyway, and what is said to a channel without notes.
+    assert_eq!(told(&[[0xB0, 7, 100], [0xB0, 10, 64]]), "");
+    assert_eq!(told(&[[0xB1, 7, 30], [0xB9, 10, 0]]), "");
 }
 
 #[test]

@@ -315,6 +315,28 @@ fn a_result_that_cannot_be_begun_leaves_the_other_as_it_was() {
     assert_eq!(place.names(), ["out.wav", "scene.toml"]);
 }
 
+/// Whichever it is that fails, and only as it appears.
+#[test]
+fn a_result_that_a_device_does_not_take_leaves_no_other() {
+    if !Path::new("/dev/full").exists() {
+        return;
+    }
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    place.write("out.npz", "old");
+    let options = [("--wav", "out.wav"), ("--trace", "out.npz"), ("--figure", "out.svg")];
+    for full in 0..options.len() {
+        let written = options
+            .iter()
+            .enumerate()
+            .flat_map(|(index, &(option, path))| [option, if index == full { "/dev/full" } else { path }]);
+        let done = place.run(&["scene", "scene.toml"].into_iter().chain(written).collect::<Vec<_>>());
+        assert_refused(&done, 1, &["cannot write /dev/full"]);
+        assert_eq!(place.names(), ["out.npz", "scene.toml"], "{} to a full device", options[full].0);
+        assert_eq!(std::fs::read(place.path("out.npz")).unwrap(), b"old");
+    }
+}
+
 #[test]
 fn what_a_wav_file_cannot_hold_is_refused() {
     let place = workplace();

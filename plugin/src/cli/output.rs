@@ -60,12 +60,6 @@ impl Draft {
         self.file.try_clone()
     }
 
-    /// Whether it only has to be renamed to appear. What has to be copied, to a device or a pipe, may still fail: of several
-    /// results it comes first.
-    pub fn is_in_place(&self) -> bool {
-        matches!(self.target, Target::File(_))
-    }
-
     /// Lets the finished result appear.
     ///
     /// # Errors
@@ -85,6 +79,16 @@ impl Draft {
                 .with_context(|| format!("cannot write {}", shown(path))),
         }
     }
+}
+
+/// Lets several finished results appear. What has to be copied, to a device or a pipe, may still fail, and comes first; the
+/// others only have to be renamed.
+///
+/// # Errors
+/// As for one; no file appears after a device or a pipe that takes no more.
+pub fn publish_all(mut drafts: Vec<Draft>) -> Result<()> {
+    drafts.sort_by_key(|draft| matches!(draft.target, Target::File(_)));
+    drafts.into_iter().try_for_each(Draft::publish)
 }
 
 impl Target {

@@ -18,7 +18,7 @@ use low_action_dsp::{Ledger, Scene, Simulation};
 use low_action_figures::SceneFigure;
 
 use super::names::shown;
-use super::output::Draft;
+use super::output::{Draft, publish_all};
 use super::paths::{is_dash, keep_apart};
 use super::progress::Progress;
 use super::trace::Trace;
@@ -110,12 +110,12 @@ impl Outputs {
         Ok(Outputs { wav, trace: trace.transpose()?, figure: figure.transpose()? })
     }
 
-    /// Lets the files appear; none does unless all could be completed.
+    /// Completes all files, then lets them appear: a disk that is full for one leaves none.
     fn finish(self) -> Result<Option<Findings>> {
         let trace = self.trace.map(Trace::complete).transpose()?;
         let figure = self.figure.map(Picture::complete).transpose()?;
-        let sound = self.wav.map(WavFile::finish).transpose()?;
-        [trace, figure].into_iter().flatten().try_for_each(Draft::publish)?;
+        let (wav, sound) = self.wav.map(WavFile::complete).transpose()?.unzip();
+        publish_all([wav, trace, figure].into_iter().flatten().collect())?;
         Ok(sound)
     }
 }

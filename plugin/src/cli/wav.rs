@@ -85,7 +85,7 @@ pub(super) struct WavFile {
 }
 
 impl WavFile {
-    /// Begins a file that appears at `path` when it is [finished](Self::finish).
+    /// Begins a file that appears at `path` when it is [completed](Self::complete) and published.
     pub(super) fn begin(path: &Path, channels: u16, sample_rate: u32, depth: BitDepth) -> Result<Self> {
         let sample_format = match depth {
             BitDepth::Float32 => SampleFormat::Float,
@@ -116,14 +116,7 @@ impl WavFile {
         Ok(())
     }
 
-    /// Completes the file and lets it appear.
-    pub(super) fn finish(self) -> Result<Findings> {
-        let (draft, findings) = self.complete()?;
-        draft.publish()?;
-        Ok(findings)
-    }
-
-    /// Completes the file without letting it appear yet, so that several can appear together.
+    /// Completes the file, which then waits to be published.
     pub(super) fn complete(self) -> Result<(Draft, Findings)> {
         let Self { path, draft, writer, findings, .. } = self;
         let finished = writer.finalize().map_err(plain);

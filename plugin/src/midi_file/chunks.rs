@@ -13,6 +13,8 @@ pub(super) struct Chunks<'a> {
     pub tracks: Vec<&'a [u8]>,
     /// Tracks after those that the header announces.
     pub left_out: usize,
+    /// Bytes that the last track announces and has, where the file ends before it does.
+    pub cut: Option<[usize; 2]>,
 }
 
 impl<'a> Chunks<'a> {
@@ -37,10 +39,21 @@ impl<'a> Chunks<'a> {
 
         let announced = usize::from(u16::from_be_bytes([n0, n1]));
         let mut tracks = Vec::new();
+        let mut cut = None;
         // Chunks of other kinds may stand between tracks, and anything may follow the last one.
         while tracks.len() < announced && !rest.is_empty() {
-            let what = format!("track {}", tracks.len() + 1);
-            let (kind, data) = next_chunk(&mut rest, &what)?;
+            let number = tracks.len() + 1;
+            let (kind, data) = match next_chunk(&mut rest, &format!("track {number}")) {
+                // Without the end of its last track it is the same music up to there. Without a whole track it is other music.
+                Err(MidiFileError::Truncated { expected, .. })
+                    if number == announced && rest.len() > 8 && rest.starts_with(b"MTrk") =>
+                {
+                    let (_, data) = std::mem::take(&mut rest).split_at(8);
+                    cut = Some([expected, data.len()]);
+                    (&b"MTrk"[..], data)
+                }
+                other => other?,
+            };
             if kind == b"MTrk" {
                 tracks.push(data);
             }
@@ -52,7 +65,7 @@ impl<'a> Chunks<'a> {
         while let Ok((kind, _)) = next_chunk(&mut rest, "what follows") {
             left_out += usize::from(kind == b"MTrk");
         }
-        Ok(Self { sequential: format == 2, division, tracks, left_out })
+        Ok(Self { sequential: format == 2, division, tracks, left_out, cut })
     }
 }
 

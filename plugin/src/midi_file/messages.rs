@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::LARGEST_FILE;
+use super::{LARGEST_FILE, SongEvent};
+use crate::performance::PlayerEvent;
 
 /// Why bytes are not a song.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -83,6 +84,22 @@ pub enum SongWarning {
         /// Tracks left out.
         left_out: usize,
     },
+    /// The file ends before its last track does.
+    CutOff {
+        /// Track, counted from 1.
+        track: usize,
+        /// Bytes it announces.
+        expected: usize,
+        /// Bytes it has.
+        found: usize,
+    },
+    /// Volume or pan are set to something, which does nothing.
+    NotFollowed {
+        /// Whether controller 7 is, on a channel that has notes, to other than 100.
+        volume: bool,
+        /// Whether controller 10 is, to other than 64.
+        pan: bool,
+    },
     /// A track stops without saying so; perhaps something is missing.
     NoEndOfTrack {
         /// Track, counted from 1.
@@ -112,6 +129,20 @@ impl fmt::Display for SongWarning {
                     "the header announces {announced} of {there} tracks: the last {left_out} left out"
                 )
             }
+            Self::CutOff { track, expected, found } => write!(
+                out,
+                "truncated MIDI file: track {track} announces {expected} bytes, {found} are left; what they hold is played"
+            ),
+            Self::NotFollowed { volume, pan } => {
+                let [which, instead] = match (volume, pan) {
+                    (true, false) => ["controller 7 (volume) is", "11, or gain in a set-up file"],
+                    (false, _) => ["controller 10 (pan) is", "pan in a set-up file"],
+                    (true, true) => {
+                        ["controllers 7 (volume) and 10 (pan) are", "11, or gain and pan in a set-up file"]
+                    }
+                };
+                write!(out, "{which} passed over: use {instead}")
+            }
             Self::NoEndOfTrack { track } => {
                 write!(out, "track {track} has no end-of-track event: it may be incomplete")
             }
@@ -126,4 +157,24 @@ impl fmt::Display for SongWarning {
             }
         }
     }
+}
+
+/// What volume and pan ask for in vain: on channels that have notes, anything but the values they begin with in General MIDI.
+pub(super) fn not_followed(events: &[SongEvent]) -> Option<SongWarning> {
+    let mut has_notes = [false; 16];
+    for event in events {
+        if let PlayerEvent::NoteOn { channel, .. } = event.event {
+            has_notes[usize::from(channel & 15)] = true;
+        }
+    }
+    let asks = |controller: u8, usual: f32| {
+        events.iter().any(|event| match event.event {
+            PlayerEvent::Controller { channel, number, value } => {
+                has_notes[usize::from(channel & 15)] && number == controller && value != usual / 127.0
+            }
+            _ => false,
+        })
+    };
+    let (volume, pan) = (asks(7, 100.0), asks(10, 64.0));
+    (volume || pan).then_some(SongWarning::NotFollowed { volume, pan })
 }

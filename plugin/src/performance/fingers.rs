@@ -256,11 +256,18 @@ impl Fingers {
         self.right.prepare(&field, at);
     }
 
-    /// The pluck of a note: so hard (0 to 1), and so far beside the usual place (m); none for strokes that
-    /// strike.
-    pub(crate) fn pluck(&self, stroke: Stroke, strength: f64, beside: f64) -> Option<Gesture> {
+    /// The pluck of a note: so hard (0 to 1), and so far beside the usual place (m), of which the hand has been moved so
+    /// far on purpose (m); none for strokes that strike.
+    pub(crate) fn pluck(&self, stroke: Stroke, strength: f64, beside: f64, moved: f64) -> Option<Gesture> {
         let sounding = self.sounding_length();
-        Field { geometry: &self.geometry, hands: &self.hands, sounding }.pluck(stroke, strength, beside)
+        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        field.pluck(stroke, strength, beside, moved)
+    }
+
+    /// The partial that a thumb picks out beside the pluck of a hand that has been moved so far from the saddle, m.
+    pub(crate) fn pinched_partial(&self, moved: f64) -> u32 {
+        let sounding = self.sounding_length();
+        Field { geometry: &self.geometry, hands: &self.hands, sounding }.pinched_partial(moved)
     }
 
     /// Length that sounds: from the fretting finger, or the capo, or the nut, to the saddle, m.

@@ -47,14 +47,15 @@ impl Field<'_> {
         self.geometry.length - from_saddle.max(NEAREST_PLUCK).min(farthest)
     }
 
-    /// A stroke that pulls or pushes: so hard (0 to 1), and so far beside the usual place (m). `None` for
-    /// those that strike.
-    pub(crate) fn pluck(&self, stroke: Stroke, strength: f64, beside: f64) -> Option<Gesture> {
+    /// A stroke that pulls or pushes: so hard (0 to 1), and so far beside the usual place (m), of which the hand has been
+    /// moved so far on purpose (m). `None` for those that strike.
+    pub(crate) fn pluck(&self, stroke: Stroke, strength: f64, beside: f64, moved: f64) -> Option<Gesture> {
         let Player { pluck_position, pluck_duration, pluck_force, .. } = *self.hands;
         let [force, duration, nearer] = match stroke {
             Stroke::Down | Stroke::Alternate => [1.0, 1.0, 0.0],
             Stroke::Pinch => {
-                [1.0, 1.0, pluck_position - BESIDE_THUMB * (self.geometry.length - self.pinched())]
+                let thumb = self.geometry.length - self.pinched(self.pinched_partial(moved));
+                [1.0, 1.0, pluck_position + moved - BESIDE_THUMB * thumb]
             }
             Stroke::Up => UP_STROKE,
             Stroke::Rest => REST_STROKE,
@@ -90,15 +91,16 @@ impl Field<'_> {
         last + PAST_LAST_FRET * geometry.length
     }
 
-    /// The node nearest to the pluck, m from the nut, that a thumb can graze: of the third partial of what
-    /// sounds or a higher one.
-    fn pinched(&self) -> f64 {
-        self.geometry.length - self.sounding / f64::from(self.pinched_partial())
+    /// Where a thumb grazes the string for a partial of what sounds, m from the nut: at its node nearest to the saddle.
+    fn pinched(&self, partial: u32) -> f64 {
+        self.geometry.length - self.sounding / f64::from(partial)
     }
 
-    /// The partial that has it.
-    pub(crate) fn pinched_partial(&self) -> u32 {
-        let from_saddle = self.hands.pluck_position.min(FARTHEST_PLUCK * self.sounding);
+    /// The partial whose node is nearest to the pluck of a hand that has been moved so far from the saddle (m): the third
+    /// of what sounds, or a higher one that a thumb can graze.
+    pub(crate) fn pinched_partial(&self, moved: f64) -> u32 {
+        let place = (self.hands.pluck_position + moved).max(NEAREST_PLUCK);
+        let from_saddle = place.min(FARTHEST_PLUCK * self.sounding);
         (self.sounding / from_saddle).round().clamp(PINCHED.0, PINCHED.1) as u32
     }
 }
@@ -194,11 +196,11 @@ impl RightHand {
         }
     }
 
-    /// The thumb grazes the string where a partial has a node.
-    pub(crate) fn graze(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
+    /// The thumb grazes the string where a partial of what sounds has a node.
+    pub(crate) fn graze(&mut self, partial: u32, field: &Field, at: &mut Moment<impl GestureSink>) {
         let finger = RIGHT_HAND;
         let (touch, force) = field.matched(GRAZE);
-        at.does(Gesture::Place { finger, touch, position: field.pinched(), clearance: 0.0 });
+        at.does(Gesture::Place { finger, touch, position: field.pinched(partial), clearance: 0.0 });
         at.does(Gesture::Press { finger, force, duration: PALM_LANDING });
         self.laid = Laid::Thumb;
     }

@@ -142,8 +142,9 @@ impl StringPlayer {
             if let Some(stilling) = stilling {
                 self.still_before(start.wait, stilling, &mut at);
             }
-            let beside = start.deviation.place + start.manner.place + self.towards_antinode();
-            let struck = Struck { stroke, strength, beside };
+            let moved = start.manner.place;
+            let beside = start.deviation.place + moved + self.towards_antinode();
+            let struck = Struck { stroke, strength, beside, moved };
             if start.wait > 0.0 {
                 self.deeds.plan(at.after(start.wait + start.deviation.delay), Deed::Strike(struck));
             } else {
@@ -241,8 +242,8 @@ impl StringPlayer {
         self.fingers.set_palm(articulation.palm, sounds, &mut at);
         let before = self.set_tremolo(articulation.tremolo);
         if let Some(note) = self.note.filter(|_| before == 0.0 && self.tremolo > 0.0) {
-            let struck =
-                Struck { stroke: Stroke::Down, strength: note.strength, beside: self.towards_antinode() };
+            let beside = self.towards_antinode();
+            let struck = Struck { stroke: Stroke::Down, strength: note.strength, beside, moved: 0.0 };
             self.deeds.plan(at.after(1.0 / self.tremolo), Deed::Tremolo(struck));
         }
     }

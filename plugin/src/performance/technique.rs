@@ -33,7 +33,7 @@ pub(crate) const FARTHEST_PLUCK: f64 = 0.45;
 /// Nearest to the saddle a pluck may be, m: a fingertip's half width.
 pub(crate) const NEAREST_PLUCK: f64 = 0.006;
 /// How a hand stills a string that still sounds before it plucks it: for how much of a period, and by how much it raises the loss,
-/// as a multiple of a period's inverse. So the lowest partial is 8 dB down or more, all others 14 dB: 0.8 of what would
+/// as a multiple of a period's inverse. So the lowest partial is 7.9 dB down or more, all others 13.7 dB: 0.8 of what would
 /// just keep the lowest one from swinging takes most out of it in so short a time.
 pub(crate) const STILLING: (f64, f64) = (0.4, 5.0);
 /// At least for so long, s: until hands that rested there are off the string.

@@ -202,6 +202,21 @@ fn what_plays_differently_from_the_page_is_said_once() {
     let said = room.renders(&["bent.mid", "--bend-range", "24", "--tail", "0.1"]);
     assert!(said.contains("warning: 1 note was bent less far than asked"), "{said}");
 
+    let faded: [(u8, &[u8]); 4] =
+        [(0, &[0xB0, 7, 60]), (0, &[0x90, 64, 90]), (9, &[0xB0, 7, 30]), (9, &[0xB0, 10, 0])];
+    fs::write(room.path("faded.mid"), midi(&faded)).unwrap();
+    let said = room.renders(&["faded.mid", "--tail", "0.1"]);
+    let expected = "warning: controllers 7 (volume) and 10 (pan) are passed over: use 11, or gain and pan in a set-up file\n";
+    assert_eq!(said.matches("warning").count(), 1, "{said}");
+    assert!(said.contains(expected), "{said}");
+
+    let whole = fs::read(room.path("song.mid")).unwrap();
+    fs::write(room.path("cut.mid"), &whole[..whole.len() - 9]).unwrap();
+    let said = room.renders(&["cut.mid", "--tail", "0.1"]);
+    assert_eq!(said.matches("warning").count(), 1, "{said}");
+    assert!(said.contains("warning: truncated MIDI file: track 1 announces 20 bytes, 11 are left"), "{said}");
+    assert!(peak(&room.path("cut.wav")) > 0.01);
+
     fs::write(room.path("empty.mid"), midi(&[])).unwrap();
     let said = room.renders(&["empty.mid"]);
     assert!(said.contains("warning: no notes") && said.contains("silent"), "{said}");

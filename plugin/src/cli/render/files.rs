@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 
 use super::labels::{LabelFile, Labelled};
 use crate::cli::names::shown;
-use crate::cli::output::Draft;
+use crate::cli::output::publish_all;
 use crate::cli::unfinished::NewFolders;
 use crate::cli::wav::{Findings, WavFile};
 use crate::cli::{RenderArgs, say};
@@ -55,8 +55,7 @@ impl Files {
         if let Some(labels) = self.labels {
             drafts.push(labels.complete(labelled)?);
         }
-        drafts.sort_by_key(Draft::is_in_place);
-        drafts.into_iter().try_for_each(Draft::publish)?;
+        publish_all(drafts)?;
         drop(self.folder);
         Ok([mix, stems])
     }

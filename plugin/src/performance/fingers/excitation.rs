@@ -3,12 +3,16 @@
 use low_action_dsp::Gesture;
 
 use super::Fingers;
-use crate::performance::right_hand::Field;
 use crate::performance::{Excitation, Stopped, Technique};
 
 impl Fingers {
-    /// What makes the string sound now, and the fingers that are on it.
-    pub(crate) fn excitation(&self, technique: Technique, gesture: Option<Gesture>) -> Excitation {
+    /// What makes the string sound now, the partial that a thumb picks out of it, and the fingers that are on it.
+    pub(crate) fn excitation(
+        &self,
+        technique: Technique,
+        gesture: Option<Gesture>,
+        pinched: Option<u32>,
+    ) -> Excitation {
         let capo = self.capo[1];
         let (stop, finger) = match self.fretting {
             Some(finger) if finger.bar => (Stopped::Bar, Some(self.pressed(&finger))),
@@ -16,15 +20,7 @@ impl Fingers {
             None if capo > 0 => (Stopped::Capo, Some(self.geometry.finger_position(capo))),
             None => (Stopped::Nut, None),
         };
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding: self.sounding_length() };
-        Excitation {
-            technique,
-            gesture,
-            stop,
-            finger,
-            touch: self.light.map(|_| self.touched),
-            pinched: (technique == Technique::Pinch).then(|| field.pinched_partial()),
-        }
+        Excitation { technique, gesture, stop, finger, touch: self.light.map(|_| self.touched), pinched }
     }
 
     /// How hard the palm rests on the string, 0 to 1.

@@ -52,7 +52,7 @@ impl Fingers {
         }
         self.make_way(at);
         self.lay_capo(at);
-        let pluck = self.pluck(Stroke::Down, strength, 0.0);
+        let pluck = self.pluck(Stroke::Down, strength, 0.0, 0.0);
         if let Some(pluck) = pluck {
             at.does(pluck);
         }

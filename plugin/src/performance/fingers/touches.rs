@@ -132,11 +132,11 @@ impl Fingers {
         self.right.bounce(at);
     }
 
-    /// The thumb grazes the string beside the plectrum.
-    pub(crate) fn graze(&mut self, at: &mut Moment<impl GestureSink>) {
+    /// The thumb grazes the string beside the plectrum, at a node of this partial.
+    pub(crate) fn graze(&mut self, partial: u32, at: &mut Moment<impl GestureSink>) {
         let sounding = self.sounding_length();
         let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
-        self.right.graze(&field, at);
+        self.right.graze(partial, &field, at);
     }
 
     /// It leaves, and the palm comes back if it was there.

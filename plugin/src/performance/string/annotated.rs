@@ -1,10 +1,8 @@
 //! What is told of a string's notes, for labels.
 
-use low_action_dsp::Gesture;
-
 use super::{Note, Start, StringPlayer};
 use crate::performance::articulation::Stop;
-use crate::performance::{Annotation, GestureSink, Moment, NewNote, Technique};
+use crate::performance::{Annotation, Excitation, GestureSink, Moment, NewNote};
 
 impl StringPlayer {
     /// That the hands turn to a note.
@@ -35,14 +33,8 @@ impl StringPlayer {
         })
     }
 
-    /// Tells that the string sounds, so many seconds from now: what does it, and the gesture.
-    pub(super) fn tells_sound(
-        &self,
-        delay: f64,
-        technique: Technique,
-        gesture: Option<Gesture>,
-        at: &mut Moment<impl GestureSink>,
-    ) {
-        at.tells_later(delay, Annotation::Sounds(self.fingers.excitation(technique, gesture)));
+    /// Tells that the string sounds, so many seconds from now, and what does it.
+    pub(super) fn tells_sound(&self, delay: f64, excitation: Excitation, at: &mut Moment<impl GestureSink>) {
+        at.tells_later(delay, Annotation::Sounds(excitation));
     }
 }

@@ -13,8 +13,10 @@ pub(super) struct Struck {
     pub stroke: Stroke,
     /// How hard, 1 for the hardest velocity.
     pub strength: f64,
-    /// How far beside the usual place, m.
+    /// How far beside the usual place, m, in all.
     pub beside: f64,
+    /// How much of that the whole hand has been moved on purpose, m: the thumb of a pinch goes with it.
+    pub moved: f64,
 }
 
 /// Something to do at its time.
@@ -36,8 +38,8 @@ pub(super) enum Deed {
     /// The thumb bounces off, and the palm comes back.
     Bounce,
     LayPalm,
-    /// The thumb grazes the string, and leaves it.
-    Graze,
+    /// The thumb grazes the string at a node of this partial, and leaves it.
+    Graze(u32),
     LeaveGraze,
 }
 
@@ -144,8 +146,8 @@ impl StringPlayer {
                 self.deeds.plan(at.after(SLAP_CLEAR), Deed::LayPalm);
             }
             Some(Deed::LayPalm) => self.fingers.lay_palm(at),
-            Some(Deed::Graze) => {
-                self.fingers.graze(at);
+            Some(Deed::Graze(partial)) => {
+                self.fingers.graze(partial, at);
                 self.deeds.plan(at.after(GRAZE_TIME), Deed::LeaveGraze);
             }
             Some(Deed::LeaveGraze) => self.fingers.leave_graze(at),
@@ -179,23 +181,25 @@ impl StringPlayer {
     /// A finger strikes the string behind a fret, how hard, 0 to 1.
     pub(super) fn tap(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
         let thrown = self.fingers.hammer(fret, strength, at);
-        self.tells_sound(0.0, Technique::Tap, Some(thrown), at);
+        self.tells_sound(0.0, self.fingers.excitation(Technique::Tap, Some(thrown), None), at);
     }
 
     /// The right hand strikes, so many seconds from now.
     pub(super) fn strike(&mut self, struck: Struck, delay: f64, at: &mut Moment<impl GestureSink>) {
-        let Struck { stroke, strength, beside } = struck;
+        let Struck { stroke, strength, beside, moved } = struck;
         if stroke == Stroke::Slap {
             let thrown = self.fingers.slap(strength, at);
-            self.tells_sound(0.0, Technique::Slap, Some(thrown), at);
+            self.tells_sound(0.0, self.fingers.excitation(Technique::Slap, Some(thrown), None), at);
             return self.deeds.plan(at.after(SLAP_TIME), Deed::Bounce);
         }
-        if let Some(pluck) = self.fingers.pluck(stroke, strength, beside) {
+        let pinched = (stroke == Stroke::Pinch).then(|| self.fingers.pinched_partial(moved));
+        if let Some(pluck) = self.fingers.pluck(stroke, strength, beside, moved) {
             at.does_later(delay, pluck);
-            self.tells_sound(delay, Technique::of(stroke), Some(pluck), at);
+            let excitation = self.fingers.excitation(Technique::of(stroke), Some(pluck), pinched);
+            self.tells_sound(delay, excitation, at);
         }
-        if stroke == Stroke::Pinch {
-            self.deeds.plan(at.after(delay + self.fingers.pluck_duration()), Deed::Graze);
+        if let Some(partial) = pinched {
+            self.deeds.plan(at.after(delay + self.fingers.pluck_duration()), Deed::Graze(partial));
         }
     }
 }

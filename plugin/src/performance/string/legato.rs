@@ -33,7 +33,7 @@ impl StringPlayer {
         self.fingers.press(start.manner.pressure, &mut at);
         at.tells(self.new_note(&start));
         let (technique, gesture) = self.fingers.change(start.fret, slide, bar, strength, &mut at);
-        self.tells_sound(0.0, technique, gesture, &mut at);
+        self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         self.follow(time, &start.manner);
     }
 
@@ -84,7 +84,7 @@ impl StringPlayer {
         at.tells(self.returning_note(&back, time));
         let (technique, gesture) =
             self.fingers.change(back.fret, from.slide, from.bar, from.strength, &mut at);
-        self.tells_sound(0.0, technique, gesture, &mut at);
+        self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         self.fingers.press(back.pressure, &mut at);
         self.bend.tune(time, back.tuning);
         self.bend.set_vibrato(time, back.vibrato);
