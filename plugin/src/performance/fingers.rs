@@ -191,7 +191,7 @@ impl Fingers {
 
     /// How long a stroke pushes, s; none for those that strike.
     pub(crate) fn push_time(&self, stroke: Stroke) -> Option<f64> {
-        match self.pluck(stroke, 1.0, 0.0)? {
+        match self.pluck(stroke, 1.0, 0.0, 0.0)? {
             Gesture::Pluck { duration, .. } => Some(duration),
             _ => None,
         }
