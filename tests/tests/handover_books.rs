@@ -165,12 +165,12 @@ fn a_hand_that_stills_a_string_goes_on() {
     for semitones in [-2.0, 0.0, 1.0] {
         let mut instrument = build(&electric);
         does(&mut instrument, PLUCK);
-        does(&mut instrument, Gesture::Still { loss: 100.0, duration: 1.0 });
+        does(&mut instrument, Gesture::Still { loss: 1.0, duration: 1.0 });
         play(&mut instrument, 0.4);
-        assert_eq!(instrument.drive(0).loss, 100.0);
+        assert_eq!(instrument.drive(0).loss, 1.0);
         let tuned = Setup { tuning: semitones, ..electric.clone() };
         assert!(instrument.hand_over(build(&tuned)).is_ok());
-        for (seconds, loss) in [(0.1, 100.0), (0.49, 100.0), (0.02, 0.0)] {
+        for (seconds, loss) in [(0.1, 1.0), (0.49, 1.0), (0.02, 0.0)] {
             play(&mut instrument, seconds);
             assert_eq!(instrument.drive(0).loss, loss, "{semitones} semitones");
         }
