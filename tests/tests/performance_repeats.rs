@@ -3,7 +3,7 @@
 
 use low_action_dsp::Gesture;
 use low_action_tests::numbers::largest;
-use low_action_tests::stage::{Stage, level, off, on};
+use low_action_tests::stage::{Stage, cc, level, off, on};
 
 const RATE: f64 = 48_000.0;
 /// When the string sounds no more of a note too soft to be heard, and its finger is down, s.
@@ -39,6 +39,9 @@ fn levels(stage: &mut Stage, key: u8, velocity: u8, rate: f64, notes: usize) -> 
         .collect()
 }
 
+/// Of the lowest partial 0.4 is left: with a pluck as loud that is from 4.4 dB less to 2.9 more, by how they fall together, 2.4 dB
+/// root mean square at every phase alike. A stroke under which the hand still is loses 1.5 dB of that besides. Most of
+/// what is heard are other partials, of which 0.2 is left.
 #[test]
 fn repeated_notes_are_as_loud_as_the_first() {
     let mut rows = String::new();
@@ -69,11 +72,11 @@ fn repeated_notes_are_as_loud_as_the_first() {
     assert!(page.contains(&rows), "docs/gestures.md has other numbers than\n{rows}");
 }
 
-/// What a hand needs to still a string delays the stroke by less than 3 ms on guitars and 7 ms on the bass, and not at all where
-/// the string is at rest.
+/// What a hand needs to still a string delays the stroke by less than 3 ms on guitars, 7 ms on the bass and 10 ms on a low B, and
+/// not at all where the string is at rest.
 #[test]
 fn a_stroke_on_a_string_that_rings_comes_hardly_later() {
-    for (setup, string, open) in STRINGS {
+    for (setup, string, open) in STRINGS.into_iter().chain([("five-string-bass", 4, 23)]) {
         let mut stage = Stage::alone(setup, string);
         let played = stage.play(&[(0.0, on(open, 90)), (0.4, off(open)), (0.4, on(open, 90))], 0.6);
         let time = |stroke: usize| {
@@ -81,8 +84,32 @@ fn a_stroke_on_a_string_that_rings_comes_hardly_later() {
             plucks.nth(stroke).map(|g| g.time as f64 / RATE)
         };
         assert_eq!(time(0), Some(0.0), "{setup} {string}");
-        let most = if setup == "bass" { 0.007 } else { 0.003 };
+        let most = match setup {
+            "bass" => 0.007,
+            "five-string-bass" => 0.01 + 0.5 / RATE,
+            _ => 0.003,
+        };
         let late = time(1).map(|time| time - 0.4);
         assert!(late.is_some_and(|late| (0.0..most).contains(&late)), "{setup} {string}: {late:?} s");
+    }
+}
+
+/// A stroke whose hand is on its way is not lost, and comes before what takes the string from it: another stroke, or a hammer.
+#[test]
+fn a_stroke_on_its_way_falls_before_what_follows() {
+    for legato in [0, 127] {
+        let mut stage = Stage::alone("bass", 3);
+        let first = [(0.0, cc(68, legato)), (0.0, on(28, 90)), (0.4, off(28)), (0.4, on(30, 90))];
+        let played = stage.play(&[&first[..], &[(0.401, on(33, 90))]].concat(), 0.6);
+        let made = |sounds: fn(&Gesture) -> bool| {
+            let times = played.gestures.iter().filter(|timed| sounds(&timed.gesture)).map(|timed| timed.time);
+            times.collect::<Vec<_>>()
+        };
+        let plucks = made(|gesture| matches!(gesture, Gesture::Pluck { .. }));
+        let thrown = made(|gesture| matches!(gesture, Gesture::Throw { .. }));
+        let taken = (0.401 * RATE).round() as u64;
+        assert_eq!(plucks[..2], [0, taken], "legato {legato}");
+        let after = if legato > 0 { &thrown } else { &plucks[2..].to_vec() };
+        assert!(matches!(after[..], [time] if time >= taken), "legato {legato}: {plucks:?}, {thrown:?}");
     }
 }

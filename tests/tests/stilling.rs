@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use low_action_dsp::curve::Curve;
 use low_action_dsp::{Drive, Gesture, Model, Scratch, SolverSettings, State, StringParameters};
-use low_action_tests::stage::{Stage, off, on};
+use low_action_tests::stage::{Stage, hertz, off, on};
 
 const RATE: f64 = 192_000.0;
 
@@ -56,8 +56,7 @@ fn taken(partial: usize, phase: f64, loss: f64, duration: f64) -> f64 {
     10.0 * (before / after).log10()
 }
 
-/// As much as the hand takes where it comes, whatever the period: measured in periods it is the same for all strings whose
-/// period times 0.4 is more than 3 ms, and longer for the others.
+/// What a hand adds to the loss of an open string before a stroke, and for how long, measured in periods of its key.
 fn of_a_stroke(setup: &str, string: usize, open: u8) -> (f64, f64) {
     let events = [(0.0, on(open, 90)), (0.4, off(open)), (0.4, on(open, 90))];
     let played = Stage::alone(setup, string).play(&events, 0.6);
@@ -67,7 +66,7 @@ fn of_a_stroke(setup: &str, string: usize, open: u8) -> (f64, f64) {
     });
     let found = hands.next().expect("the string rings");
     assert_eq!(hands.next(), None, "once for a stroke");
-    let frequency = 440.0 * 2f64.powf((f64::from(open) - 69.0) / 12.0);
+    let frequency = hertz(f64::from(open));
     (found.0 / frequency, found.1 * frequency)
 }
 

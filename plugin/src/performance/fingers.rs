@@ -10,7 +10,7 @@ mod sighted;
 mod stopping;
 mod touches;
 
-use low_action_dsp::setup::Player;
+use low_action_dsp::setup::{Player, frequency};
 use low_action_dsp::{FINGERS_PER_STRING, FingerSlot, Gesture, StringGeometry, Touch};
 
 use super::articulation::Stroke;
@@ -211,7 +211,7 @@ impl Fingers {
 
     /// Period of the open string, s.
     fn open_period(&self) -> f64 {
-        libm::exp2((69.0 - self.geometry.open_pitch) / 12.0) / 440.0
+        1.0 / frequency(self.geometry.open_pitch)
     }
 
     /// The palm is to rest so hard on notes to come, 0 to 1, and on one that sounds.

@@ -1,6 +1,6 @@
 //! How a string comes to be stopped for a note that is plucked, and what stopped it before lets go.
 
-use low_action_dsp::setup::Fretting;
+use low_action_dsp::setup::{Fretting, frequency};
 use low_action_dsp::{FingerSlot, Gesture, Touch};
 
 use super::{Finger, Fingers, lifting};
@@ -55,7 +55,7 @@ impl Fingers {
     /// if plucked, by as much as it was pressed down.
     pub(super) fn letting_go(&self, strength: f64) -> Leaving {
         let softness = (1.0 - strength).clamp(0.0, 1.0);
-        let pitch = 440.0 * libm::exp2((self.geometry.open_pitch - 69.0) / 12.0);
+        let pitch = frequency(self.geometry.open_pitch);
         let Leaving { speed, turning } = QUICK_LIFT;
         Leaving {
             speed: (1.0 - softness) * speed + softness * RISE * pitch,

@@ -14,6 +14,7 @@ impl StringPlayer {
     /// A note takes over from the one that sounds, whose key stays down under it: by a hammer, a pull or a
     /// slide.
     pub(crate) fn connect(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
+        self.strike_in_time(&mut self.moment(time, out));
         let strength = start.force();
         start.presses = start.presses.saturating_add(self.take_presses(start.channel, start.key));
         if let Some(before) = self.note.filter(Note::key_down) {
