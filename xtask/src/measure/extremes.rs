@@ -4,6 +4,7 @@
 //! A [`Trial`] is a scene and perhaps a stream of events, drawn from a seed and a number. A run of many is
 //! tallied; what fails is made small and written where the tests replay it.
 
+mod beginnings;
 mod campaign;
 mod draw;
 mod playing;

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::{Result, bail, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
+use low_action_dsp::setup::{Bridge, Intonation};
 use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture};
 
 use super::draw::Draw;
@@ -83,7 +84,10 @@ fn play(name: &str, seed: u64, seconds: f64, progress: &ProgressBar) -> Result<S
             until_exchange = draw.whole(3, 200);
         }
         until_exchange = until_exchange.saturating_sub(1);
-        instrument.set_effort(draw.one_of(&[0, 1, 3, 8, 20, 50]), draw.over(1e-15, 1e-6));
+        instrument.set_effort(draw.one_of(&[0, 1, 3, 8, 20, 50]), draw.over(1e-15, 1e-3));
+        if draw.chance(0.002) {
+            instrument.reset();
+        }
         excite(&mut instrument, &setup, &mut draw);
         let loudest = sound(&mut instrument);
         seen.loudest = seen.loudest.max(loudest);
@@ -155,8 +159,12 @@ impl Flow {
 /// Gestures at random for every string.
 fn excite(instrument: &mut Instrument, setup: &Setup, draw: &mut Draw) {
     for string in 0..instrument.string_count() {
-        for _ in 0..draw.whole(0, 3) {
-            let time = instrument.now() + draw.whole(0, BLOCK) as u64;
+        // Now and then very many at once.
+        let (count, spread) =
+            if draw.chance(0.02) { (draw.whole(8, 30), 4) } else { (draw.whole(0, 3), BLOCK) };
+        let first = instrument.now() + draw.whole(0, BLOCK - spread) as u64;
+        for _ in 0..count {
+            let time = first + draw.whole(0, spread) as u64;
             let gesture = gesture(draw, setup, instrument.geometry(string).length);
             // A full queue leaves a gesture out.
             let _ = instrument.schedule(TimedGesture { time, string, gesture });
@@ -167,7 +175,7 @@ fn excite(instrument: &mut Instrument, setup: &Setup, draw: &mut Draw) {
 /// Another action, relief, touch, tuning and set of strings, as far as set-ups allow.
 fn other_setup(name: &str, draw: &mut Draw) -> Result<Setup> {
     let Some(mut setup) = Setup::builtin(name) else { bail!("no instrument is called {name}") };
-    setup.intonation = low_action_dsp::setup::Intonation::Physical;
+    setup.intonation = Intonation::Physical;
     let neck = &mut setup.neck;
     neck.nut_clearance = draw.over(1e-4, 1e-3);
     neck.action = neck.nut_clearance + draw.over(1e-5, 4e-3);
@@ -177,6 +185,9 @@ fn other_setup(name: &str, draw: &mut Draw) -> Result<Setup> {
     neck.damping = scenes::damping(draw).unwrap_or(neck.damping);
     setup.player.fretting.touch.mass *= draw.over(0.1, 10.0);
     setup.player.fretting.touch.stiffness *= draw.over(0.1, 10.0);
+    // Some get a wide bridge, from one exchange to the next.
+    setup.bridge =
+        draw.chance(0.2).then(|| Bridge { length: draw.over(1e-3, 0.02), radius: draw.over(1e-2, 100.0) });
     setup.tuning = draw.between(-0.5, 0.5);
     setup.tension_modulation = draw.chance(0.8);
     for string in &mut setup.string {
@@ -192,12 +203,22 @@ fn gesture(draw: &mut Draw, setup: &Setup, length: f64) -> Gesture {
     let position = length * draw.between(0.0, 1.0);
     let duration = draw.over_or_nothing(0.2, 1e-4, 0.1);
     let touch = if draw.chance(0.5) { setup.player.fretting.touch } else { setup.player.damper.touch };
-    match draw.whole(0, 9) {
+    match draw.whole(0, 12) {
         0..=3 => Gesture::Pluck { position, force: draw.either_way(0.1, 100.0), duration },
         4 | 5 => Gesture::Place { finger, touch, position, clearance: draw.over(1e-5, 1e-2) },
-        6 => Gesture::Press { finger, force: draw.either_way(0.1, 100.0), duration },
-        7 => Gesture::Slide { finger, position, duration },
-        8 => Gesture::Lift { finger, force: draw.over(0.1, 100.0), duration },
+        6 => {
+            let (clearance, speed) = (draw.over(1e-5, 1e-2), draw.over(1e-3, 10.0));
+            Gesture::Throw { finger, touch, position, clearance, speed }
+        }
+        7 => Gesture::Press { finger, force: draw.either_way(0.1, 100.0), duration },
+        8 => Gesture::Slide { finger, position, duration },
+        9 => Gesture::Lift { finger, force: draw.over(0.1, 100.0), duration },
+        // From what nobody hears to far more than brings the string to rest in a step, for no time, for a sample, for long: so
+        // many that they follow one another, and that some are under way whenever a set-up is exchanged.
+        10 | 11 => {
+            let longest = if draw.chance(0.05) { 3.0 } else { 0.1 };
+            Gesture::Still { loss: draw.over(0.1, 1e9), duration: draw.over_or_nothing(0.2, 1e-5, longest) }
+        }
         _ => Gesture::Bend { tension_ratio: draw.over(0.1, 10.0), duration },
     }
 }

@@ -4,6 +4,7 @@ use low_action_dsp::model::stiffest;
 use low_action_dsp::{Model, Stencil, StringParameters};
 use toml::{Table, Value};
 
+use super::beginnings::{self, point};
 use super::draw::Draw;
 
 /// The most products of a grid point and a sample in a scene.
@@ -78,6 +79,11 @@ pub fn scene(draw: &mut Draw) -> Table {
     }
     if !fingers.is_empty() {
         scene.insert("finger".into(), list(fingers));
+    }
+    if draw.chance(0.3) {
+        let mut output = Table::new();
+        output.insert("position".into(), (least * draw.between(0.001, 0.999)).into());
+        scene.insert("output".into(), output.into());
     }
     scene
 }
@@ -158,7 +164,7 @@ fn string(draw: &mut Draw, rate: f64, stencil: &str) -> Drawn {
     }
 }
 
-/// The string's table with the course of its tension in time and, often, a shape it is released from.
+/// The string's table with the course of its tension in time and, often, a shape it is released from, or a velocity.
 fn shaped(draw: &mut Draw, string: Drawn, reach: f64, duration: f64) -> Table {
     let Drawn { mut table, length, .. } = string;
     if let Some(Value::Array(tensions)) = table.get("tension") {
@@ -172,21 +178,12 @@ fn shaped(draw: &mut Draw, string: Drawn, reach: f64, duration: f64) -> Table {
         table.insert("tension".into(), Value::Array(course));
     }
     if draw.chance(0.6) {
-        let height = draw.either_way(0.01 * reach, (100.0 * reach).min(1.0));
-        let inner = draw.whole(1, 4);
-        let mut places: Vec<f64> = (0..inner).map(|_| length * draw.between(0.001, 0.999)).collect();
-        places.sort_by(f64::total_cmp);
-        places.dedup();
-        let mut points = vec![point(0.0, 0.0)];
-        points.extend(places.into_iter().map(|place| point(place, height * draw.between(-1.0, 1.0))));
-        points.push(point(length, 0.0));
-        table.insert("shape".into(), Value::Array(points));
+        table.insert("shape".into(), beginnings::shape(draw, length, reach));
+    }
+    if draw.chance(0.3) {
+        table.insert("velocity".into(), beginnings::velocity(draw, length));
     }
     table
-}
-
-fn point(place: f64, value: f64) -> Value {
-    Value::Array(vec![place.into(), value.into()])
 }
 
 /// A contact stiffness up to the bound of conditioning, often at it.
@@ -269,7 +266,8 @@ fn fretboard(draw: &mut Draw, strings: &[Drawn], length: f64, reach: f64) -> Tab
         } else {
             (-top).into()
         };
-        table.insert("frets".into(), Value::Array(places));
+        let frets = if draw.chance(0.15) { Value::Integer(count as i64) } else { Value::Array(places) };
+        table.insert("frets".into(), frets);
         table.insert("fret_top".into(), tops);
         table.insert("fret_placement".into(), draw.one_of(&["exact", "kinked", "nearest"]).into());
     }

@@ -1,6 +1,7 @@
 //! What happens to a scene beyond what a scene file can say: every sample, everything may change.
 
 use low_action_dsp::Touch;
+use low_action_dsp::drive::{PUSHES, Push};
 use low_action_dsp::simulation::SceneString;
 use serde::{Deserialize, Serialize};
 
@@ -27,11 +28,27 @@ pub struct Stream {
     pub slide: f64,
     /// Whether the tension jumps about under its limit.
     pub bend: bool,
+    /// The most that a hand laid along the string adds to its loss, as a part of 1/k, which brings a free point to rest in a
+    /// step; 0 is no hand.
+    pub still: f64,
+    /// Largest force of pushes beside those of the scene, N; 0 is none.
+    pub push: f64,
 }
 
 impl Default for Stream {
     fn default() -> Stream {
-        Stream { seed: 0, every: 1, regrip: 0, lift: 0.0, exchange: 0.0, force: 0.0, slide: 0.0, bend: false }
+        Stream {
+            seed: 0,
+            every: 1,
+            regrip: 0,
+            lift: 0.0,
+            exchange: 0.0,
+            force: 0.0,
+            slide: 0.0,
+            bend: false,
+            still: 0.0,
+            push: 0.0,
+        }
     }
 }
 
@@ -48,6 +65,8 @@ impl Stream {
             force: now_and_then(draw, 1e-2, 1e4),
             slide: now_and_then(draw, 1e-2, FASTEST_SLIDE),
             bend: draw.chance(0.4),
+            still: if draw.chance(0.2) { 1.0 } else { now_and_then(draw, 1e-6, 1.0) },
+            push: now_and_then(draw, 1e-2, 1e4),
         }
     }
 }
@@ -62,6 +81,8 @@ pub struct Acting {
     rest: Vec<f64>,
     heights: Vec<f64>,
     tension: Option<f64>,
+    loss: f64,
+    pushes: Vec<Push>,
     touches: Vec<Touch>,
     hands: Vec<Automated>,
 }
@@ -85,6 +106,8 @@ impl Acting {
             heights: rest.clone(),
             rest,
             tension: None,
+            loss: 0.0,
+            pushes: Vec::new(),
             touches: string.state.fingers().iter().flatten().map(|finger| finger.touch).collect(),
             hands: vec![Automated::default(); string.model.finger_slots],
             stream: stream.clone(),
@@ -112,6 +135,8 @@ impl Acting {
         if let Some(tension) = self.tension {
             drive.tension = tension;
         }
+        drive.loss = self.loss;
+        drive.pushes.extend_from_slice(&self.pushes);
         let k = string.model.grid.time_step;
         let end = 1e-6 * string.model.grid.length;
         for (hand, automated) in drive.hands.iter_mut().zip(&mut self.hands) {
@@ -128,7 +153,7 @@ impl Acting {
 
     /// New targets for everything that is automated.
     fn change(&mut self, string: &SceneString) {
-        let Stream { lift, exchange, force, slide, bend, .. } = self.stream;
+        let Stream { lift, exchange, force, slide, bend, still, push, .. } = self.stream;
         let draw = &mut self.draw;
         if lift > 0.0 || exchange > 0.0 {
             let together = if draw.chance(0.2) { exchange * draw.between(-1.0, 1.0) } else { 0.0 };
@@ -144,6 +169,23 @@ impl Acting {
         for hand in &mut self.hands {
             hand.speed = slide * draw.between(-1.0, 1.0);
             hand.force = force * draw.between(-1.0, 1.0);
+        }
+        if still > 0.0 {
+            let most = still / string.model.grid.time_step;
+            // Half the time it is not there: it comes and goes, and one that comes again at once is another.
+            self.loss = match draw.whole(0, 3) {
+                0 | 1 => 0.0,
+                2 => most,
+                _ => most * draw.over(1e-9, 1.0),
+            };
+        }
+        if push > 0.0 {
+            let grid = &string.model.grid;
+            self.pushes.clear();
+            for _ in 0..draw.whole(0, PUSHES) {
+                let reading = grid.reading(grid.length * draw.between(0.001, 0.999));
+                self.pushes.push(Push { reading, force: push * draw.between(-1.0, 1.0) });
+            }
         }
     }
 
