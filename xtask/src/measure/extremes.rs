@@ -7,6 +7,8 @@
 mod beginnings;
 mod campaign;
 mod draw;
+#[cfg(test)]
+mod drawn;
 mod playing;
 mod scenes;
 mod shrink;

@@ -198,7 +198,7 @@ fn other_setup(name: &str, draw: &mut Draw) -> Result<Setup> {
 }
 
 /// Something a player in a rage might do.
-fn gesture(draw: &mut Draw, setup: &Setup, length: f64) -> Gesture {
+pub fn gesture(draw: &mut Draw, setup: &Setup, length: f64) -> Gesture {
     let finger = draw.whole(0, low_action_dsp::FINGERS_PER_STRING - 1);
     let position = length * draw.between(0.0, 1.0);
     let duration = draw.over_or_nothing(0.2, 1e-4, 0.1);
