@@ -2,6 +2,9 @@
 //!
 //! Each is one entry of `MEASUREMENTS` and one module; it reads its own arguments.
 
+// Its place is with the benchmarks, whose workload it is.
+#[path = "../../dsp/benches/workloads/chord.rs"]
+pub mod chord;
 pub mod extremes;
 pub mod features;
 mod page;

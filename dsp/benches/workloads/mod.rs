@@ -1,6 +1,7 @@
 //! What is timed.
 
 mod bare;
+mod chord;
 mod instruments;
 mod strings;
 

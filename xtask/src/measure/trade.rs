@@ -4,11 +4,11 @@
 //! scenes × settings ─> record (runs one) ─> errors (against the reference) ─> table, picture
 //! ```
 
-mod chord;
 mod errors;
 mod filter;
 mod frets;
 mod losses;
+mod pace;
 mod picture;
 mod qualities;
 mod record;
@@ -228,7 +228,7 @@ fn chords() -> Result<Vec<(Setting, f64)>> {
     for round in 1..=CHORD_ROUNDS {
         eprintln!("chords: {round} of {CHORD_ROUNDS}");
         for (setting, best) in &mut chords {
-            *best = chord::speed(setting)?.max(*best);
+            *best = pace::of_the_chord(setting)?.max(*best);
         }
     }
     Ok(chords)

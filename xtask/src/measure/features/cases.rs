@@ -2,11 +2,12 @@
 
 use anyhow::{Context, Result};
 use low_action_dsp::curve::Curve;
-use low_action_dsp::setup::Fretting;
 use low_action_dsp::{
-    Drive, EngineSettings, Gesture, Instrument, Model, Quality, Scene, Scratch, Setup, Simulation, State,
+    Drive, EngineSettings, Gesture, Instrument, Model, Quality, Scene, Scratch, Simulation, State,
     StringParameters, TimedGesture,
 };
+
+use crate::measure::chord;
 
 /// Something that runs sample by sample.
 pub struct Case {
@@ -175,23 +176,13 @@ fn prepare_scene(string: &str, rest: &str, extra: &Extra) -> Result<Box<dyn FnMu
 
 /// The default instrument with its lowest strings, as many of which are plucked as are to ring.
 fn prepare_instrument(strings: usize, ringing: usize, fretted: bool) -> Result<Box<dyn FnMut(usize)>> {
-    let mut setup = Setup::builtin("electric").context("the default instrument is built in")?;
-    setup.string.reverse();
-    setup.string.truncate(strings);
+    let setup = chord::lowest_strings(strings);
     // A sample is a step, for all strings alike.
     let settings = EngineSettings { widest_spacing: f64::INFINITY, ..Quality::Live.settings(48e3) };
     let mut instrument = Instrument::new(&setup, &settings)?;
     for string in 0..ringing {
-        if fretted {
-            let Fretting { touch, force, hover, landing, .. } = setup.player.fretting;
-            let position = instrument.geometry(string).finger_position(3 + string % 3);
-            for gesture in [
-                Gesture::Place { finger: 0, touch, position, clearance: hover },
-                Gesture::Press { finger: 0, force, duration: landing },
-            ] {
-                instrument.schedule(TimedGesture { time: 0, string, gesture })?;
-            }
-        }
+        chord::stop(&mut instrument, &setup, string, if fretted { chord::fret(string) } else { 0 })?;
+        // A little softer than the chord's own pluck: the counts in the table are of this one.
         let gesture = Gesture::Pluck { position: 0.52, force: 0.4, duration: 0.003 };
         instrument.schedule(TimedGesture { time: 0, string, gesture })?;
     }
