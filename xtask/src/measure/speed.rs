@@ -1,6 +1,7 @@
-//! How fast strings are: the benchmarks of `dsp`, as ratios within one run.
+//! How fast strings are: the benchmarks of `dsp`, as ratios within one run, and what threads gain when songs are rendered.
 
 mod buzz;
+mod sharing;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -21,7 +22,8 @@ const PAGE: &str = "docs/speed.md";
     name = "cargo xtask measure speed",
     after_help = "Examples:\n  cargo xtask measure speed            times everything and prints the table (a few minutes)\n  \
                   cargo xtask measure speed --write    puts it into docs/speed.md\n  \
-                  cargo xtask measure speed --last     makes the table of the last run again"
+                  cargo xtask measure speed --last     makes the table of the last run again\n  \
+                  cargo xtask measure speed --songs    times only songs, by one thread and by several"
 )]
 struct Arguments {
     /// Put the table into docs/speed.md.
@@ -30,6 +32,9 @@ struct Arguments {
     /// Do not run the benchmarks, take what the last run found.
     #[arg(long)]
     last: bool,
+    /// Only time songs by one thread and by as many as there are processors, and put only that row into docs/speed.md.
+    #[arg(long, conflicts_with = "last")]
+    songs: bool,
     /// Play so many samples of the chord that buzzes, as callgrind is told to.
     #[arg(long, hide = true)]
     buzz: Option<usize>,
@@ -40,6 +45,15 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     let Some(arguments) = super::parse::<Arguments>(arguments)? else { return Ok(()) };
     if let Some(samples) = arguments.buzz {
         return buzz::play(samples);
+    }
+    if arguments.songs {
+        let row = songs()?;
+        print!("{row}");
+        if arguments.write {
+            let marks = page::marks("speed");
+            page::write(PAGE, &marks, &with_songs(&page::read(PAGE, &marks)?, &row))?;
+        }
+        return Ok(());
     }
     if !arguments.last {
         let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
@@ -124,5 +138,31 @@ fn table() -> Result<String> {
         "not counted: valgrind is not there".into()
     };
     row("… instructions", found, "6 ×");
-    Ok(text)
+    Ok(with_songs(&text, &songs()?))
+}
+
+/// The row of songs.
+fn songs() -> Result<String> {
+    let (name, found) = sharing::row()?;
+    Ok(format!("| {name} | {found} |  |\n"))
+}
+
+/// A table with this row of songs at its end, instead of the one it may have.
+fn with_songs(table: &str, row: &str) -> String {
+    let others = table.lines().filter(|line| !line.contains(sharing::NAME));
+    others.map(|line| format!("{line}\n")).collect::<String>() + row
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{sharing, with_songs};
+
+    #[test]
+    fn the_row_of_songs_is_put_in_place_of_the_one_before() {
+        let row = |found| format!("| {}, 2 threads over one | {found} |  |\n", sharing::NAME);
+        let table = "| measure | found | aim |\n| free string | 1 | 2 |\n";
+        let once = with_songs(table, &row("1.5"));
+        assert_eq!(once, format!("{table}{}", row("1.5")));
+        assert_eq!(with_songs(&once, &row("1.6")), format!("{table}{}", row("1.6")));
+    }
 }
