@@ -8,7 +8,7 @@ use crate::error::{Error, plain};
 use crate::model::{Model, StringParameters};
 use crate::scene::Scene;
 use scene_string::Clock;
-pub use scene_string::{FingerReport, SceneString};
+pub use scene_string::{FingerReport, PluckReport, SceneString};
 
 /// A running scene.
 #[derive(Debug, Clone)]

@@ -9,6 +9,7 @@ pub mod hands;
 pub mod host;
 pub mod labelled;
 pub mod midi;
+pub mod npz;
 pub mod numbers;
 pub mod paper;
 pub mod parameters;

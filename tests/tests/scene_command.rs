@@ -2,14 +2,14 @@
 //! nothing.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs;
 use std::path::Path;
 
 use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::{Entry, Scene, Simulation};
 use low_action_tests::command::Workplace;
+use low_action_tests::npz::arrays;
 use low_action_tests::numbers::largest;
-use npyz::NpyFile;
 
 /// Two strings of different grids, board and frets, fingers out of order, moving and pressed.
 const SCENE: &str = r#"
@@ -90,33 +90,6 @@ fn simulation() -> Simulation {
     Simulation::new(&Scene::from_toml(SCENE).unwrap()).unwrap()
 }
 
-/// An array as read by libraries that share no code with the writer.
-#[derive(Debug)]
-struct Array {
-    shape: Vec<u64>,
-    numbers: Vec<f64>,
-}
-
-fn arrays(path: &Path) -> BTreeMap<String, Array> {
-    let mut archive = zip::ZipArchive::new(File::open(path).unwrap()).unwrap();
-    let mut arrays = BTreeMap::new();
-    for index in 0..archive.len() {
-        // Reading to the end compares the checksum.
-        let entry = archive.by_index(index).unwrap();
-        let name = entry.name().unwrap().strip_suffix(".npy").unwrap().to_owned();
-        let array = NpyFile::new(entry).unwrap();
-        let shape = array.shape().to_vec();
-        let numbers = if name == "iterations" {
-            array.into_vec::<u32>().unwrap().into_iter().map(f64::from).collect()
-        } else {
-            array.into_vec::<f64>().unwrap()
-        };
-        assert_eq!(numbers.len() as u64, shape.iter().product::<u64>(), "{name}");
-        arrays.insert(name, Array { shape, numbers });
-    }
-    arrays
-}
-
 fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
@@ -135,9 +108,10 @@ fn expected(every: usize) -> BTreeMap<String, Vec<f64>> {
             add("t".into(), step as f64 / 44100.0);
             for (number, string) in (1..).zip(simulation.strings()) {
                 string.state.displacement().for_each(|u| add(format!("u_{number}"), u));
-                string
-                    .fingers()
-                    .for_each(|finger| add(format!("u_finger_{}", finger.number + 1), finger.height));
+                for finger in string.fingers() {
+                    add(format!("x_finger_{}", finger.number + 1), finger.position);
+                    add(format!("u_finger_{}", finger.number + 1), finger.height);
+                }
             }
         }
         assert!(simulation.step().is_none(), "no ledger is open");
@@ -153,6 +127,7 @@ fn expected(every: usize) -> BTreeMap<String, Vec<f64>> {
             let mut frets = vec![0.0; 3];
             string.fret_forces().for_each(|(fret, force)| frets[fret] = force);
             (1..).zip(frets).for_each(|(fret, force)| add(format!("force_fret_{number}_{fret}"), force));
+            string.plucks().for_each(|pluck| add(format!("force_pluck_{}", pluck.number + 1), pluck.force));
             string
                 .fingers()
                 .for_each(|finger| add(format!("force_finger_{}", finger.number + 1), finger.force));

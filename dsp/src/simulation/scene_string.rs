@@ -27,7 +27,7 @@ pub struct SceneString {
     pub drive: Drive,
     /// How the last step's contacts were solved.
     pub convergence: Convergence,
-    plucks: Vec<(PluckSpec, Reading)>,
+    plucks: Vec<ScenePluck>,
     fingers: Vec<SceneFinger>,
     pub(super) tension: Curve,
     /// The tension, N, if it stays as it is and nothing of the scene acts on the string: what most steps need not ask for.
@@ -41,10 +41,31 @@ pub struct SceneString {
 pub struct FingerReport {
     /// Index in the scene's list, 0 for the first.
     pub number: usize,
+    /// Place, m from the nut.
+    pub position: f64,
     /// Height of its pad, m.
     pub height: f64,
     /// Its force on the string in the last step, N, downward.
     pub force: f64,
+}
+
+/// What a pluck of a running scene does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PluckReport {
+    /// Index in the scene's list, 0 for the first.
+    pub number: usize,
+    /// Its force on the string in the last step, N, upward: the mean over the step of what the scene asks for.
+    pub force: f64,
+}
+
+#[derive(Debug, Clone)]
+struct ScenePluck {
+    /// Index in the scene's list.
+    number: usize,
+    spec: PluckSpec,
+    reading: Reading,
+    /// Force in the last step, N.
+    force: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -97,11 +118,17 @@ impl SceneString {
                 .place_finger(&model, slot, finger.touch(), place, finger.height, finger.velocity)
                 .map_err(|error| error.under(&format!("finger[{}]", finger_index + 1)))?;
         }
-        let plucks = scene.pluck.iter().filter(|pluck| pluck.string == number);
+        let plucks: Vec<_> = (scene.pluck.iter().enumerate())
+            .filter(|(_, pluck)| pluck.string == number)
+            .map(|(number, pluck)| ScenePluck {
+                number,
+                spec: pluck.clone(),
+                reading: model.grid.reading(pluck.position),
+                force: 0.0,
+            })
+            .collect();
         let steady = match spec.tension {
-            Curve::Constant(tension) if fingers.is_empty() && plucks.clone().next().is_none() => {
-                Some(tension)
-            }
+            Curve::Constant(tension) if fingers.is_empty() && plucks.is_empty() => Some(tension),
             _ => None,
         };
         let mut drive = Drive::new(&model);
@@ -113,7 +140,7 @@ impl SceneString {
             state.let_go(&model, &drive);
         }
         Ok(SceneString {
-            plucks: plucks.map(|p| (p.clone(), model.grid.reading(p.position))).collect(),
+            plucks,
             fingers: fingers
                 .iter()
                 .map(|(finger_index, finger)| SceneFinger {
@@ -154,11 +181,11 @@ impl SceneString {
     fn follow(&mut self, clock: Clock) {
         let (now, next) = (clock.at(0), clock.at(1));
         self.drive.tension = self.tension.at(now);
-        for (pluck, reading) in &self.plucks {
-            let step = self.model.grid.time_step;
-            let force = pluck.force * pluck_push(now - pluck.start, step, pluck.duration);
-            if force != 0.0 {
-                self.drive.pushes.push(Push { reading: *reading, force });
+        let step = self.model.grid.time_step;
+        for ScenePluck { spec, reading, force, .. } in &mut self.plucks {
+            *force = spec.force * pluck_push(now - spec.start, step, spec.duration);
+            if *force != 0.0 {
+                self.drive.pushes.push(Push { reading: *reading, force: *force });
             }
         }
         for (hand, finger) in self.drive.hands.iter_mut().zip(&self.fingers) {
@@ -189,13 +216,24 @@ impl SceneString {
         (1..self.model.grid.intervals).map(|node| self.model.grid.place(node))
     }
 
+    /// The plucks of this string.
+    pub fn plucks(&self) -> impl Iterator<Item = PluckReport> + '_ {
+        self.plucks.iter().map(|pluck| PluckReport { number: pluck.number, force: pluck.force })
+    }
+
     /// The fingers over this string.
     pub fn fingers(&self) -> impl Iterator<Item = FingerReport> + '_ {
         let contacts = self.model.contacts.len();
         self.fingers.iter().enumerate().map(move |(slot, finger)| {
-            let height = self.state.fingers()[slot].map_or(f64::NAN, |finger| finger.height);
+            let (position, height) = self.state.fingers()[slot]
+                .map_or((f64::NAN, f64::NAN), |finger| (finger.position, finger.height));
             let force = self.scratch.forces().find(|(index, _)| *index == contacts + slot);
-            FingerReport { number: finger.number, height, force: force.map_or(0.0, |(_, force)| force) }
+            FingerReport {
+                number: finger.number,
+                position,
+                height,
+                force: force.map_or(0.0, |(_, force)| force),
+            }
         })
     }
 

@@ -36,14 +36,17 @@ pub(super) enum Kind {
     Real,
     /// Whole numbers of 32 bits, 0 or more.
     Count,
+    /// Text of so many characters, 1 or more.
+    Text(u64),
 }
 
 impl Kind {
     /// NumPy's name of the type, little-endian.
-    fn name(self) -> &'static str {
+    fn name(self) -> String {
         match self {
-            Kind::Real => "<f8",
-            Kind::Count => "<u4",
+            Kind::Real => "<f8".into(),
+            Kind::Count => "<u4".into(),
+            Kind::Text(characters) => format!("<U{characters}"),
         }
     }
 
@@ -51,6 +54,7 @@ impl Kind {
         match self {
             Kind::Real => 8,
             Kind::Count => 4,
+            Kind::Text(characters) => 4 * characters,
         }
     }
 }
@@ -60,7 +64,7 @@ impl Kind {
 pub(super) struct Array {
     pub name: String,
     pub kind: Kind,
-    /// Its lengths, the one that changes most slowly first.
+    /// Its lengths, the one that changes most slowly first; none for a single value.
     pub shape: Vec<u64>,
 }
 
@@ -134,6 +138,11 @@ impl NpzFile {
     /// Adds a number to an array of [`Kind::Count`].
     pub fn add_count(&mut self, array: usize, count: u32) -> io::Result<()> {
         self.add_bytes(array, &count.to_le_bytes())
+    }
+
+    /// Adds a text to an array of [`Kind::Text`], in UTF-32 as NumPy has it.
+    pub fn add_text(&mut self, array: usize, text: &str) -> io::Result<()> {
+        text.chars().try_for_each(|character| self.add_bytes(array, &u32::from(character).to_le_bytes()))
     }
 
     fn add_bytes(&mut self, array: usize, bytes: &[u8]) -> io::Result<()> {

@@ -38,13 +38,13 @@ const LOOK: u64 = 64;
 
 /// Computes a scene.
 pub(super) fn run(arguments: &SceneArgs) -> Outcome {
-    let scene = read(&arguments.file)?;
+    let (text, scene) = read(&arguments.file)?;
     let mut simulation = Simulation::new(&scene).with_context(|| scene_name(&arguments.file))?;
     check_paths(arguments)?;
     if arguments.trace.is_some() || arguments.figure.is_some() || arguments.wav.is_none() {
         simulation.open_ledger();
     }
-    let mut outputs = Outputs::begin(arguments, &scene, &simulation)?;
+    let mut outputs = Outputs::begin(arguments, &text, &scene, &simulation)?;
     let trace_size = outputs.trace.as_ref().map(Trace::size);
     if let Some((_, bytes)) = trace_size.filter(|(_, bytes)| *bytes > LARGE_TRACE) {
         say("note", &format!("the trace will take {:.1} GB; --every N keeps less", bytes as f64 / 1e9));
@@ -64,8 +64,8 @@ fn scene_name(path: &Path) -> String {
     if is_dash(path) { "standard input".to_owned() } else { shown(path) }
 }
 
-/// Reads the scene from wherever it is.
-fn read(path: &Path) -> Result<Scene> {
+/// Reads the scene from wherever it is: how it is written, and what that says.
+fn read(path: &Path) -> Result<(String, Scene)> {
     let mut bytes = Vec::new();
     // One byte more than is accepted, so that an endless source ends and is refused.
     let limit = LARGEST_SCENE + 1;
@@ -81,7 +81,8 @@ fn read(path: &Path) -> Result<Scene> {
     }
     let text =
         String::from_utf8(bytes).map_err(|_| anyhow!("{name} is not a scene: it is not UTF-8 text"))?;
-    Scene::from_toml(&text).context(name)
+    let scene = Scene::from_toml(&text).context(name)?;
+    Ok((text, scene))
 }
 
 /// Refuses to write two results, or a result and the scene, to one file.
@@ -99,13 +100,14 @@ struct Outputs {
 }
 
 impl Outputs {
-    fn begin(arguments: &SceneArgs, scene: &Scene, simulation: &Simulation) -> Result<Outputs> {
+    fn begin(arguments: &SceneArgs, text: &str, scene: &Scene, simulation: &Simulation) -> Result<Outputs> {
         if arguments.wav.is_some() {
             check_sound(scene, simulation).with_context(|| scene_name(&arguments.file))?;
         }
         let begin = |path| WavFile::begin(path, 1, scene.sample_rate as u32, BitDepth::Float32);
         let wav = arguments.wav.as_deref().map(begin).transpose()?;
-        let trace = arguments.trace.as_ref().map(|path| Trace::begin(path, simulation, arguments.every));
+        let trace =
+            arguments.trace.as_ref().map(|path| Trace::begin(path, text, simulation, arguments.every));
         let figure = arguments.figure.as_ref().map(|path| Picture::begin(path, arguments, scene, simulation));
         Ok(Outputs { wav, trace: trace.transpose()?, figure: figure.transpose()? })
     }

@@ -26,6 +26,7 @@ struct StringArrays {
 
 /// Where the numbers of one finger go.
 struct FingerArrays {
+    place: usize,
     height: usize,
     force: usize,
 }
@@ -54,10 +55,16 @@ const LEDGER: [(&str, Part); 16] = [
     ("residual", |entry| entry.residual),
 ];
 
-/// The arrays of a trace and what fills them. Time is always the first.
+/// Where times go, and the scene's text.
+const TIME: usize = 0;
+const SCENE: usize = 1;
+
+/// The arrays of a trace and what fills them. Those of [`TIME`] and [`SCENE`] are the first.
 struct Plan {
     arrays: Vec<Array>,
     strings: Vec<StringArrays>,
+    /// The force of each pluck.
+    plucks: Vec<usize>,
     fingers: Vec<FingerArrays>,
     output: usize,
     iterations: usize,
@@ -67,8 +74,8 @@ struct Plan {
 }
 
 impl Plan {
-    /// The trace of every so many-th sample of a simulation.
-    fn new(simulation: &Simulation, every: u64) -> Plan {
+    /// The trace of every so many-th sample of a simulation of a scene that is so written.
+    fn new(text: &str, simulation: &Simulation, every: u64) -> Plan {
         let rows = simulation.samples().div_ceil(every);
         let mut arrays = Vec::new();
         let mut array = |name: String, kind: Kind, shape: &[u64]| {
@@ -76,7 +83,9 @@ impl Plan {
             arrays.len() - 1
         };
         array("t".into(), Kind::Real, &[rows]);
+        array("scene".into(), Kind::Text(text.chars().count() as u64), &[]);
         let mut strings = Vec::new();
+        let mut pluck_count = 0;
         let mut finger_numbers = Vec::new();
         for (number, string) in (1..).zip(simulation.strings()) {
             let points = string.model.grid.unknowns() as u64;
@@ -90,10 +99,15 @@ impl Plan {
                 array(format!("force_fret_{number}_{fret}"), Kind::Real, &[rows]);
             }
             strings.push(StringArrays { displacement, tension, board, frets });
+            pluck_count += string.plucks().count();
             finger_numbers.extend(string.fingers().map(|finger| finger.number));
         }
         finger_numbers.sort_unstable();
+        let plucks =
+            (1..=pluck_count).map(|pluck| array(format!("force_pluck_{pluck}"), Kind::Real, &[rows]));
+        let plucks = plucks.collect();
         let fingers = finger_numbers.iter().map(|index| FingerArrays {
+            place: array(format!("x_finger_{}", index + 1), Kind::Real, &[rows]),
             height: array(format!("u_finger_{}", index + 1), Kind::Real, &[rows]),
             force: array(format!("force_finger_{}", index + 1), Kind::Real, &[rows]),
         });
@@ -104,7 +118,7 @@ impl Plan {
         for (name, _) in LEDGER {
             array(name.into(), Kind::Real, &[rows]);
         }
-        Plan { arrays, strings, fingers, output, iterations, ledger, rows, every }
+        Plan { arrays, strings, plucks, fingers, output, iterations, ledger, rows, every }
     }
 
     /// Bytes of all numbers.
@@ -124,9 +138,9 @@ pub(super) struct Trace {
 }
 
 impl Trace {
-    /// Begins the trace of every so many-th sample of a simulation.
-    pub fn begin(path: &Path, simulation: &Simulation, every: u64) -> Result<Trace> {
-        let plan = Plan::new(simulation, every);
+    /// Begins the trace of every so many-th sample of a simulation, and says in it how the scene is written.
+    pub fn begin(path: &Path, text: &str, simulation: &Simulation, every: u64) -> Result<Trace> {
+        let plan = Plan::new(text, simulation, every);
         if plan.bytes() > LARGEST {
             let (bytes, limit) = (plan.bytes() as f64, LARGEST as f64);
             let enough = (every as f64 * bytes / limit).ceil();
@@ -139,6 +153,7 @@ impl Trace {
         let npz = draft.handle().and_then(|file| NpzFile::begin(file, &plan.arrays));
         let npz = npz.with_context(|| cannot_write(path))?;
         let mut trace = Trace { path: path.to_owned(), draft, plan, npz, fret_forces: Vec::new() };
+        trace.npz.add_text(SCENE, text).with_context(|| cannot_write(path))?;
         trace.keep_places(simulation).with_context(|| cannot_write(path))?;
         Ok(trace)
     }
@@ -173,11 +188,13 @@ impl Trace {
 
     /// Keeps the state that the next step leads from.
     fn keep_state(&mut self, simulation: &Simulation) -> io::Result<()> {
-        self.npz.add(0, &[simulation.steps() as f64 / simulation.sample_rate()])?;
+        self.npz.add(TIME, &[simulation.steps() as f64 / simulation.sample_rate()])?;
         for (arrays, string) in self.plan.strings.iter().zip(simulation.strings()) {
             string.state.displacement().try_for_each(|u| self.npz.add(arrays.displacement, &[u]))?;
             for finger in string.fingers() {
-                self.npz.add(self.plan.fingers[finger.number].height, &[finger.height])?;
+                let arrays = &self.plan.fingers[finger.number];
+                self.npz.add(arrays.place, &[finger.position])?;
+                self.npz.add(arrays.height, &[finger.height])?;
             }
         }
         Ok(())
@@ -212,6 +229,9 @@ impl Trace {
         }
         for (&force, array) in self.fret_forces.iter().zip(arrays.frets..) {
             self.npz.add(array, &[force])?;
+        }
+        for pluck in string.plucks() {
+            self.npz.add(self.plan.plucks[pluck.number], &[pluck.force])?;
         }
         for finger in string.fingers() {
             self.npz.add(self.plan.fingers[finger.number].force, &[finger.force])?;

@@ -1,0 +1,127 @@
+//! Promise: a trace says what it is a trace of: the scene as it was written, what each pluck did, and where each finger was.
+
+use std::f64::consts::PI;
+
+use low_action_tests::command::Workplace;
+use low_action_tests::npz::{Array, arrays, text};
+use low_action_tests::numbers::largest;
+
+const RATE: f64 = 44_100.0;
+
+/// Plucks and fingers that are not in the order of their strings, one of which slides; and characters of one to four bytes.
+const SCENE: &str = r#"# Glissando auf der zweiten Saite, e′ 🎸
+sample_rate = 44100
+duration = 0.02
+[[string]]
+length = 0.65
+linear_density = 5.25e-3
+tension = 60.0
+loss_0 = 1.38
+[[string]]
+length = 0.6
+linear_density = 1e-3
+tension = 60.0
+loss_0 = 1.0
+[[pluck]]
+string = 2
+start = 0.0031
+duration = 0.00242
+position = 0.5
+force = 2.5
+[[pluck]]
+string = 1
+duration = 0.002
+position = 0.5
+force = -1.5
+[[finger]]
+string = 2
+mass = 5e-3
+stiffness = 1e8
+exponent = 2.0
+position = [[0.004, 0.15], [0.016, 0.2]]
+height = 0.0001
+force = 1.0
+[[finger]]
+string = 1
+mass = 5e-3
+stiffness = 1e8
+exponent = 2.0
+position = 0.25
+height = 0.01
+"#;
+
+/// The plucks: start and duration, s, and force, N.
+const PLUCKS: [[f64; 3]; 2] = [[0.0031, 0.00242, 2.5], [0.0, 0.002, -1.5]];
+
+fn workplace() -> Workplace {
+    let place = Workplace::new(env!("CARGO_BIN_EXE_low-action-command"));
+    place.write("scene.toml", SCENE);
+    place
+}
+
+#[test]
+fn the_scene_is_in_it_as_it_was_written() {
+    let place = workplace();
+    assert_eq!(place.run(&["scene", "scene.toml", "--trace", "file.npz"]).code, 0);
+    let found = text(&place.path("file.npz"), "scene");
+    assert_eq!(found, SCENE);
+    // Whoever has only the trace can make it again.
+    assert_eq!(place.run_with(&["scene", "-", "--trace", "again.npz"], found.as_bytes()).code, 0);
+    let read = |name: &str| std::fs::read(place.path(name)).unwrap();
+    assert!(read("file.npz") == read("again.npz"));
+}
+
+#[test]
+fn plucks_push_as_the_scene_has_it() {
+    let place = workplace();
+    assert_eq!(place.run(&["scene", "scene.toml", "--trace", "out.npz"]).code, 0);
+    let found = arrays(&place.path("out.npz"));
+    let times = &found["t"].numbers;
+    for (number, [start, duration, force]) in (1..).zip(PLUCKS) {
+        // As a part of the pluck's force. A sample has the mean from half of one before it to half of one after.
+        let Array { numbers, .. } = &found[&format!("force_pluck_{number}")];
+        let push: Vec<f64> = numbers.iter().map(|number| number / force).collect();
+        let half = 0.5 / RATE;
+        for (&time, &push) in times.iter().zip(&push) {
+            let since = time - start;
+            if since + half <= 0.0 || since - half >= duration {
+                assert_eq!(push, 0.0, "pluck {number} at {time} s");
+            } else {
+                assert!(push > 0.0, "pluck {number} at {time} s");
+            }
+            if since >= half && since + half <= duration {
+                // The mean of f over k is f in the middle to k²/24·max|f″|, here (πk/T)²/48.
+                let exact = 0.5 * (1.0 - (PI * since / duration).cos());
+                let off = (push - exact).abs();
+                assert!(off <= (PI / RATE / duration).powi(2) / 48.0, "pluck {number} at {time} s: {off}");
+            }
+        }
+        // It ends at once where it is strongest: the last whole sample ends less than one before the end, and (1 + cos(πd/T))/2
+        // at d ≤ 2k before it is over 1 − (πk/T)².
+        let peak = largest(push.iter().copied());
+        assert!(peak <= 1.0 && peak >= 1.0 - (PI / RATE / duration).powi(2), "pluck {number}: {peak}");
+        // The mean of a raised cosine is a half; some 100 terms are rounded.
+        let sum = push.iter().sum::<f64>() / RATE;
+        assert!((sum - 0.5 * duration).abs() < 1e-13 * duration, "pluck {number}: {sum} s");
+    }
+}
+
+#[test]
+fn fingers_are_where_the_scene_has_them() {
+    let place = workplace();
+    for every in [1, 7] {
+        let done = place.run(&["scene", "scene.toml", "--trace", "out.npz", "--every", &every.to_string()]);
+        assert_eq!(done.code, 0, "{}", done.error);
+        let found = arrays(&place.path("out.npz"));
+        let (times, slide) = (&found["t"].numbers, &found["x_finger_1"].numbers);
+        assert_eq!(slide.len(), times.len());
+        assert_eq!((slide[0], slide[slide.len() - 1]), (0.15, 0.2));
+        assert!(slide.is_sorted(), "it goes back");
+        for (time, place) in times.iter().zip(slide) {
+            let exact = 0.15 + 0.05 * ((time - 0.004) / 0.012).clamp(0.0, 1.0);
+            // A sample's way is 1e-4 m; a place is rounded a few times.
+            assert!((place - exact).abs() < 1e-15, "{place} m at {time} s");
+        }
+        assert!(found["x_finger_2"].numbers.iter().all(|&place| place == 0.25));
+    }
+}
