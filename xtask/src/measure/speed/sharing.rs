@@ -71,8 +71,8 @@ fn build() -> Result<PathBuf> {
     ensure!(out.status.success(), "low-action cannot be built");
     let text = String::from_utf8_lossy(&out.stdout);
     let messages = text.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
-    let programs = messages.filter_map(|message| message["executable"].as_str().map(PathBuf::from));
-    programs.last().context("cargo does not say where low-action is")
+    let mut programs = messages.filter_map(|message| message["executable"].as_str().map(PathBuf::from));
+    programs.next_back().context("cargo does not say where low-action is")
 }
 
 /// Renders a song; how long that took, s.
