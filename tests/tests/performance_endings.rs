@@ -52,7 +52,7 @@ fn near(found: f64, expected: f64) -> bool {
 
 /// What a finger that holds on presses with when its note has ended, N.
 fn holding(fret: usize) -> f64 {
-    1.25 * GUITAR.strings[0].leaving_forces[fret - 1]
+    1.25 * GUITAR.strings[0].leaving_force(fret)
 }
 
 /// The hands that damp come at once and leave at a time, s.

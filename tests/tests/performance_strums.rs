@@ -76,5 +76,9 @@ fn a_finger_comes_as_fast_as_the_stroke() {
     }
     // The first string is struck at once in the slowest, too; 80 ms are enough for the finger of any other.
     assert_eq!(slowest[5], together[5]);
-    assert!(slowest[..5].iter().all(|&held| held == slowest[0] && held > 2.0 * together[0]), "{slowest:?}");
+    for (string, (slowest, together)) in slowest.iter().zip(together).enumerate().take(5) {
+        // On the low strings one period, which it takes anyhow, is as long as that.
+        let least = if string < 3 { 2.0 } else { 1.0 };
+        assert!(*slowest >= least * together, "string {string}: {slowest} and {together} kg/s");
+    }
 }

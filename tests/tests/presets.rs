@@ -154,7 +154,7 @@ fn a_curved_bridge_makes_the_sound_bloom() {
 }
 
 /// What wraps over the bridge is heard, and stopped notes are in tune up to the twelfth fret of every string. What the bridge
-/// swallows of high notes makes them up to 9.6 dB softer; heard at its end alone they would be up to 50 dB softer.
+/// swallows of high notes makes them up to 11.0 dB softer (10.6 where the finger has been down); heard at its end alone they would be up to 50 dB softer.
 #[test]
 fn a_sitar_is_heard_up_the_neck() {
     let setup = shipped("sitar");
@@ -166,7 +166,7 @@ fn a_sitar_is_heard_up_the_neck() {
             let level = |sound: &[f32]| decibels(rms(&sound[960..24_000]));
             let softer = level(&note(&plain, string, key)) - level(&sound);
             println!("string {string}, fret {fret}: {softer:.1} dB softer");
-            assert!((-1.0..10.0).contains(&softer), "string {string}, fret {fret}: {softer} dB softer");
+            assert!((-1.0..11.5).contains(&softer), "string {string}, fret {fret}: {softer} dB softer");
             let expected = hertz(f64::from(key));
             let off = cents(frequency_near(&sound[4800..48_000], RATE, expected), expected);
             // While it swings a string holds less of the bridge than at rest, which is what fingers are placed for: it sounds

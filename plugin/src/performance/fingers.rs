@@ -4,6 +4,7 @@
 //! held down behind it (`anchor`), so that a pull-off finds it there, or touch the string lightly.
 
 mod excitation;
+mod landing;
 mod leaving;
 mod legato;
 mod sighted;
@@ -46,9 +47,7 @@ impl Finger {
 /// The fingers near one string.
 #[derive(Debug, Clone)]
 pub(crate) struct Fingers {
-    geometry: StringGeometry,
-    leaving_forces: Vec<f64>,
-    fretless: bool,
+    string: PlayedString,
     hands: Player,
     fretting: Option<Finger>,
     /// A finger held down behind the one that sounds.
@@ -77,11 +76,8 @@ pub(crate) struct Fingers {
 impl Fingers {
     /// No finger near the string.
     pub(crate) fn new(string: PlayedString, hands: Player) -> Self {
-        let PlayedString { geometry, leaving_forces, fretless, .. } = string;
         Self {
-            geometry,
-            leaving_forces,
-            fretless,
+            string,
             hands,
             fretting: None,
             anchor: None,
@@ -149,17 +145,12 @@ impl Fingers {
         }
     }
 
-    /// Force under which the string leaves a fret, N.
-    fn leaving_force(&self, fret: usize) -> f64 {
-        fret.checked_sub(1).and_then(|index| self.leaving_forces.get(index)).copied().unwrap_or(0.0)
-    }
-
     /// The factor of tension that raises what sounds by so many semitones. Stopping the string has added to
     /// its tension, which pulling has to outdo: as much as its fret stands nearer to the nut than equal
     /// temperament has it. A tighter string gives way less, so the addition falls about with the root of the
     /// tension (fitted to measured bends).
     pub(crate) fn tension_ratio(&self, semitones: f64) -> f64 {
-        let Self { geometry, .. } = self;
+        let PlayedString { geometry, .. } = &self.string;
         let crown = self.fretting.filter(|finger| !finger.bar).and_then(|finger| {
             let crown = geometry.frets.get(finger.fret.checked_sub(1)?)?;
             Some((geometry.length - crown) / geometry.length * libm::exp2(finger.fret as f64 / 12.0))
@@ -176,7 +167,7 @@ impl Fingers {
 
     /// A capo at this fret on notes to come, 0 for none.
     pub(crate) fn set_capo(&mut self, fret: usize) {
-        self.capo[0] = fret.min(self.geometry.frets.len());
+        self.capo[0] = fret.min(self.string.geometry.frets.len());
     }
 
     /// Fret of the capo on notes to come, 0 for none.
@@ -199,9 +190,9 @@ impl Fingers {
 
     /// Period of the string as it is stopped, or as it will be at a fret (0 for none) if that is longer, s.
     pub(crate) fn period(&self, fret: usize) -> f64 {
-        let length = self.geometry.length;
-        let stopped = length - self.geometry.finger_position(fret.max(self.capo[0]));
-        self.open_period() * (self.sounding_length().max(stopped) / length)
+        let stopped =
+            self.string.geometry.length - self.string.geometry.finger_position(fret.max(self.capo[0]));
+        self.open_period() * (self.sounding_length().max(stopped) / self.string.geometry.length)
     }
 
     /// Whether a finger at a lower fret, not 0, takes over from the one that stops the string.
@@ -211,19 +202,19 @@ impl Fingers {
 
     /// Period of the open string, s.
     fn open_period(&self) -> f64 {
-        1.0 / frequency(self.geometry.open_pitch)
+        1.0 / frequency(self.string.geometry.open_pitch)
     }
 
     /// The palm is to rest so hard on notes to come, 0 to 1, and on one that sounds.
     pub(crate) fn set_palm(&mut self, palm: f64, sounds: bool, at: &mut Moment<impl GestureSink>) {
         let sounding = self.sounding_length();
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
         self.right.set_palm(palm, sounds, &field, at);
     }
 
     /// The string under them.
     pub(crate) fn geometry(&self) -> &StringGeometry {
-        &self.geometry
+        &self.string.geometry
     }
 
     /// Whether a finger stops the string, or the capo.
@@ -252,7 +243,7 @@ impl Fingers {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
         let sounding = self.sounding_length();
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
         self.right.prepare(&field, at);
     }
 
@@ -260,20 +251,20 @@ impl Fingers {
     /// far on purpose (m); none for strokes that strike.
     pub(crate) fn pluck(&self, stroke: Stroke, strength: f64, beside: f64, moved: f64) -> Option<Gesture> {
         let sounding = self.sounding_length();
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
         field.pluck(stroke, strength, beside, moved)
     }
 
     /// The partial that a thumb picks out beside the pluck of a hand that has been moved so far from the saddle, m.
     pub(crate) fn pinched_partial(&self, moved: f64) -> u32 {
         let sounding = self.sounding_length();
-        Field { geometry: &self.geometry, hands: &self.hands, sounding }.pinched_partial(moved)
+        Field { geometry: &self.string.geometry, hands: &self.hands, sounding }.pinched_partial(moved)
     }
 
     /// Length that sounds: from the fretting finger, or the capo, or the nut, to the saddle, m.
     fn sounding_length(&self) -> f64 {
-        let capo = self.geometry.finger_position(self.capo[1]);
-        self.geometry.length - self.fretting.map_or(capo, |finger| self.pressed(&finger))
+        let capo = self.string.geometry.finger_position(self.capo[1]);
+        self.string.geometry.length - self.fretting.map_or(capo, |finger| self.pressed(&finger))
     }
 
     /// Where a finger presses, m from the nut.
@@ -284,8 +275,8 @@ impl Fingers {
     /// Where a finger stops a fret, or a bar lies over it, m from the nut.
     fn place(&self, fret: usize, bar: bool) -> f64 {
         match bar {
-            true => self.geometry.length * (1.0 - libm::exp2(-(fret as f64) / 12.0)),
-            false => self.geometry.finger_position(fret),
+            true => self.string.geometry.length * (1.0 - libm::exp2(-(fret as f64) / 12.0)),
+            false => self.string.geometry.finger_position(fret),
         }
     }
 }

@@ -8,8 +8,10 @@ use low_action_dsp::{Instrument, StringGeometry};
 pub struct PlayedString {
     /// Its pitch, its length and its frets.
     pub geometry: StringGeometry,
-    /// Force of a fretting finger under which the string leaves the fret, N, fret 1 first.
-    pub leaving_forces: Vec<f64>,
+    /// Its tension at rest, N.
+    pub tension: f64,
+    /// How far a finger has to press it down until it touches the fret, m, fret 1 first.
+    pub depths: Vec<f64>,
     /// Whether fingers stop it on a bare board.
     pub fretless: bool,
     /// Whether it is so high that it is stopped by a bar unless something else is asked for.
@@ -24,20 +26,37 @@ impl PlayedString {
         let geometry = instrument.geometry(index).clone();
         // Z² = Tρ.
         let tension = geometry.wave_impedance.powi(2) / setup.string[index].linear_density;
-        let leaving_force = |(fret, &crown): (usize, &f64)| {
-            // The string hangs from nut and saddle in two straight lines that meet under the finger,
-            // so deep that it just touches the crown.
-            let finger = geometry.finger_position(fret + 1);
-            let beyond = geometry.length - finger;
-            let depth = -setup.neck.crown_height(crown) * beyond / (geometry.length - crown);
-            tension * depth * (1.0 / finger + 1.0 / beyond)
+        // The string hangs from nut and saddle in two straight lines that meet under the finger, so deep that it just touches
+        // the crown.
+        let depth = |(fret, &crown): (usize, &f64)| {
+            let beyond = geometry.length - geometry.finger_position(fret + 1);
+            -setup.neck.crown_height(crown) * beyond / (geometry.length - crown)
         };
-        let leaving_forces = geometry.frets.iter().enumerate().map(leaving_force).collect();
+        let depths = geometry.frets.iter().enumerate().map(depth).collect();
         let coil = match setup.pickup {
             Pickup::Magnetic { position, .. } if setup.blend < 0.5 => Some(position),
             _ => None,
         };
         let (fretless, barred) = (setup.neck.fretless, setup.wants_bar());
-        Self { geometry, leaving_forces, fretless, barred, coil }
+        Self { geometry, tension, depths, fretless, barred, coil }
+    }
+
+    /// How far a finger has to press the string down until it touches a fret, m; 0 for the open string.
+    pub fn depth(&self, fret: usize) -> f64 {
+        fret.checked_sub(1).and_then(|index| self.depths.get(index)).copied().unwrap_or(0.0)
+    }
+
+    /// Force of a fretting finger under which the string leaves a fret, N; 0 for the open string.
+    pub fn leaving_force(&self, fret: usize) -> f64 {
+        let depth = self.depth(fret);
+        if depth > 0.0 { self.pull(depth, 0, fret) } else { 0.0 }
+    }
+
+    /// What pulls a finger back that has pressed the string down behind one fret by so much, m, while another (0 for the nut)
+    /// stops it, N.
+    pub(crate) fn pull(&self, depth: f64, stopped: usize, fret: usize) -> f64 {
+        let place = self.geometry.finger_position(fret);
+        let (near, beyond) = (place - self.geometry.finger_position(stopped), self.geometry.length - place);
+        self.tension * depth * (1.0 / near + 1.0 / beyond)
     }
 }

@@ -137,7 +137,7 @@ impl StringPlayer {
                 self.tap(start.fret, strength, &mut at);
             }
         } else {
-            self.fingers.stop(start.fret, stop, start.landing(), &mut at);
+            self.fingers.stop(start.fret, stop, [start.force() * start.haste(), start.haste()], &mut at);
             self.touch_node(start.wait, &mut at);
             if let Some(stilling) = stilling {
                 self.still_before(start.wait, stilling, &mut at);

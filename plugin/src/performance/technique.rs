@@ -60,18 +60,24 @@ pub(crate) const QUICK_LIFT: Leaving = Leaving { speed: 0.5, turning: 0.001 };
 /// How far the finger of the softest note lets the string rise in one of its periods, in which its force turns, m: what takes
 /// a period the string hardly answers. The harder a note, the quicker the finger before it goes.
 pub(crate) const RISE: f64 = 0.001;
-/// How fast fingers are when they play loud: the hand damps the finger that stops the hardest note
-/// this many times less, and one, than the softest. Setting a string down within 10 ms is a hammer-on,
-/// which a loud pluck covers and a soft one does not; setting it down slowly lets the open string be
-/// heard before the stopped one.
-pub(crate) const HASTE: f64 = 5.0;
-/// Time in which the finger of the softest note has set its string down, s: over the 1 mm of most frets at 0.04 m/s.
+/// How much faster a finger is in haste: its hand brakes it this many times less, and one. Setting a string down slowly lets
+/// what is plucked meanwhile leak past the finger: held that lightly at fret 12, half of it within 30 ms.
+pub(crate) const HASTE: f64 = 9.0;
+/// Time in which a finger that is in no hurry has set its string down, s: over the 1 mm of most frets at 0.04 m/s.
 pub(crate) const SETTLING: f64 = 0.03;
-/// How much more the hand holds back the finger of the softest notes, up to the first of these strengths
-/// (velocity 20), and the one from which on it does not (velocity 29): between them the landing would drown
-/// the pluck, and held back more it would come after it.
-pub(crate) const SOFTEST_LANDING: f64 = 0.7;
-pub(crate) const SOFT: (f64, f64) = (0.0625, 0.11);
+/// How hard a note must be for its finger to land as fast as it can (velocity 45): that of a softer one goes down more slowly, by
+/// the square, for its landing would drown the pluck. How slowly at most, as a multiple of what the hand's own damping gives.
+pub(crate) const SOFT_LANDING: f64 = 0.21;
+pub(crate) const SOFTEST_LANDING: f64 = 2.0;
+/// By how much a finger is to be slower than the way to the fret asks for: the string hardly moves before the finger's pad has been
+/// pressed in. Fitted: from 0.97 to 1.2 would be best on frets 3 to 12 of seven strings of four instruments.
+pub(crate) const LANDING_LAG: f64 = 1.13;
+/// Longest time in which the force of a finger that lands rises, as a part of the period: speed is to be constant.
+pub(crate) const LANDING_RISE: f64 = 0.25;
+/// Least way down to a fret that is reckoned with, m.
+pub(crate) const LEAST_WAY: f64 = 1e-5;
+/// The most that a hand brakes a finger that lands, N s/m: what lets go quickly then has to pull with 180 N already.
+pub(crate) const MOST_DAMPING: f64 = 350.0;
 /// How the finger of a note that is over goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Parting {

@@ -17,7 +17,7 @@ impl Fingers {
         let (stop, finger) = match self.fretting {
             Some(finger) if finger.bar => (Stopped::Bar, Some(self.pressed(&finger))),
             Some(finger) => (Stopped::Finger, Some(self.pressed(&finger))),
-            None if capo > 0 => (Stopped::Capo, Some(self.geometry.finger_position(capo))),
+            None if capo > 0 => (Stopped::Capo, Some(self.string.geometry.finger_position(capo))),
             None => (Stopped::Nut, None),
         };
         Excitation { technique, gesture, stop, finger, touch: self.light.map(|_| self.touched), pinched }

@@ -14,21 +14,21 @@ impl Fingers {
     pub(crate) fn damp(&mut self, parting: Parting, at: &mut Moment<impl GestureSink>) {
         let near_saddle = self.hands.damper.position.min(FARTHEST_DAMPER * self.sounding_length());
         for (slot, part) in DAMPERS {
-            self.rest(slot, self.geometry.length - part * near_saddle, at);
+            self.rest(slot, self.string.geometry.length - part * near_saddle, at);
         }
         if let Some(anchor) = self.anchor.take() {
             // It keeps quiet what is behind; it leaves as softly as the other.
             self.depart(anchor.slot, anchor.touch, parting.easing, at);
         } else if self.light.is_none() {
             // Behind the finger, or behind the capo if there is more that could ring.
-            let stopped = self.geometry.length - self.sounding_length();
-            let capo = self.geometry.finger_position(self.capo[1]);
+            let stopped = self.string.geometry.length - self.sounding_length();
+            let capo = self.string.geometry.finger_position(self.capo[1]);
             let (from, to) = if stopped - capo < capo { (0.0, capo) } else { (capo, stopped) };
             if BEHIND_FINGER * (to - from) >= NEAREST_NUT {
                 self.rest(self.next_slot, from + BEHIND_FINGER * (to - from), at);
             }
         }
-        let holding = HOLDING * self.fretting.map_or(0.0, |finger| self.leaving_force(finger.fret));
+        let holding = HOLDING * self.fretting.map_or(0.0, |finger| self.string.leaving_force(finger.fret));
         if holding < self.hands.fretting.force && self.fretting.is_some_and(|finger| !finger.bar) {
             self.ease(holding, parting.relaxing, at);
         }
@@ -56,7 +56,7 @@ impl Fingers {
         }
         self.lift_light(DAMPER_EASING, at);
         let sounding = self.sounding_length();
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
         self.right.leave(&field, at);
     }
 

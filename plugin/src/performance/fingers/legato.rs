@@ -27,7 +27,7 @@ impl Fingers {
             _ if fret == stopped => self.go_on(fret, strength, at),
             Some(duration) => (Technique::Slide, self.slide_to(fret, duration, at)),
             None if fret > stopped && bar => {
-                self.stop(fret, Stop::Bar, strength, at);
+                self.stop(fret, Stop::Bar, [strength, 1.0], at);
                 (Technique::HammerOn, None)
             }
             None if fret > stopped => (Technique::HammerOn, Some(self.hammer(fret, strength, at))),
@@ -141,13 +141,13 @@ impl Fingers {
     /// A finger that stopped the string stays down behind the one that does, just hard enough.
     pub(super) fn hold_behind(&mut self, anchor: Finger, at: &mut Moment<impl GestureSink>) {
         self.anchor = Some(Finger { eased: false, ..anchor });
-        let force = (HOLDING * self.leaving_force(anchor.fret)).min(self.force());
+        let force = (HOLDING * self.string.leaving_force(anchor.fret)).min(self.force());
         at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.0 });
     }
 
     /// Throws a finger at the string behind a fret.
     fn come_down(&mut self, fret: usize, speed: f64, at: &mut Moment<impl GestureSink>) -> Gesture {
-        self.come_down_at(fret, self.geometry.finger_position(fret), speed, at)
+        self.come_down_at(fret, self.string.geometry.finger_position(fret), speed, at)
     }
 
     /// Throws a finger at the string at a place, m from the nut, where it stops a fret.
@@ -201,7 +201,7 @@ impl Fingers {
         duration: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> (i32, Option<Gesture>) {
-        let last = self.geometry.frets.len() as i32;
+        let last = self.string.geometry.frets.len() as i32;
         let first = self.capo[1] as i32 + 1;
         let Some(sliding) = self.slidable() else { return (0, None) };
         let Finger { slot, fret: at_fret, bar, .. } = sliding;
@@ -227,14 +227,14 @@ impl Fingers {
 
     /// Whether nothing keeps the finger on frets, so that it is moved where others pull the string.
     pub(crate) fn glides(&self) -> bool {
-        self.slidable().is_some_and(|finger| finger.bar || self.fretless)
+        self.slidable().is_some_and(|finger| finger.bar || self.string.fretless)
     }
 
     /// Moves a finger that glides to so many semitones from its note, as far as the neck goes. Gives back how many it is
     /// away then.
     pub(crate) fn glide(&mut self, semitones: f64, duration: f64, at: &mut Moment<impl GestureSink>) -> f64 {
         let Some(finger) = self.slidable() else { return 0.0 };
-        let last = self.geometry.frets.len() as f64;
+        let last = self.string.geometry.frets.len() as f64;
         let fret = (finger.fret as f64 + semitones).clamp(0.3, last);
         let reached = fret - finger.fret as f64;
         if semitones == self.glided {
@@ -244,9 +244,9 @@ impl Fingers {
         self.lift_anchor(fret as usize, at);
         // Between two frets the sounding length goes by equal factors.
         let (below, part) = (fret.floor(), fret - fret.floor());
-        let sounding = |fret: f64| self.geometry.length - self.place(fret as usize, finger.bar);
+        let sounding = |fret: f64| self.string.geometry.length - self.place(fret as usize, finger.bar);
         let (long, short) = (sounding(below), sounding((below + 1.0).min(last)));
-        let position = self.geometry.length - long * libm::pow(short / long, part);
+        let position = self.string.geometry.length - long * libm::pow(short / long, part);
         let duration = Self::unhurried(&finger, duration, at);
         at.does(Gesture::Slide { finger: finger.slot, position, duration });
         reached

@@ -1,6 +1,6 @@
 //! How a string comes to be stopped for a note that is plucked, and what stopped it before lets go.
 
-use low_action_dsp::setup::{Fretting, frequency};
+use low_action_dsp::setup::frequency;
 use low_action_dsp::{FingerSlot, Gesture, Touch};
 
 use super::{Finger, Fingers, lifting};
@@ -9,10 +9,16 @@ use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
-    /// Makes way for a note of some strength (0 to 1): dampers off, a finger behind the fret (0: none). One that is there
-    /// already stays. One at a lower fret leaves when the new one has landed, one at a higher fret when the new one stops the
-    /// string behind it, so that the string does not come up in between.
-    pub(crate) fn stop(&mut self, fret: usize, stop: Stop, strength: f64, at: &mut Moment<impl GestureSink>) {
+    /// Makes way for a note of some strength (0 to 1): dampers off, a finger behind the fret (0: none), in haste or not (1 to
+    /// 0). One that is there already stays. One at a lower fret leaves when the new one has landed, one at a higher fret when the
+    /// new one stops the string behind it, so that the string does not come up in between.
+    pub(crate) fn stop(
+        &mut self,
+        fret: usize,
+        stop: Stop,
+        [strength, haste]: [f64; 2],
+        at: &mut Moment<impl GestureSink>,
+    ) {
         self.make_way(at);
         self.lay_capo(at);
         self.home = fret;
@@ -28,7 +34,7 @@ impl Fingers {
         let presses = matches!(stop, Stop::Press | Stop::Harmonic) && fret > self.capo[1];
         match old.filter(|old| presses && !old.bar && old.free.is_none()) {
             Some(old) if old.fret < fret => {
-                self.land(fret, strength, at);
+                self.land(fret, old.fret, [strength, haste], at);
                 return self.depart(old.slot, old.touch, BEHIND_LIFT, at);
             }
             Some(old) => {
@@ -47,7 +53,7 @@ impl Fingers {
             Stop::Mute => self.mute(fret, at),
             _ if fret <= self.capo[1] => {}
             Stop::Bar => self.lay_bar(fret, at),
-            Stop::Press | Stop::Harmonic => self.land(fret, strength, at),
+            Stop::Press | Stop::Harmonic => self.land(fret, self.capo[1], [strength, haste], at),
         }
     }
 
@@ -55,22 +61,12 @@ impl Fingers {
     /// if plucked, by as much as it was pressed down.
     pub(super) fn letting_go(&self, strength: f64) -> Leaving {
         let softness = (1.0 - strength).clamp(0.0, 1.0);
-        let pitch = frequency(self.geometry.open_pitch);
+        let pitch = frequency(self.string.geometry.open_pitch);
         let Leaving { speed, turning } = QUICK_LIFT;
         Leaving {
             speed: (1.0 - softness) * speed + softness * RISE * pitch,
             turning: turning + softness / pitch,
         }
-    }
-
-    /// A finger lands behind a fret, for a note of some strength (0 to 1).
-    fn land(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
-        let Fretting { mut touch, hover, landing, .. } = self.hands.fretting;
-        touch.hand_damping /= (1.0 + HASTE * strength) / softness(strength);
-        let slot = self.take_slot(fret, touch, false);
-        let position = self.geometry.finger_position(fret);
-        at.does(Gesture::Place { finger: slot, touch, position, clearance: hover });
-        at.does(Gesture::Press { finger: slot, force: self.force(), duration: landing });
     }
 
     /// A finger that has eased off presses again.
@@ -91,10 +87,4 @@ impl Fingers {
         self.fretting = Some(Finger { slot, fret, touch, eased: false, bar, arrives: 0, free: None });
         slot
     }
-}
-
-/// How much more the hand holds the finger of a very soft note back (strength 0 to 1), so that its landing is
-/// not louder than the pluck.
-fn softness(strength: f64) -> f64 {
-    1.0 + SOFTEST_LANDING * ((SOFT.1 - strength) / (SOFT.1 - SOFT.0)).clamp(0.0, 1.0)
 }

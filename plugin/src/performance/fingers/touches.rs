@@ -16,7 +16,7 @@ impl Fingers {
             return;
         }
         let sounding = self.sounding_length();
-        let position = self.geometry.length - sounding + sounding / f64::from(order.max(2));
+        let position = self.string.geometry.length - sounding + sounding / f64::from(order.max(2));
         self.touch_lightly(position, NODE_TOUCH, at);
     }
 
@@ -30,15 +30,15 @@ impl Fingers {
     /// A finger rests on the string over a fret, or where a hand would lie over an open string.
     pub(super) fn mute(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
         let position = match fret > self.capo[1] {
-            true => self.geometry.finger_position(fret),
-            false => MUTED_OPEN * self.geometry.length,
+            true => self.string.geometry.finger_position(fret),
+            false => MUTED_OPEN * self.string.geometry.length,
         };
         self.touch_lightly(position, MUTE, at);
     }
 
     fn touch_lightly(&mut self, position: f64, times: f64, at: &mut Moment<impl GestureSink>) {
         let sounding = self.sounding_length();
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
         let (touch, force) = field.matched(times);
         // Where another finger has just stopped the string, the next slot is the one of the finger before it, which
         // is still on its way up; the dampers are not.
@@ -74,7 +74,7 @@ impl Fingers {
     /// What a bar presses a string with over a fret, N: its weight, or less where the string would touch the
     /// fret.
     pub(super) fn bar_force(&self, fret: usize) -> f64 {
-        (BAR_SHARE * self.leaving_force(fret)).min(BAR_WEIGHT)
+        (BAR_SHARE * self.string.leaving_force(fret)).min(BAR_WEIGHT)
     }
 
     /// Sees to it that the capo is where it should be.
@@ -89,7 +89,7 @@ impl Fingers {
             return;
         }
         if wanted != there {
-            let position = self.geometry.finger_position(wanted);
+            let position = self.string.geometry.finger_position(wanted);
             at.does(Gesture::Place { finger: CAPO, touch, position, clearance: self.hands.fretting.hover });
         }
         let force = self.hands.fretting.force;
@@ -99,7 +99,7 @@ impl Fingers {
     /// The capo of a string that is being damped holds it just so. (It goes with the fingers when the string has come to rest:
     /// nothing is computed for a string that nobody plays.)
     pub(super) fn relax_capo(&mut self, duration: f64, at: &mut Moment<impl GestureSink>) {
-        let force = HOLDING * self.leaving_force(self.capo[1]);
+        let force = HOLDING * self.string.leaving_force(self.capo[1]);
         if self.capo[1] > 0 && force < self.hands.fretting.force {
             at.does(Gesture::Press { finger: CAPO, force, duration });
         }
@@ -123,7 +123,7 @@ impl Fingers {
     /// The thumb is thrown at the string, how hard, 0 to 1; gives back the throw.
     pub(crate) fn slap(&mut self, strength: f64, at: &mut Moment<impl GestureSink>) -> Gesture {
         let sounding = self.sounding_length();
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
         self.right.slap(strength, &field, at)
     }
 
@@ -135,21 +135,21 @@ impl Fingers {
     /// The thumb grazes the string beside the plectrum, at a node of this partial.
     pub(crate) fn graze(&mut self, partial: u32, at: &mut Moment<impl GestureSink>) {
         let sounding = self.sounding_length();
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
         self.right.graze(partial, &field, at);
     }
 
     /// It leaves, and the palm comes back if it was there.
     pub(crate) fn leave_graze(&mut self, at: &mut Moment<impl GestureSink>) {
         let sounding = self.sounding_length();
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
         self.right.leave_graze(&field, at);
     }
 
     /// The palm comes back after a slap if it was there.
     pub(crate) fn lay_palm(&mut self, at: &mut Moment<impl GestureSink>) {
         let sounding = self.sounding_length();
-        let field = Field { geometry: &self.geometry, hands: &self.hands, sounding };
+        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
         self.right.lay_again(&field, at);
     }
 }

@@ -41,10 +41,10 @@ impl Start {
         self.strength * self.deviation.force * self.manner.force * self.accent
     }
 
-    /// How hard its finger comes, 1 for the hardest velocity. One that came as fast as for a stroke at once would be heard before
-    /// a stroke that has yet to go to its string; one that has the time takes it.
-    pub(super) fn landing(&self) -> f64 {
-        self.force() * (1.0 - self.wait / SETTLING).clamp(0.0, 1.0)
+    /// In what haste its finger comes, 0 to 1. One that came as fast as for a stroke at once would be heard before a stroke that
+    /// has yet to go to its string; one that has the time takes it.
+    pub(super) fn haste(&self) -> f64 {
+        (1.0 - self.wait / SETTLING).clamp(0.0, 1.0)
     }
 }
 
