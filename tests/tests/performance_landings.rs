@@ -1,6 +1,7 @@
 //! The promise: a note is as loud where its finger has yet to land as where it is down already. What sets the string down takes
 //! whole periods of what sounds, and so takes up again what it sends along the string.
 
+use low_action_dsp::Setup;
 use low_action_tests::numbers::largest;
 use low_action_tests::stage::{Stage, level, off, on};
 
@@ -8,6 +9,7 @@ const RATE: f64 = 48_000.0;
 /// When the string sounds no more of a note too soft to be heard, and its finger is down, s.
 const DOWN: f64 = 0.5;
 
+const FRETS: [u8; 8] = [1, 2, 3, 5, 7, 9, 12, 15];
 /// Set-up, string, its open key.
 const STRINGS: [(&str, usize, u8); 10] = [
     ("electric", 0, 64),
@@ -48,7 +50,7 @@ fn a_finger_that_lands_makes_a_note_no_louder_and_no_softer() {
         let mut found = Vec::new();
         for (setup, string, open) in STRINGS {
             let mut stage = Stage::alone(setup, string);
-            for fret in [1, 2, 3, 5, 7, 9, 12, 15] {
+            for fret in FRETS {
                 let key = open + fret;
                 let lands = heard(&mut stage, &[(0.0, key, velocity)]);
                 let stays = heard(&mut stage, &[(0.0, key, 1), (DOWN, key, velocity)]);
@@ -64,4 +66,29 @@ fn a_finger_that_lands_makes_a_note_no_louder_and_no_softer() {
     }
     let page = include_str!("../../docs/gestures.md");
     assert!(page.contains(&rows), "docs/gestures.md has other numbers than\n{rows}");
+}
+
+/// By itself: under a plectrum without force. (In times of their own fingers were heard 10 dB below the pluck on average, and
+/// some as loud.)
+#[test]
+fn a_finger_that_lands_is_hardly_heard_by_itself() {
+    let mut found = Vec::new();
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        let mut setup = Setup::shipped(setup).expect("it comes with the program");
+        setup.player.pluck_force = 1e-3;
+        let mut soft = Stage::new(&Setup { string: vec![setup.string[string].clone()], ..setup });
+        for fret in FRETS {
+            let key = open + fret;
+            let plucked = heard(&mut stage, &[(0.0, key, 1), (DOWN, key, 64)]);
+            found.push(plucked - heard(&mut soft, &[(0.0, key, 64)]));
+        }
+    }
+    let least = found.iter().copied().fold(f64::INFINITY, f64::min);
+    let mean = found.iter().sum::<f64>() / found.len() as f64;
+    assert!(least > 3.0 && mean > 15.0, "{least} dB below the pluck at least, {mean} on average");
+    let sentence =
+        format!("is {mean:.0} dB below a pluck of velocity 64 on average, and {least:.0} at least");
+    let page = include_str!("../../docs/gestures.md");
+    assert!(page.contains(&sentence), "docs/gestures.md does not say: {sentence}");
 }

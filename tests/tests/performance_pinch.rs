@@ -42,8 +42,8 @@ fn the_place_of_the_hand_chooses_the_partial() {
         let touched = sounding / (length - touched(&gestures));
         assert!((touched - partial as f64).abs() < 1e-9, "74 = {place}: the thumb is at 1/{touched}");
         // Others lose 40 ms under a thumb that takes up what they send it. Nearest come those that move least there: the
-        // first, and one beside that which is picked out: the 6th moves by sin(π/7) there, 0.43 of its most, and is 3.5 dB below the 7th;
-        // at all other places they are 7 dB and more below.
+        // first, and one beside that which is picked out: the 6th moves by sin(π/7) there, 0.43 of its most, and is 3.5 dB
+        // below the 7th; at all other places they are 7 dB and more below.
         for (other, level) in (1..).zip(&levels).filter(|&(other, _)| other % partial != 0) {
             let below = levels[partial - 1] - level;
             assert!(below > 3.0, "74 = {place}: partial {other} is {below} dB below the {partial}th");

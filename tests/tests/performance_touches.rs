@@ -80,8 +80,8 @@ fn a_stopped_harmonic_is_no_louder_after_another_note() {
             decibels(peak(&stage.play(&events, start + 0.3).strings[0][at(start)..]))
         };
         let alone = harmonic(0.5, &mut stage, &[]);
-        // A finger that still presses behind another fret must leave by itself. (Alone the new one sets the string down from farther
-        // up, which is some of the peak: 3.6 dB on fret 9.)
+        // A finger that still presses behind another fret must leave by itself. (Alone the new one sets the string down from
+        // farther up, which is some of the peak: 3.6 dB on fret 9.)
         let after = harmonic(0.5, &mut stage, &[(0.0, on(64 + fret - 1, 40))]);
         assert!(
             (-5.0..3.0).contains(&(after - alone)),

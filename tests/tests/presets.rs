@@ -154,7 +154,8 @@ fn a_curved_bridge_makes_the_sound_bloom() {
 }
 
 /// What wraps over the bridge is heard, and stopped notes are in tune up to the twelfth fret of every string. What the bridge
-/// swallows of high notes makes them up to 11.0 dB softer (10.6 where the finger has been down); heard at its end alone they would be up to 50 dB softer.
+/// swallows of high notes makes them up to 11.0 dB softer (10.6 where the finger has been down); heard at its end alone they would
+/// be up to 50 dB softer.
 #[test]
 fn a_sitar_is_heard_up_the_neck() {
     let setup = shipped("sitar");

@@ -190,9 +190,17 @@ impl Fingers {
 
     /// Period of the string as it is stopped, or as it will be at a fret (0 for none) if that is longer, s.
     pub(crate) fn period(&self, fret: usize) -> f64 {
-        let stopped =
-            self.string.geometry.length - self.string.geometry.finger_position(fret.max(self.capo[0]));
-        self.open_period() * (self.sounding_length().max(stopped) / self.string.geometry.length)
+        self.stopped_period(fret.max(self.capo[0])).max(self.period_of(self.sounding_length()))
+    }
+
+    /// Period of the string stopped at a fret, 0 for the open string, s.
+    fn stopped_period(&self, fret: usize) -> f64 {
+        self.period_of(self.string.geometry.length - self.string.geometry.finger_position(fret))
+    }
+
+    /// Period of a part of the string so long, m, in s.
+    fn period_of(&self, sounding: f64) -> f64 {
+        self.open_period() * (sounding / self.string.geometry.length)
     }
 
     /// Whether a finger at a lower fret, not 0, takes over from the one that stops the string.

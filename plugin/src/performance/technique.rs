@@ -61,7 +61,7 @@ pub(crate) const QUICK_LIFT: Leaving = Leaving { speed: 0.5, turning: 0.001 };
 /// a period the string hardly answers. The harder a note, the quicker the finger before it goes.
 pub(crate) const RISE: f64 = 0.001;
 /// How much faster a finger is in haste: its hand brakes it this many times less, and one. Setting a string down slowly lets
-/// what is plucked meanwhile leak past the finger: held that lightly at fret 12, half of it within 30 ms.
+/// what is plucked meanwhile leak past the finger: held that lightly at fret 12, up to 9 dB of it in 20 ms.
 pub(crate) const HASTE: f64 = 9.0;
 /// Time in which a finger that is in no hurry has set its string down, s: over the 1 mm of most frets at 0.04 m/s.
 pub(crate) const SETTLING: f64 = 0.03;
@@ -70,7 +70,7 @@ pub(crate) const SETTLING: f64 = 0.03;
 pub(crate) const SOFT_LANDING: f64 = 0.21;
 pub(crate) const SOFTEST_LANDING: f64 = 2.0;
 /// By how much a finger is to be slower than the way to the fret asks for: the string hardly moves before the finger's pad has been
-/// pressed in. Fitted: from 0.97 to 1.2 would be best on frets 3 to 12 of seven strings of four instruments.
+/// pressed in. Fitted: from 1.08 to 1.17 would be best on frets 3 to 12 of seven strings of four instruments.
 pub(crate) const LANDING_LAG: f64 = 1.13;
 /// Longest time in which the force of a finger that lands rises, as a part of the period: speed is to be constant.
 pub(crate) const LANDING_RISE: f64 = 0.25;

@@ -52,10 +52,4 @@ impl Fingers {
         let touch = self.hands.fretting.touch;
         (depth + libm::pow(pull / touch.stiffness, 1.0 / touch.exponent), pull)
     }
-
-    /// Period of the string stopped at a fret, s.
-    fn stopped_period(&self, fret: usize) -> f64 {
-        let length = self.string.geometry.length;
-        self.open_period() * (length - self.string.geometry.finger_position(fret)) / length
-    }
 }
