@@ -160,12 +160,33 @@ impl ContactLaw {
     /// φ(η) and Φ(η).
     #[inline(always)]
     fn stored(&self, penetration: f64) -> (f64, f64) {
-        if penetration > self.knee { self.straight(penetration) } else { self.curved(penetration) }
+        self.stored_from(penetration, self.root(penetration))
+    }
+
+    /// The same where the [root](ContactLaw::root) is known.
+    #[inline(always)]
+    fn stored_from(&self, penetration: f64, root: f64) -> (f64, f64) {
+        if penetration > self.knee { self.straight(penetration) } else { self.curved_from(penetration, root) }
     }
 
     /// K\[η\]₊^α and K\[η\]₊^(α+1)/(α+1).
     #[inline(always)]
     fn curved(&self, penetration: f64) -> (f64, f64) {
+        self.curved_from(penetration, self.root(penetration))
+    }
+
+    /// √\[η\]₊ where the powers are made of it, and otherwise 0.
+    #[inline(always)]
+    fn root(&self, penetration: f64) -> f64 {
+        match self.power {
+            Power::ThreeHalves | Power::FiveHalves => penetration.max(0.0).sqrt(),
+            Power::One | Power::Two | Power::Three | Power::General => 0.0,
+        }
+    }
+
+    /// As [`curved`](ContactLaw::curved) where the [root](ContactLaw::root) is known.
+    #[inline(always)]
+    fn curved_from(&self, penetration: f64, root: f64) -> (f64, f64) {
         if penetration <= 0.0 {
             return (0.0, 0.0);
         }
@@ -173,9 +194,9 @@ impl ContactLaw {
         // (What takes long, a root or a power, is multiplied by last: nothing else then waits for it.)
         let (whole, last) = match self.power {
             Power::One => (e, 1.0),
-            Power::ThreeHalves => (e, e.sqrt()),
+            Power::ThreeHalves => (e, root),
             Power::Two => (e * e, 1.0),
-            Power::FiveHalves => (e * e, e.sqrt()),
+            Power::FiveHalves => (e * e, root),
             Power::Three => (e * e * e, 1.0),
             Power::General => (1.0, libm::pow(e, self.exponent)),
         };

@@ -118,7 +118,7 @@ pub struct Before {
     pub penetration: f64,
     /// Φ(ηⁿ⁻¹), J.
     pub energy: f64,
-    /// √\[ηⁿ⁻¹\]₊, m^½.
+    /// √\[ηⁿ⁻¹\]₊, m^½, where the law asks for it.
     root: f64,
 }
 
@@ -129,7 +129,8 @@ impl Before {
     /// The past of a contact of the given law.
     #[inline(always)]
     pub fn new(law: &ContactLaw, penetration: f64) -> Self {
-        Before { penetration, energy: law.energy(penetration), root: penetration.max(0.0).sqrt() }
+        let root = law.root(penetration);
+        Before { penetration, energy: law.stored_from(penetration, root).1, root }
     }
 }
 
