@@ -55,7 +55,7 @@ pub const MOST_CLEARANCE: f64 = 10.0;
 /// Something a hand does to one string.
 ///
 /// A place beyond the string stands for the nearest on it, one that is no number for its middle. Durations have no upper limit
-/// (and a string does not sleep before they are over); but for plucks, one below 0 or that is no number is at once.
+/// (and a string does not sleep before they are over); but for plucks and stilling, one below 0 or that is no number is at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Gesture {
     /// A raised-cosine push of a point of the string that ends in a sudden release, equation \[4\]. Left out while as many as
@@ -122,7 +122,8 @@ pub enum Gesture {
         duration: f64,
     },
     /// Lays a hand along the whole string, so softly that it presses it nowhere and only brakes it: for a while the loss σ₀ of the
-    /// string is raised. It takes the place of one that is there. Left out where its loss is below 0, or it is not finite.
+    /// string is raised. It takes the place of one that is there. Left out where its loss is below 0, or its loss or its duration is
+    /// not finite.
     Still {
         /// What it adds to the loss, 1/s, up to what brings the string to rest in a step.
         loss: f64,
@@ -131,8 +132,8 @@ pub enum Gesture {
     },
     /// Changes the string's tension along a smooth ramp (a bend or a tremolo arm).
     Bend {
-        /// Tension at the end of the ramp as a multiple of the string's own; limited to what the
-        /// string's grid was built for.
+        /// Tension at the end of the ramp as a multiple of the string's own, 0.05 at least and at most what the string's grid
+        /// was built for; one that is not finite is 1.
         tension_ratio: f64,
         /// Length of the ramp, s.
         duration: f64,

@@ -81,7 +81,8 @@ impl Instrument {
     /// Builds an instrument: tunes strings, places frets, compiles models, allocates.
     ///
     /// # Errors
-    /// When a value is out of range, or a string is too short for its grid at this sample rate.
+    /// When a value is out of range, a string cannot be [tuned](crate::intonation::intonate), or a contact or a pad is too stiff
+    /// for this sample rate.
     pub fn new(setup: &Setup, settings: &EngineSettings) -> Result<Instrument, Error> {
         setup.check()?;
         settings.check()?;

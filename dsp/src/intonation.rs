@@ -53,7 +53,8 @@ const PITCH_TOLERANCE: f64 = 1e-6;
 /// place found is kept.
 ///
 /// # Errors
-/// When the string is too short for its grid or a contact too stiff for the sample rate.
+/// When the string is too short for its grid, its density asks for too much or too little tension, it is too stiff to sound so low,
+/// or a contact is too stiff for the sample rate.
 pub fn intonate(
     setup: &Setup,
     string: &SetupString,

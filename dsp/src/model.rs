@@ -101,6 +101,9 @@ impl Model {
     }
 
     /// The finest grid on which the scheme is stable up to the tension limit.
+    ///
+    /// # Errors
+    /// When the string is too short for a grid of the least number of intervals at this time step.
     pub fn grid(string: &StringParameters, stencil: Stencil, time_step: f64) -> Result<Grid, Error> {
         let kappa = string.kappa_squared();
         let fits = |length: f64, intervals: usize| {
@@ -190,7 +193,7 @@ impl Model {
     /// The law of a finger's pad.
     ///
     /// # Errors
-    /// When the pad is too stiff to be told from rounding at this rate.
+    /// When its stiffness or exponent is out of range, or it is too stiff to be told from rounding at this rate.
     pub fn finger_law(&self, touch: &Touch) -> Result<ContactLaw, Error> {
         let law = ContactLaw::new("finger", touch.stiffness, touch.exponent)?;
         self.law_if_soft(&law, touch)

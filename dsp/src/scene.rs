@@ -59,7 +59,7 @@ impl Scene {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SolverSettings {
-    /// Newton iterations at most in a solution, 0 to 1000; seldom a sample needs more than one. Passive at every cap, even 0.
+    /// Newton iterations at most in a solution, 0 to 1000; few samples need more than one solution. Passive at every cap, even 0.
     pub max_iterations: usize,
     /// Largest error of a penetration at which the iteration may stop, m, 0 to 1e-3.
     pub tolerance: f64,

@@ -206,7 +206,7 @@ impl State {
     /// was in the slot is taken away.
     ///
     /// # Errors
-    /// When the place is off the string or the pad too stiff for this rate.
+    /// When the place is off the string, or the pad's stiffness or exponent is out of range or too stiff for this rate.
     ///
     /// # Panics
     /// When the model has no such slot.

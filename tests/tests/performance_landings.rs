@@ -38,7 +38,7 @@ fn heard(stage: &mut Stage, notes: &[(f64, u8, u8)]) -> f64 {
     level(&sound[((start + 0.02) * RATE) as usize..])
 }
 
-/// (A finger that comes down in any other time is heard half as loud as the pluck and more; how the two fall together made 3 dB
+/// (A finger that comes down in any other time is heard a third as loud as the pluck, and as loud at worst; how the two fall together made 3 dB
 /// root mean square at every velocity. What is left at velocity 20 is that: the finger needs a tenth of a second to be as soft as
 /// that pluck, and lets the string leak past it meanwhile. The hand that stills the string for the second note is 0.8 dB of it.)
 #[test]

@@ -18,8 +18,8 @@ pub struct Contact {
     pub damping: f64,
     /// Height of the barrier, m, when the model is made.
     pub height: f64,
-    /// What waves too short for the grid take away from a contact that has just been made, N s/m; 0 where frets act on grid
-    /// points alone.
+    /// What waves too short for the grid take away from a contact that has just been made, N s/m; 0 for all but frets
+    /// between grid points round which the string bends.
     pub radiation: f64,
     /// What it is.
     pub kind: ContactKind,

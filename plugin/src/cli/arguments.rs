@@ -123,10 +123,11 @@ the arrays over time belongs to its time t: the state there, the forces and powe
 the energies half a sample later.
   t                            s
   x_S, u_S                     m; places, and displacements over time and there
-  u_finger_N                   m
+  u_finger_N, x_finger_N       m; heights, and places
   tension_S                    N; what stretching adds included
   force_board_S, force_fret_S_F,
   force_finger_N               N
+  force_pluck_N                N; the push of each pluck
   output                       m/s or N, as the scene's [output] asks
   iterations                   of the contact solver, all strings together
   energy_string, energy_tension,
@@ -139,6 +140,7 @@ the energies half a sample later.
   power_in_pluck, power_in_hand, power_in_slide,
   power_in_tension             W; the terms of power_in
   residual                     J in that sample: what the balance leaves over
+  scene                        the text of the scene
 
 The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to \
 1e-9 of the largest energy, or of what was put in where that is more, beside what rounding can do.

@@ -87,7 +87,7 @@ impl Reference {
             let squares = heard.iter().zip(reference).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
             squares / power
         };
-        // A pluck ends with a sample, so a coarse grid lets go some microseconds early or late.
+        // Filters and half steps have sounds of different rates some microseconds early or late.
         let tried: Vec<f64> = (-DELAYS..=DELAYS).map(|step| error(f64::from(step) * DELAY)).collect();
         let best = (1..tried.len() - 1).min_by(|a, b| tried[*a].total_cmp(&tried[*b])).unwrap_or(1);
         let [left, middle, right] = [tried[best - 1], tried[best], tried[best + 1]];
