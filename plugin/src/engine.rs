@@ -277,6 +277,16 @@ impl Engine {
     /// Silence, hands off, pedals up, wheels in the middle, sample 0.
     pub fn reset(&mut self) {
         self.performance.reset();
+        self.forget();
+    }
+
+    /// The same, but what those who play announce once stays as it is: capo, keyswitches, the reach of wheels, MPE.
+    pub fn restart(&mut self) {
+        self.performance.restart();
+        self.forget();
+    }
+
+    fn forget(&mut self) {
         self.instrument.reset();
         self.waiting.clear();
         self.lost = 0;

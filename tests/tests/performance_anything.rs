@@ -68,6 +68,9 @@ fn any_event() -> impl Strategy<Value = PlayerEvent> {
             .prop_map(|(channel, value)| PlayerEvent::PitchBend { channel, value }),
         1 => (channel.clone(), 24..90_u8, any_expression(unit.clone(), turn))
             .prop_map(|(channel, key, expression)| PlayerEvent::Note { channel, key, expression }),
+        1 => (prop::option::of(channel.clone()), prop::option::of(24..90_u8), any_expression(unit.clone(), -1e10..1e10_f32))
+            .prop_map(|(channel, key, expression)| PlayerEvent::Notes { channel, key, expression }),
+        2 => (channel.clone(), 24..90_u8).prop_map(|(channel, key)| PlayerEvent::NoteEnd { channel, key }),
         1 => (channel, unit).prop_map(|(channel, pressure)| PlayerEvent::ChannelPressure { channel, pressure }),
         // There are four to six strings; others are ignored.
         3 => (0..7_u8, any_deed()).prop_map(|(string, deed)| PlayerEvent::Touched { string, deed }),

@@ -300,3 +300,48 @@ fn a_strum_of_all_channels_is_one_in_whatever_order_its_notes_come() {
         assert_eq!(found, way);
     }
 }
+
+/// A keyswitch for a string is a key: what lets go of all keys lets go of it.
+#[test]
+fn letting_go_of_all_keys_lets_go_of_keyswitches() {
+    let touching = Touching { keyswitches: Some(12), ..Touching::default() };
+    // The twelve for ways of playing are followed by one for each string: the last one's.
+    const SWITCH: u8 = 12 + 12 + 5;
+    let string_of = |between: &[(u64, PlayerEvent)]| {
+        let asked = (0, on(SWITCH, 90));
+        let all: Vec<_> =
+            [asked].into_iter().chain(between.iter().copied()).chain([(4_800, on(52, 90))]).collect();
+        plucks(&hands(InputMode::Keyboard, touching, &all))[0].1
+    };
+    let asked = string_of(&[]);
+    let free = string_of(&[(100, off(SWITCH))]);
+    assert_ne!(asked, free);
+    for message in [123, 120] {
+        assert_eq!(string_of(&[(100, cc(message, 0))]), free, "{message}");
+    }
+    assert_eq!(string_of(&[(100, control(3, 123, 0))]), asked, "another channel's keys");
+}
+
+/// One event is as good as one for each note that it means.
+#[test]
+fn what_is_said_of_all_notes_is_said_of_each() {
+    let begin = [(0, note(1, 55)), (0, note(2, 60)), (0, note(2, 64))];
+    let expression = Expression::Tuning(0.5);
+    let bends = |said: &[(u64, PlayerEvent)]| {
+        let all: Vec<_> = begin.iter().chain(said).copied().collect();
+        let bends = keyboard(&all).into_iter().filter(|g| matches!(g.gesture, Gesture::Bend { .. }));
+        let mut strings: Vec<_> = bends.map(|g| (g.string, g.time)).collect();
+        strings.sort_unstable();
+        strings
+    };
+    let each = |keys: &[(u8, u8)]| {
+        let one = |&(channel, key): &(u8, u8)| (9_600, PlayerEvent::Note { channel, key, expression });
+        bends(&keys.iter().map(one).collect::<Vec<_>>())
+    };
+    let all = |channel, key| bends(&[(9_600, PlayerEvent::Notes { channel, key, expression })]);
+    assert_eq!(each(&[(1, 55), (2, 60), (2, 64)]).len(), 3);
+    assert_eq!(all(None, None), each(&[(1, 55), (2, 60), (2, 64)]));
+    assert_eq!(all(Some(2), None), each(&[(2, 60), (2, 64)]));
+    assert_eq!(all(None, Some(60)), each(&[(2, 60)]));
+    assert_eq!(all(Some(1), Some(60)), []);
+}

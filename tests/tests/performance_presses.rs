@@ -141,3 +141,32 @@ proptest! {
         prop_assert!(!any_left(&gestures), "a finger is left");
     }
 }
+
+/// A host that chokes a note wants it to end, whatever its pedals say.
+#[test]
+fn a_choke_ends_a_note_that_a_pedal_keeps() {
+    let choke = |time| (time, PlayerEvent::NoteEnd { channel: 0, key: KEY });
+    for pedal in [64, 66] {
+        // While the key is down, and when it is up already.
+        let down = [press(0), (10, cc(pedal, 127)), choke(WHILE)];
+        assert_eq!(ends(&play(&down)), [WHILE], "pedal {pedal}");
+        let up = [press(0), (10, cc(pedal, 127)), release(5_000), choke(WHILE)];
+        assert_eq!(ends(&play(&up)), [WHILE], "pedal {pedal}, the key up");
+    }
+    // Struck twice, it ends once and for all.
+    let mut player = GUITAR.player(EXACT);
+    play_by(&mut player, &[press(0), press(100), choke(WHILE)]);
+    assert!(!player.sounds(0, KEY));
+}
+
+/// As the damper of a piano's string stays up, however often its key is struck under the pedal.
+#[test]
+fn the_sostenuto_pedal_holds_a_key_that_is_struck_again() {
+    let mut player = GUITAR.player(EXACT);
+    let events = [press(0), (4_000, cc(66, 127)), release(8_000), press(WHILE), release(2 * WHILE)];
+    play_by(&mut player, &events);
+    assert!(player.sounds(0, KEY));
+    let up = (5 * WHILE + 4 * WHILE, cc(66, 0));
+    play_by(&mut player, &[up]);
+    assert!(!player.sounds(0, KEY));
+}

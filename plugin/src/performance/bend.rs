@@ -114,13 +114,13 @@ impl Bend {
         let (reached, moved);
         let mut taken = BEND_RAMP;
         if fingers.glides() {
-            let goal = asked + swing;
+            let goal = fingers.can_glide(asked + swing);
             taken = duration(goal - self.glided);
             moved = fingers.glide(goal, taken, at);
             reached = moved - swing;
             self.glided = goal;
         } else {
-            let wanted = if asked.abs() > most { asked.round() as i32 } else { 0 };
+            let wanted = fingers.can_slide(if asked.abs() > most { asked.round() as i32 } else { 0 });
             if wanted != self.slid {
                 taken = duration(f64::from(wanted - self.slid));
                 self.slid = fingers.slide(wanted, taken, at).0;

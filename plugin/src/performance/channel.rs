@@ -139,6 +139,11 @@ impl Channel {
         (self.pedal, self.sostenuto) = (false, false);
     }
 
+    /// What was announced before goes on: how far the wheel reaches, and the channels of MPE.
+    pub(crate) fn keep_announced(&mut self, before: &Self) {
+        (self.range, self.announced, self.members) = (before.range, before.announced, before.members);
+    }
+
     /// Back to rest.
     pub(crate) fn reset(&mut self) {
         *self = Self { ignores_range: self.ignores_range, ..Self::new(self.usual_range) };

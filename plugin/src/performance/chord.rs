@@ -214,6 +214,7 @@ impl Performance {
             velocity,
             asked,
             presses,
+            caught: false,
             fret,
             strength: self.touching.strength(velocity),
             deviation: self.variation.next(),
@@ -264,7 +265,7 @@ impl Performance {
                 self.uses[placement.string] = Use::Untouchable;
                 self.placements[index] = Some(placement);
                 self.count_move(before, self.chord[index].wanted.is_moved());
-            } else if self.late.len() < LARGEST_CHORD {
+            } else if self.late.len() < LARGEST_CHORD && self.can_come(&struck.wanted) {
                 late += 1;
                 let time = self.now + (f64::from(late) * ARPEGGIO * self.sample_rate).round() as u64;
                 self.compromises.arpeggiated += u64::from(!struck.waited);
@@ -274,6 +275,14 @@ impl Performance {
                 self.compromises.left_out += 1;
             }
         }
+    }
+
+    /// Whether any string gives a note in some octave; the instrument may have changed since it was asked for.
+    fn can_come(&self, wanted: &Wanted) -> bool {
+        octaves(wanted.pitch).any(|pitch| {
+            let moved = Wanted { pitch, ..*wanted };
+            (0..self.strings.len()).any(|string| self.hand.fret(&moved, string).is_some())
+        })
     }
 
     /// The nearest octave of a note that a free string gives, on the one nearest to the hand.

@@ -28,6 +28,8 @@ pub enum InputMode {
 /// Semitones of a full turn of the wheel in MPE, while no other range is announced: of a note's own
 /// channel, and of the one that bends all.
 const MPE_RANGES: (f64, f64) = (48.0, 2.0);
+/// The widest tuning of a note that is taken at its word, semitones: as far as hosts go.
+const WIDEST: f64 = 120.0;
 /// The channel that acts on all in MPE.
 pub(super) const MANAGER: u8 = 0;
 
@@ -110,6 +112,10 @@ impl Performance {
             Request::Capo(fret) => return self.set_capo(usize::from(fret)),
             Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),
             Request::ReleaseKeys | Request::Silence => {
+                // A keyswitch is a key, too.
+                for own in &mut self.channels {
+                    own.forced = own.forced.filter(|&(_, by)| by != number && !acts_on_all);
+                }
                 self.late.retain(|late| late.struck.wanted.channel != number && !acts_on_all);
             }
             _ => {}
@@ -181,7 +187,7 @@ impl Performance {
     }
 
     /// A capo goes to a fret of all strings, 0 for none, as soon as each is played.
-    fn set_capo(&mut self, fret: usize) {
+    pub(super) fn set_capo(&mut self, fret: usize) {
         self.hand.set_capo(fret);
         let fret = self.hand.capo();
         self.strings.iter_mut().for_each(|string| string.set_capo(fret));
@@ -205,7 +211,7 @@ impl Performance {
             .find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
         if let Some(Struck { manner, .. }) = struck {
             match expression {
-                Expression::Tuning(semitones) => manner.tuning = value(semitones),
+                Expression::Tuning(semitones) => manner.tuning = value(semitones).clamp(-WIDEST, WIDEST),
                 Expression::Pressure(pressure) => manner.pressure = pressure_factor(pressure),
                 Expression::Brightness(part) => {
                     manner.place = (1.0 - 2.0 * value(part).clamp(0.0, 1.0)) * BRIGHTNESS_REACH;
@@ -218,7 +224,7 @@ impl Performance {
             return;
         }
         let own = match expression {
-            Expression::Tuning(semitones) => Own::Tuning(value(semitones)),
+            Expression::Tuning(semitones) => Own::Tuning(value(semitones).clamp(-WIDEST, WIDEST)),
             Expression::Pressure(pressure) => Own::Pressure(pressure_factor(pressure)),
             Expression::FingerForce(factor) => Own::Pressure(value(factor).clamp(0.0, 100.0)),
             Expression::Vibrato(depth) => Own::Vibrato(value(depth).clamp(0.0, 1.0)),

@@ -20,7 +20,7 @@ pub enum PlayerEvent {
         /// Key, 0 to 127.
         key: u8,
     },
-    /// A key goes up however often it went down, as a host has it that chokes its note.
+    /// The note of a key ends however often that went down and whatever the pedals say, as a host has it that chokes it.
     NoteEnd {
         /// Channel, 0 to 15.
         channel: u8,
@@ -63,6 +63,15 @@ pub enum PlayerEvent {
         /// What.
         expression: Expression,
     },
+    /// Something about all notes there are of a channel and a key.
+    Notes {
+        /// Channel, 0 to 15; `None` is any.
+        channel: Option<u8>,
+        /// Key, 0 to 127; `None` is any.
+        key: Option<u8>,
+        /// What.
+        expression: Expression,
+    },
     /// Somebody who sees a string does something to it, without a key: no channel's pedals or wheel count.
     Touched {
         /// Which string, 0 for the first of the set-up; others are ignored.
@@ -85,6 +94,7 @@ impl PlayerEvent {
             | Self::PitchBend { channel, .. }
             | Self::ChannelPressure { channel, .. }
             | Self::Note { channel, .. } => Some(channel),
+            Self::Notes { channel, .. } => channel,
             Self::Touched { .. } | Self::AllNotesOff => None,
         }
     }

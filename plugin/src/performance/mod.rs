@@ -140,16 +140,17 @@ impl Performance {
             PlayerEvent::NoteOn { channel, key, velocity } if velocity > 0.0 => {
                 self.strike(channel, key, f64::from(velocity.min(1.0)));
             }
-            PlayerEvent::NoteOn { channel, key, .. }
-            | PlayerEvent::NoteOff { channel, key }
-            | PlayerEvent::NoteEnd { channel, key } => {
+            PlayerEvent::NoteOn { channel, key, .. } | PlayerEvent::NoteOff { channel, key } => {
                 if self.chord_needs(channel, key) {
                     self.begin_chord(out);
                 }
-                if matches!(event, PlayerEvent::NoteEnd { .. }) {
-                    self.leave_one_press(channel, key);
-                }
                 self.let_go(channel, key, out);
+            }
+            PlayerEvent::NoteEnd { channel, key } => {
+                if self.chord_needs(channel, key) {
+                    self.begin_chord(out);
+                }
+                self.cut(channel, key, out);
             }
             PlayerEvent::Controller { channel, number, value } => {
                 if self.changes_chord(channel, Some(number)) {
@@ -170,6 +171,13 @@ impl Performance {
                 self.control(channel, |channel| channel.set_pressure(pressure), out);
             }
             PlayerEvent::Note { channel, key, expression } => self.express(channel, key, expression, out),
+            PlayerEvent::Notes { channel, key, expression } => {
+                let meant = |one: Option<u8>, own: u8| one.is_none_or(|one| one == own);
+                for (own, keys) in (0..).zip(self.keys()).filter(|&(own, _)| meant(channel, own)) {
+                    let known = (0..128).filter(|&own| keys >> own & 1 == 1 && meant(key, own));
+                    known.for_each(|key| self.express(own, key, expression, out));
+                }
+            }
             PlayerEvent::Touched { string, deed } => {
                 self.begin_chord(out);
                 if let Some(string) = self.strings.get_mut(usize::from(string)) {
@@ -239,6 +247,8 @@ impl Performance {
         } else {
             // It may have played before.
             self.strings.iter_mut().for_each(StringPlayer::reset);
+            self.hand.reset();
+            self.set_capo(old.hand.capo());
         }
         self.pick_up_hands();
     }
@@ -281,6 +291,16 @@ impl Performance {
         self.compromises
     }
 
+    /// Starts again at sample 0, but with the capo, the keyswitches, and the reach of wheels and the channels for MPE that were
+    /// announced: those who send them do so once.
+    pub fn restart(&mut self) {
+        let (capo, switches, channels) = (self.hand.capo(), self.switches, self.channels.clone());
+        self.reset();
+        self.channels.iter_mut().zip(&channels).for_each(|(channel, before)| channel.keep_announced(before));
+        self.switches = switches;
+        self.set_capo(capo);
+    }
+
     /// Forgets everything and starts again at sample 0.
     pub fn reset(&mut self) {
         self.strings.iter_mut().for_each(StringPlayer::reset);
@@ -304,11 +324,30 @@ impl Performance {
         }
     }
 
-    /// Whatever else a key has been pressed for is forgotten: its next note-off is the last.
-    fn leave_one_press(&mut self, channel: u8, key: u8) {
-        self.strings.iter_mut().for_each(|string| string.leave_one_press(channel, key));
-        for late in self.late.iter_mut().filter(|late| late.key_down() && late.is(channel, key)) {
-            late.releases = late.struck.presses - 1;
+    /// The keys of each channel that notes have which sound, begin or are yet to come, a bit for each.
+    fn keys(&self) -> [u128; CHANNELS] {
+        let mut keys = [0; CHANNELS];
+        let struck = self.chord.iter().chain(self.late.iter().map(|late| &late.struck));
+        let waiting = struck.map(|struck| (struck.wanted.channel, struck.wanted.key));
+        for (channel, key) in self.strings.iter().flat_map(StringPlayer::keys).chain(waiting) {
+            if let Some(keys) = keys.get_mut(usize::from(channel)) {
+                *keys |= 1u128.checked_shl(u32::from(key)).unwrap_or(0);
+            }
+        }
+        keys
+    }
+
+    /// The note of a key ends, however often that went down and whatever the pedals say.
+    fn cut(&mut self, channel: u8, key: u8, out: &mut impl GestureSink) {
+        self.release_switch(channel, key);
+        for index in 0..self.strings.len() {
+            if self.strings[index].cut(self.now, channel, key, out) {
+                self.welcome_back(index);
+            }
+        }
+        // A note that has yet to come is heard nevertheless.
+        for late in self.late.iter_mut().filter(|late| late.is(channel, key)) {
+            late.releases = late.struck.presses;
         }
     }
 

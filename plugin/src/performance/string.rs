@@ -112,7 +112,7 @@ impl StringPlayer {
     pub(crate) fn start(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
         self.strike_in_time(&mut self.moment(time, out));
         let stills = self.wants_stilling(start.fret);
-        start.presses = start.presses.saturating_add(self.take_presses(start.channel, start.key));
+        self.take_presses(&mut start);
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
         let strength = start.force();
@@ -167,7 +167,7 @@ impl StringPlayer {
             velocity: start.velocity,
             since: time + self.samples(start.wait),
             presses: start.presses,
-            caught: false,
+            caught: start.caught,
             fret: start.fret,
             strength,
             tuning: start.manner.tuning,

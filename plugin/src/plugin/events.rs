@@ -59,6 +59,11 @@ impl Address {
     }
 }
 
+/// The only number of a range, if it has no other.
+fn single(range: &RangeInclusive<u8>) -> Option<u8> {
+    (range.start() == range.end()).then_some(*range.start())
+}
+
 /// Hands an event on, at its sample.
 pub(super) fn translate(
     event: NoteEvent<()>,
@@ -68,8 +73,16 @@ pub(super) fn translate(
 ) {
     let at = event.timing();
     let mut express = |voices: &Voices, address: Address, expression| {
-        let find = |id| voices.find(id);
-        address.each(find, |channel, key| send(at, PlayerEvent::Note { channel, key, expression }));
+        let Some((channels, keys)) = address.notes(|id| voices.find(id)) else { return };
+        let [channel, key] = [single(&channels), single(&keys)];
+        // One event, however many notes are meant: there is room for so many.
+        send(
+            at,
+            match (channel, key) {
+                (Some(channel), Some(key)) => PlayerEvent::Note { channel, key, expression },
+                _ => PlayerEvent::Notes { channel, key, expression },
+            },
+        );
     };
     match event {
         NoteEvent::NoteOn { voice_id, channel, key: Key::Number(key), velocity, .. } => {
@@ -102,7 +115,7 @@ pub(super) fn translate(
             let address = Address { voice, channel, key };
             address.each(|_| lifted, |channel, key| send(at, PlayerEvent::NoteOff { channel, key }));
         }
-        // A string has no faster way to stop than a finger put on it, so a choke is a note-off for every press.
+        // A string has no faster way to stop than a finger put on it, so a choke is a note-off for every press, and for pedals.
         NoteEvent::Choke { voice_id: voice, channel, key, .. } => {
             let address = Address { voice, channel, key };
             if let Some((channels, keys)) = address.notes(|id| voices.find(id)) {
@@ -216,6 +229,23 @@ mod tests {
         voices.begin(7, 2, 45);
         assert_eq!(ended(&mut voices, 8), []);
         assert_eq!(ended(&mut voices, 7), [PlayerEvent::NoteOff { channel: 2, key: 45 }]);
+    }
+
+    /// However many notes are meant: many events would leave no room for others.
+    #[test]
+    fn what_is_said_of_all_notes_is_one_event() {
+        let mut voices = Voices::default();
+        let mut said = |channel, key| {
+            let (timing, voice_id, tuning) = (0, VoiceID::Wildcard, 0.5);
+            translated(&mut voices, NoteEvent::PolyTuning { timing, voice_id, channel, key, tuning })
+        };
+        let expression = Expression::Tuning(0.5);
+        let all = PlayerEvent::Notes { channel: None, key: None, expression };
+        assert_eq!(said(Channel::Wildcard, Key::Wildcard), [all]);
+        let some = PlayerEvent::Notes { channel: Some(3), key: None, expression };
+        assert_eq!(said(Channel::Number(3), Key::Wildcard), [some]);
+        let one = PlayerEvent::Note { channel: 3, key: 60, expression };
+        assert_eq!(said(Channel::Number(3), Key::Number(60)), [one]);
     }
 
     #[test]

@@ -85,9 +85,14 @@ impl Playing {
         self.set_effort(false);
     }
 
-    /// Silence and the first sample again.
+    /// Silence and the first sample again. Who plays has announced only once how far a wheel reaches; a file that is rendered
+    /// says it again, and is to sound as it did.
     pub fn reset_sound(&mut self) {
-        self.engine.reset();
+        if self.offline {
+            self.engine.reset();
+        } else {
+            self.engine.restart();
+        }
         self.voices = Voices::default();
     }
 

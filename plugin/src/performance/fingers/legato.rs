@@ -201,11 +201,9 @@ impl Fingers {
         duration: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> (i32, Option<Gesture>) {
-        let last = self.string.geometry.frets.len() as i32;
-        let first = self.capo[1] as i32 + 1;
         let Some(sliding) = self.slidable() else { return (0, None) };
         let Finger { slot, fret: at_fret, bar, .. } = sliding;
-        let fret = (self.home as i32 + frets).clamp(first.min(last), last);
+        let fret = self.home as i32 + self.can_slide(frets);
         let mut slide = None;
         if fret as usize != at_fret {
             self.lift_anchor(fret as usize, at);
@@ -219,6 +217,24 @@ impl Fingers {
             slide = Some(moves);
         }
         (fret - self.home as i32, slide)
+    }
+
+    /// So many frets, or as many of them as the neck has for a finger that slides.
+    pub(crate) fn can_slide(&self, frets: i32) -> i32 {
+        if self.slidable().is_none() {
+            return frets;
+        }
+        let last = self.string.geometry.frets.len() as i32;
+        let first = self.capo[1] as i32 + 1;
+        let home = self.home as i32;
+        frets.clamp(first.min(last) - home, last - home)
+    }
+
+    /// So many semitones, or as many of them as the neck has for a finger that glides.
+    pub(crate) fn can_glide(&self, semitones: f64) -> f64 {
+        let Some(finger) = self.slidable() else { return semitones };
+        let (fret, last) = (finger.fret as f64, self.string.geometry.frets.len() as f64);
+        semitones.max(0.3 - fret).min(last - fret)
     }
 
     fn slidable(&self) -> Option<Finger> {
@@ -235,8 +251,8 @@ impl Fingers {
     pub(crate) fn glide(&mut self, semitones: f64, duration: f64, at: &mut Moment<impl GestureSink>) -> f64 {
         let Some(finger) = self.slidable() else { return 0.0 };
         let last = self.string.geometry.frets.len() as f64;
-        let fret = (finger.fret as f64 + semitones).clamp(0.3, last);
-        let reached = fret - finger.fret as f64;
+        let reached = self.can_glide(semitones);
+        let fret = finger.fret as f64 + reached;
         if semitones == self.glided {
             return reached;
         }

@@ -29,10 +29,21 @@ impl StringPlayer {
         true
     }
 
-    /// A key that is down, here or under another, is so by one press.
-    pub(crate) fn leave_one_press(&mut self, channel: u8, key: u8) {
-        let notes = self.note.iter_mut().chain(self.under.iter_mut().flatten());
-        notes.filter(|note| note.is(channel, key)).for_each(|note| note.presses = note.presses.min(1));
+    /// Ends the note of a key, whatever keeps it: however often the key went down, and whatever the pedals say. `false` if it is
+    /// not this string's.
+    pub(crate) fn cut(&mut self, time: u64, channel: u8, key: u8, out: &mut impl GestureSink) -> bool {
+        let mut found = false;
+        while self.take_under(channel, key).is_some() {
+            found = true;
+        }
+        let Some(note) = self.note.as_mut().filter(|note| note.is(channel, key)) else { return found };
+        let down = note.key_down();
+        (note.presses, note.caught) = (0, false);
+        if down {
+            self.moment(time, out).tells(Annotation::Released);
+        }
+        self.go_back_or_end(time, out);
+        true
     }
 
     /// The sostenuto pedal of a channel goes down: it catches the note if its key is down.

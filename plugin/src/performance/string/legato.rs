@@ -16,7 +16,7 @@ impl StringPlayer {
     pub(crate) fn connect(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
         self.strike_in_time(&mut self.moment(time, out));
         let strength = start.force();
-        start.presses = start.presses.saturating_add(self.take_presses(start.channel, start.key));
+        self.take_presses(&mut start);
         if let Some(before) = self.note.filter(Note::key_down) {
             // Of too many the first is forgotten.
             if self.under.iter().all(Option::is_some) {
@@ -56,17 +56,20 @@ impl StringPlayer {
         true
     }
 
-    /// What the string remembers of a key that is struck again is of the new note: how often it went down and not up again.
-    pub(super) fn take_presses(&mut self, channel: u8, key: u8) -> u32 {
-        let mut presses = self.note.take_if(|note| note.is(channel, key)).map_or(0, |note| note.presses);
-        while let Some(under) = self.take_under(channel, key) {
-            presses = presses.saturating_add(under.presses);
+    /// What the string remembers of a key that is struck again is of the new note: how often it went down and not up again, and
+    /// whether the sostenuto pedal holds it.
+    pub(super) fn take_presses(&mut self, start: &mut Start) {
+        let (channel, key) = (start.channel, start.key);
+        let mut before = self.note.take_if(|note| note.is(channel, key));
+        while let Some(note) = before.or_else(|| self.take_under(channel, key)) {
+            start.presses = start.presses.saturating_add(note.presses);
+            start.caught |= note.caught;
+            before = None;
         }
-        presses
     }
 
     /// Takes out a key under the one that sounds.
-    fn take_under(&mut self, channel: u8, key: u8) -> Option<Note> {
+    pub(super) fn take_under(&mut self, channel: u8, key: u8) -> Option<Note> {
         let same = |note: &Option<Note>| note.is_some_and(|note| note.is(channel, key));
         let found = self.under.iter().position(same)?;
         let taken = self.under[found].take();

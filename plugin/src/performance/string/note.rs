@@ -17,6 +17,8 @@ pub(crate) struct Start {
     pub asked: u64,
     /// How often the key went down for it.
     pub presses: u32,
+    /// Whether the sostenuto pedal caught that key before and still holds it.
+    pub caught: bool,
     /// Fret, 0 for the open string.
     pub fret: usize,
     /// Part of the hardest pluck's force.

@@ -21,6 +21,11 @@ impl StringPlayer {
         self.note.is_some_and(|note| note.is(channel, key))
     }
 
+    /// Channels and keys of its note and of those under it.
+    pub(crate) fn keys(&self) -> impl Iterator<Item = (u8, u8)> + use<'_> {
+        self.note.iter().chain(self.under.iter().flatten()).map(|note| (note.channel, note.key))
+    }
+
     /// Whether it has that note, or is down under it.
     pub(crate) fn sounds(&self, channel: u8, key: u8) -> bool {
         self.is_of(channel, key) || self.under.iter().flatten().any(|note| note.is(channel, key))

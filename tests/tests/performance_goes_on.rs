@@ -1,0 +1,126 @@
+//! The promise: who starts again, or is handed another instrument, forgets the music but not what was announced once: the capo,
+//! keyswitches, how far wheels reach, MPE. And nothing waits for what cannot come any more, or takes its time for a way that the
+//! neck does not have.
+
+use std::sync::LazyLock;
+
+use low_action::performance::{InputMode, Performance, PlayerEvent};
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::hands::{EXACT, Neck, play};
+use low_action_tests::stage::{cc, on};
+
+static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
+static BASS: LazyLock<Neck> = LazyLock::new(|| Neck::of("bass"));
+
+/// A registered parameter, of the first channel.
+fn registered(number: u8, value: u8) -> [(u64, PlayerEvent); 3] {
+    [(0, cc(101, 0)), (0, cc(100, number)), (0, cc(6, value))]
+}
+
+fn wheel(channel: u8, value: f32) -> PlayerEvent {
+    PlayerEvent::PitchBend { channel, value }
+}
+
+/// The largest ratio of tensions asked for, and the last place that a finger slides to.
+fn bent(gestures: &[TimedGesture]) -> (f64, Option<f64>) {
+    let ratios = gestures.iter().filter_map(|g| match g.gesture {
+        Gesture::Bend { tension_ratio, .. } => Some(tension_ratio),
+        _ => None,
+    });
+    let slides = gestures.iter().filter_map(|g| match g.gesture {
+        Gesture::Slide { position, .. } => Some(position),
+        _ => None,
+    });
+    (ratios.fold(1.0, f64::max), slides.last())
+}
+
+#[test]
+fn a_player_who_starts_again_knows_what_was_announced() {
+    let turned = [(0, on(62, 90)), (4_800, wheel(0, 1.0))];
+    let of = |player: &mut Performance| bent(&play(player, &turned));
+    let mut player = GUITAR.player(EXACT);
+    let usual = of(&mut player);
+    player.reset();
+    play(&mut player, &registered(0, 12));
+    player.restart();
+    let wide = of(&mut player);
+    assert!(wide.1.is_some() && usual.1.is_none(), "an octave is too far to pull, {usual:?}, {wide:?}");
+    player.reset();
+    assert_eq!(of(&mut player), usual, "all is forgotten where that is asked for");
+
+    // The first channel speaks for the others in MPE, and their wheels reach four octaves.
+    play(&mut player, &registered(6, 15));
+    player.restart();
+    let others = [(0, PlayerEvent::NoteOn { channel: 3, key: 60, velocity: 0.8 }), (4_800, wheel(3, 0.25))];
+    assert!(bent(&play(&mut player, &others)).1.is_some());
+}
+
+#[test]
+fn capo_and_keyswitches_stay_where_they_are() {
+    // With the capo no string has the lowest key.
+    let lowest = [(0, on(41, 90))];
+    let moved = |player: &mut Performance| {
+        let before = player.compromises().moved_by_octaves;
+        play(player, &lowest);
+        player.compromises().moved_by_octaves - before
+    };
+    let mut player = GUITAR.player(EXACT);
+    assert_eq!(moved(&mut player), 0);
+    play(&mut player, &[(200_000, cc(26, 3)), (200_000, cc(27, 100))]);
+    player.restart();
+    assert_eq!(moved(&mut player), 1);
+    let pressed = play(&mut player, &[(200_000, on(102, 90))]);
+    assert!(pressed.iter().all(|g| g.time < 200_000), "a keyswitch is not played");
+
+    // Another instrument has it, too.
+    let mut bass = BASS.player(EXACT);
+    play(&mut bass, &[(0, on(28, 90))]);
+    assert_eq!(bass.compromises().moved_by_octaves, 0);
+    bass.take_over(&player, false);
+    let before = bass.compromises().moved_by_octaves;
+    play(&mut bass, &[(400_000, on(28, 90))]);
+    assert_eq!(bass.compromises().moved_by_octaves, before + 1);
+}
+
+/// Two notes for a string that the next instrument does not have: the second waits for the first.
+#[test]
+fn a_note_for_a_string_that_is_no_more_does_not_wait_for_ever() {
+    let channel = 5;
+    let mut player = GUITAR.player(EXACT);
+    player.set_input(InputMode::Strings { first: 0, from_last: false });
+    let mut gestures = Vec::new();
+    for key in [52, 55] {
+        player.event(0, PlayerEvent::NoteOn { channel, key, velocity: 0.8 }, &mut gestures);
+    }
+    player.advance(10, &mut gestures);
+    assert!(player.is_behind());
+    let mut bass = BASS.player(EXACT);
+    bass.take_over(&player, false);
+    bass.advance(48_000, &mut gestures);
+    assert!(!bass.is_behind());
+    assert_eq!(bass.compromises().left_out, 1);
+}
+
+/// From two frets before the end of the neck: a hand bends a hundred semitones in a second.
+#[test]
+fn what_lies_beyond_the_neck_takes_no_time() {
+    let last = GUITAR.strings[0].geometry.frets.len() as u8;
+    let key = GUITAR.strings[0].geometry.open_pitch.round() as u8 + last - 2;
+    let mut player = GUITAR.player(EXACT);
+    player.set_input(InputMode::Mpe);
+    let note = |event| (0, event);
+    let up = [
+        note(PlayerEvent::NoteOn { channel: 1, key, velocity: 0.8 }),
+        (9_600, wheel(1, 1.0)),
+        (48_000, wheel(1, 0.0)),
+    ];
+    let slides: Vec<f64> = play(&mut player, &up)
+        .iter()
+        .filter_map(|g| match g.gesture {
+            Gesture::Slide { duration, .. } => Some(duration),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(slides.len(), 2, "{slides:?}");
+    assert!(slides.iter().all(|&duration| duration < 0.03), "{slides:?}");
+}
