@@ -17,6 +17,10 @@ impl State {
     /// # Panics
     /// As [`State::step`].
     pub fn let_go(&mut self, model: &Model, drive: &Drive) {
+        let thrown = self.motion.iter().any(|&motion| motion != 0.0);
+        if thrown {
+            self.come_from_outside(model);
+        }
         let mut after = self.clone();
         let mut scratch = Scratch::new(model);
         after.step(model, drive, &mut scratch);
@@ -30,7 +34,23 @@ impl State {
             }
         }
         self.close_shape(model);
+        if thrown {
+            self.come_from_outside(model);
+        }
         self.look_at_all(model);
+    }
+
+    /// A string that is thrown off board or frets was not inside them a sample before: they were as much lower then, and do not
+    /// throw it once more.
+    fn come_from_outside(&mut self, model: &Model) {
+        for (index, contact) in model.contacts.iter().enumerate() {
+            let now = contact.reading.of(&self.displacement);
+            let past = now - contact.reading.of(&self.motion);
+            let (height, overlap) = (self.heights[index], (self.heights[index] - now).max(0.0));
+            self.heights_before[index] = height.min(past + overlap);
+        }
+        // Until the end of the next step.
+        self.settling = 1;
     }
 }
 

@@ -129,6 +129,22 @@ struct Track {
     end: u64,
 }
 
+/// Whether the event that the rest of a track begins with announces more bytes than there are: a text, say, or a system
+/// exclusive message.
+fn announces_more(rest: &[u8]) -> bool {
+    // A number of seven bits a byte, the last one below 128, and what follows it.
+    fn number(bytes: &[u8]) -> Option<(usize, &[u8])> {
+        let last = bytes.iter().take(4).position(|byte| *byte < 0x80)?;
+        let value = bytes[..=last].iter().fold(0, |value, byte| value << 7 | usize::from(byte & 0x7f));
+        Some((value, &bytes[last + 1..]))
+    }
+    let announced = number(rest).and_then(|(_, event)| match event {
+        [0xff, _, length @ ..] | [0xf0 | 0xf7, length @ ..] => Some(length),
+        _ => None,
+    });
+    announced.is_some_and(|length| number(length).is_none_or(|(expected, found)| expected > found.len()))
+}
+
 /// Gathers the song while tracks are decoded.
 struct Reader {
     selection: Selection,
@@ -165,6 +181,9 @@ impl Reader {
                 }
                 return Err(MidiFileError::BadEvent { track: index + 1, offset });
             };
+            if iterator.unread().is_empty() && announces_more(&data[offset..]) && self.cut != Some(index) {
+                return Err(MidiFileError::BadEvent { track: index + 1, offset });
+            }
             // Many files carry running status across a meta event, though the standard ends it there.
             if iterator.running_status().is_some() {
                 running_status = iterator.running_status();

@@ -357,3 +357,21 @@ proptest! {
         survives(&bytes[..cut.index(bytes.len())]);
     }
 }
+
+/// A text or a system exclusive message that announces more than its track has would swallow the rest of it.
+#[test]
+fn what_announces_more_than_there_is_is_refused() {
+    let chunk = |data: &[u8]| [b"MTrk", &(data.len() as u32).to_be_bytes()[..], data].concat();
+    let notes = [0x00, 0x90, 60, 100, 0x60, 0x80, 60, 0];
+    let header = [b"MThd", &[0, 0, 0, 6, 0, 1, 0, 1, 0, 96][..]].concat();
+    for begin in [&[0x00, 0xFF, 0x03, 0x40, b'G'][..], &[0x00, 0xF0, 0x20, 1], &[0x00, 0xF7, 0x81, 0x00, 1]] {
+        let data = [begin, &notes, &[0x00, 0xFF, 0x2F, 0x00]].concat();
+        let message = refused(&[&header[..], &chunk(&data)].concat());
+        assert_eq!(message, "damaged MIDI file: no readable event at byte 0 of track 1");
+    }
+    // What is as long as it says may be the last there is.
+    let whole = [&notes[..], &[0x00, 0xFF, 0x01, 2, b'h', b'i']].concat();
+    let song = read(&[&header[..], &chunk(&whole)].concat());
+    assert_eq!(note_ons(&song).len(), 1);
+    assert_eq!(song.warnings, [SongWarning::NoEndOfTrack { track: 1 }]);
+}

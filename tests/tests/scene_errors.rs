@@ -382,3 +382,19 @@ fn wrong_usage_is_told_apart() {
         assert_eq!(place.names(), ["scene.toml"], "{arguments:?}");
     }
 }
+
+/// What begins inside the board is thrown by it: that may be meant, and more often is a slip of the pen.
+#[test]
+fn a_string_that_begins_inside_the_board_is_warned_of() {
+    let place = workplace();
+    let shaped = |depth: f64| {
+        let shape = format!("loss_0 = 1.0\nshape = [[0, 0], [0.3, {depth}], [0.65, 0]]");
+        place.write("scene.toml", SCENE.replacen("loss_0 = 1.0", &shape, 1));
+        place.run(&["scene", "scene.toml"])
+    };
+    let (inside, over) = (shaped(-0.003), shaped(-0.0005));
+    assert_eq!((inside.code, over.code), (0, 0), "{}{}", inside.error, over.error);
+    assert!(inside.error.starts_with("warning: string[1] begins inside"), "{}", inside.error);
+    assert_eq!(inside.error.lines().count(), 1, "{}", inside.error);
+    assert!(!over.error.contains("warning"), "{}", over.error);
+}
