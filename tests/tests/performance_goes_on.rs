@@ -27,11 +27,11 @@ fn bent(gestures: &[TimedGesture]) -> (f64, Option<f64>) {
         Gesture::Bend { tension_ratio, .. } => Some(tension_ratio),
         _ => None,
     });
-    let slides = gestures.iter().filter_map(|g| match g.gesture {
+    let mut slides = gestures.iter().filter_map(|g| match g.gesture {
         Gesture::Slide { position, .. } => Some(position),
         _ => None,
     });
-    (ratios.fold(1.0, f64::max), slides.last())
+    (ratios.fold(1.0, f64::max), slides.next_back())
 }
 
 #[test]
