@@ -20,10 +20,9 @@ use crate::setup::{Setup, SetupString};
 pub struct EngineSettings {
     /// Sample rate at which it is heard, Hz, 8e3 to 1e6.
     pub sample_rate: f64,
-    /// The widest grid a string may have, m, 1e-4 or more, or two thirds of it over a wide bridge or under a bar, and 3 mm at most over a bare
-    /// board: one whose grid
-    /// is wider at `sample_rate` is computed at a multiple of it. Infinite: every string is computed at `sample_rate` itself that
-    /// is not too short for its grid there.
+    /// The widest grid a string may have, m, 1e-4 or more, or two thirds of it over a wide bridge or under a bar, and over a bare
+    /// board 3 mm at most: one whose grid is wider at `sample_rate` is computed at a multiple of it. Infinite: every string is
+    /// computed at `sample_rate` itself that is not too short for its grid there.
     pub widest_spacing: f64,
     /// Difference operator of the strings.
     pub stencil: Stencil,
@@ -45,7 +44,8 @@ const HIGHEST_RATE: f64 = 400e3;
 const BETWEEN_FRETS: f64 = 2.0 / 3.0;
 
 /// The widest grid over a bare board that fingers stop strings on, m. Where such a string ends it leaves the board point by point,
-/// and the louder it swings, the farther off: on grids of 4 to 6 mm notes are up to 16 cents flat by it, on these up to 9.
+/// and the louder it swings, the farther off: on grids of 4 to 6 mm notes are up to
+/// 16 cents flat by it, on these up to 9, on grids of 2 mm up to 5 (by hand, velocity 100, four strings of `fretless-bass`).
 const ON_A_BARE_BOARD: f64 = 3e-3;
 
 impl EngineSettings {
@@ -62,15 +62,19 @@ impl EngineSettings {
     pub fn ratio(&self, setup: &Setup, string: &SetupString) -> Ratio {
         let parameters = flexible(setup, string);
         let most = Ratio::of_halves((2.0 * HIGHEST_RATE / self.sample_rate.max(*RATES.start())) as usize);
-        let widest = self.widest_spacing * if setup.is_touched_between_frets() { BETWEEN_FRETS } else { 1.0 };
-        let bare = setup.neck.fretless && widest.is_finite();
-        let widest = if bare { widest.min(ON_A_BARE_BOARD) } else { widest };
+        let widest = self.widest(setup);
         let fine = |ratio: &Ratio| {
             let time_step = 1.0 / (ratio.value() * self.sample_rate);
             // A string too short for its grid is one whose grid is too wide.
             Model::grid(&parameters, self.stencil, time_step).is_ok_and(|grid| grid.spacing <= widest)
         };
         (Ratio::ONE.halves()..most.halves()).map(Ratio::of_halves).find(fine).unwrap_or(most)
+    }
+
+    /// The widest grid that a string of a set-up may have, m.
+    fn widest(&self, setup: &Setup) -> f64 {
+        let widest = self.widest_spacing * if setup.is_touched_between_frets() { BETWEEN_FRETS } else { 1.0 };
+        if setup.neck.fretless && widest.is_finite() { widest.min(ON_A_BARE_BOARD) } else { widest }
     }
 
     /// Refuses values outside their range.

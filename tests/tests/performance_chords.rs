@@ -239,3 +239,22 @@ proptest! {
         prop_assert_eq!(performance.compromises().left_out, 0);
     }
 }
+
+/// Two notes for a string that the next instrument does not have: the second waits for the first.
+#[test]
+fn a_note_for_a_string_that_is_no_more_does_not_wait_for_ever() {
+    let channel = 5;
+    let mut player = player();
+    player.set_input(InputMode::Strings { first: 0, from_last: false });
+    let mut gestures = Vec::new();
+    for key in [52, 55] {
+        player.event(0, PlayerEvent::NoteOn { channel, key, velocity: 0.8 }, &mut gestures);
+    }
+    player.advance(10, &mut gestures);
+    assert!(player.is_behind());
+    let mut bass = Neck::of("bass").player(EXACT);
+    bass.take_over(&player, false);
+    bass.advance(48_000, &mut gestures);
+    assert!(!bass.is_behind());
+    assert_eq!(bass.compromises().left_out, 1);
+}

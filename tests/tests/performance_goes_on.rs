@@ -1,10 +1,9 @@
 //! The promise: who starts again, or is handed another instrument, forgets the music but not what was announced once: the capo,
-//! keyswitches, how far wheels reach, MPE. And nothing waits for what cannot come any more, or takes its time for a way that the
-//! neck does not have.
+//! keyswitches, how far wheels reach, MPE.
 
 use std::sync::LazyLock;
 
-use low_action::performance::{InputMode, Performance, PlayerEvent};
+use low_action::performance::{Performance, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, play};
 use low_action_tests::stage::{cc, on};
@@ -80,47 +79,4 @@ fn capo_and_keyswitches_stay_where_they_are() {
     let before = bass.compromises().moved_by_octaves;
     play(&mut bass, &[(400_000, on(28, 90))]);
     assert_eq!(bass.compromises().moved_by_octaves, before + 1);
-}
-
-/// Two notes for a string that the next instrument does not have: the second waits for the first.
-#[test]
-fn a_note_for_a_string_that_is_no_more_does_not_wait_for_ever() {
-    let channel = 5;
-    let mut player = GUITAR.player(EXACT);
-    player.set_input(InputMode::Strings { first: 0, from_last: false });
-    let mut gestures = Vec::new();
-    for key in [52, 55] {
-        player.event(0, PlayerEvent::NoteOn { channel, key, velocity: 0.8 }, &mut gestures);
-    }
-    player.advance(10, &mut gestures);
-    assert!(player.is_behind());
-    let mut bass = BASS.player(EXACT);
-    bass.take_over(&player, false);
-    bass.advance(48_000, &mut gestures);
-    assert!(!bass.is_behind());
-    assert_eq!(bass.compromises().left_out, 1);
-}
-
-/// From two frets before the end of the neck: a hand bends a hundred semitones in a second.
-#[test]
-fn what_lies_beyond_the_neck_takes_no_time() {
-    let last = GUITAR.strings[0].geometry.frets.len() as u8;
-    let key = GUITAR.strings[0].geometry.open_pitch.round() as u8 + last - 2;
-    let mut player = GUITAR.player(EXACT);
-    player.set_input(InputMode::Mpe);
-    let note = |event| (0, event);
-    let up = [
-        note(PlayerEvent::NoteOn { channel: 1, key, velocity: 0.8 }),
-        (9_600, wheel(1, 1.0)),
-        (48_000, wheel(1, 0.0)),
-    ];
-    let slides: Vec<f64> = play(&mut player, &up)
-        .iter()
-        .filter_map(|g| match g.gesture {
-            Gesture::Slide { duration, .. } => Some(duration),
-            _ => None,
-        })
-        .collect();
-    assert_eq!(slides.len(), 2, "{slides:?}");
-    assert!(slides.iter().all(|&duration| duration < 0.03), "{slides:?}");
 }

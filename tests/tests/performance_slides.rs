@@ -1,7 +1,9 @@
 //! The promise: a finger that slides goes on from where it is. The next note counts from there, and a wheel or a vibrato on
-//! the way does not hurry it.
+//! the way does not hurry it. What lies beyond the neck takes no time.
 
-use low_action::performance::PlayerEvent;
+use low_action::performance::{InputMode, PlayerEvent};
+use low_action_dsp::Gesture;
+use low_action_tests::hands::{EXACT, Neck, play};
 use low_action_tests::pitch::{cents, frequency_near};
 use low_action_tests::stage::{LOOK, Stage, cc, decibels, hertz, off, on, peak};
 
@@ -92,4 +94,29 @@ fn a_wheel_that_slides_waits_for_the_note() {
     let notes = [(0.0, wheel(-5.0 / 12.0)), (0.0, on(62, 90)), (0.5, on(69, 90))];
     let [part, _] = on_the_way("electric", 2, &[&octave[..], &notes].concat());
     assert!((0.4..0.6).contains(&part), "{part} of the way at half time");
+}
+
+/// From two frets before the end of the neck: a hand bends a hundred semitones in a second.
+#[test]
+fn what_lies_beyond_the_neck_takes_no_time() {
+    let guitar = Neck::of("electric");
+    let last = guitar.strings[0].geometry.frets.len() as u8;
+    let key = guitar.strings[0].geometry.open_pitch.round() as u8 + last - 2;
+    let mut player = guitar.player(EXACT);
+    player.set_input(InputMode::Mpe);
+    let member = |value| PlayerEvent::PitchBend { channel: 1, value };
+    let up = [
+        (0, PlayerEvent::NoteOn { channel: 1, key, velocity: 0.8 }),
+        (9_600, member(1.0)),
+        (48_000, member(0.0)),
+    ];
+    let slides: Vec<f64> = play(&mut player, &up)
+        .iter()
+        .filter_map(|g| match g.gesture {
+            Gesture::Slide { duration, .. } => Some(duration),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(slides.len(), 2, "{slides:?}");
+    assert!(slides.iter().all(|&duration| duration < 0.03), "{slides:?}");
 }

@@ -28,7 +28,7 @@ pub enum InputMode {
 /// Semitones of a full turn of the wheel in MPE, while no other range is announced: of a note's own
 /// channel, and of the one that bends all.
 const MPE_RANGES: (f64, f64) = (48.0, 2.0);
-/// The widest tuning of a note that is taken at its word, semitones: as far as hosts go.
+/// The widest tuning of a note that is taken at its word, semitones: what CLAP's hosts may ask for.
 const WIDEST: f64 = 120.0;
 /// The channel that acts on all in MPE.
 pub(super) const MANAGER: u8 = 0;
@@ -191,6 +191,33 @@ impl Performance {
         self.hand.set_capo(fret);
         let fret = self.hand.capo();
         self.strings.iter_mut().for_each(|string| string.set_capo(fret));
+    }
+
+    /// Something changes about all notes of a channel and a key (`None`: of any).
+    pub(super) fn express_all(
+        &mut self,
+        (channel, key): (Option<u8>, Option<u8>),
+        expression: Expression,
+        out: &mut impl GestureSink,
+    ) {
+        let meant = |one: Option<u8>, own: u8| one.is_none_or(|one| one == own);
+        for (own, keys) in (0..).zip(self.keys()).filter(|&(own, _)| meant(channel, own)) {
+            let known = (0..128).filter(|&own| keys >> own & 1 == 1 && meant(key, own));
+            known.for_each(|key| self.express(own, key, expression, out));
+        }
+    }
+
+    /// The keys of each channel that notes have which sound, begin or are yet to come, a bit for each.
+    fn keys(&self) -> [u128; CHANNELS] {
+        let mut keys = [0; CHANNELS];
+        let struck = self.chord.iter().chain(self.late.iter().map(|late| &late.struck));
+        let waiting = struck.map(|struck| (struck.wanted.channel, struck.wanted.key));
+        for (channel, key) in self.strings.iter().flat_map(|string| string.keys()).chain(waiting) {
+            if let Some(keys) = keys.get_mut(usize::from(channel)) {
+                *keys |= 1u128.checked_shl(u32::from(key)).unwrap_or(0);
+            }
+        }
+        keys
     }
 
     /// Something changes about one note.

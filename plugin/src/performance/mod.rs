@@ -172,11 +172,7 @@ impl Performance {
             }
             PlayerEvent::Note { channel, key, expression } => self.express(channel, key, expression, out),
             PlayerEvent::Notes { channel, key, expression } => {
-                let meant = |one: Option<u8>, own: u8| one.is_none_or(|one| one == own);
-                for (own, keys) in (0..).zip(self.keys()).filter(|&(own, _)| meant(channel, own)) {
-                    let known = (0..128).filter(|&own| keys >> own & 1 == 1 && meant(key, own));
-                    known.for_each(|key| self.express(own, key, expression, out));
-                }
+                self.express_all((channel, key), expression, out);
             }
             PlayerEvent::Touched { string, deed } => {
                 self.begin_chord(out);
@@ -322,19 +318,6 @@ impl Performance {
         for string in &mut self.strings {
             string.begin_with(self.now, &hands, self.touching.tremolo_arm);
         }
-    }
-
-    /// The keys of each channel that notes have which sound, begin or are yet to come, a bit for each.
-    fn keys(&self) -> [u128; CHANNELS] {
-        let mut keys = [0; CHANNELS];
-        let struck = self.chord.iter().chain(self.late.iter().map(|late| &late.struck));
-        let waiting = struck.map(|struck| (struck.wanted.channel, struck.wanted.key));
-        for (channel, key) in self.strings.iter().flat_map(StringPlayer::keys).chain(waiting) {
-            if let Some(keys) = keys.get_mut(usize::from(channel)) {
-                *keys |= 1u128.checked_shl(u32::from(key)).unwrap_or(0);
-            }
-        }
-        keys
     }
 
     /// The note of a key ends, however often that went down and whatever the pedals say.
