@@ -1,11 +1,13 @@
 //! The promise of all commands that write files: told to stop, by Ctrl+C or by the system, they leave nothing half
-//! written and nothing that was not there. Run on the program itself.
+//! written and nothing that was not there, and end by that very signal, so that a shell's loop over songs ends with them.
+//! Run on the program itself.
 #![cfg(unix)]
 // A panic is a test's report.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
 use std::io::Write;
+use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
@@ -35,6 +37,13 @@ fn send(signal: &str, child: &mut Child) {
     let id = libc::pid_t::try_from(child.id()).unwrap();
     // SAFETY: it takes two numbers. The child's end has not been asked for since, so nobody else has its number.
     assert_eq!(unsafe { libc::kill(id, number(signal)) }, 0);
+}
+
+/// Sends a signal to a child that leads a group and to all that is in it, as a terminal does with Ctrl+C.
+fn send_to_group(signal: &str, leader: &Child) {
+    let id = libc::pid_t::try_from(leader.id()).unwrap();
+    // SAFETY: it takes two numbers. The leader's end has not been asked for, so nobody else has its number.
+    assert_eq!(unsafe { libc::kill(-id, number(signal)) }, 0);
 }
 
 /// Whether this process was started with a signal ignored, as nohup does and shells do in the background. The commands it
@@ -81,11 +90,16 @@ fn begin(room: &Path, ignored: &[&str], arguments: &[&str], begun: impl Fn() -> 
     command.env(FOLDER_VARIABLE, room.join("instruments"));
     command.current_dir(room).args(arguments).stdin(Stdio::null()).stderr(Stdio::null());
     let mut child = command.spawn().unwrap();
-    let started = Instant::now();
-    while !begun() && child.try_wait().unwrap().is_none() {
-        assert!(started.elapsed() < Duration::from_secs(60), "nothing was begun");
-    }
+    wait_for(|| begun() || child.try_wait().unwrap().is_some());
     child
+}
+
+/// Comes back at the moment at which something is so.
+fn wait_for(mut so: impl FnMut() -> bool) {
+    let started = Instant::now();
+    while !so() {
+        assert!(started.elapsed() < Duration::from_secs(60), "it takes too long");
+    }
 }
 
 /// How many bytes there are in the files of a folder and of those in it.
@@ -129,7 +143,7 @@ fn is_stopped(signal: &str, ignored: &[&str], arguments: &[&str], begun: impl Fn
         assert!(begun(), "{ignored} is ignored");
     }
     send(signal, &mut child);
-    assert_eq!(child.wait().unwrap().code(), Some(130), "{signal} {ignored:?}");
+    assert_eq!(child.wait().unwrap().signal(), Some(number(signal)), "{signal} {ignored:?}");
     assert_eq!(names(room.path()), before, "{signal} {ignored:?} {arguments:?}");
     assert_eq!(fs::read_to_string(room.path().join("old.wav")).unwrap(), "old");
 }
@@ -197,7 +211,8 @@ fn set_ups_are_installed_all_or_none() {
         let mut child = begin(room.path(), &[], &install, || has_part(&folder));
         send("INT", &mut child);
         // It may have come to its end as well.
-        assert!(matches!(child.wait().unwrap().code(), Some(0 | 130)));
+        let status = child.wait().unwrap();
+        assert!(status.success() || status.signal() == Some(libc::SIGINT), "{status}");
         assert_eq!(names(&folder), files);
         // Once begun it goes through.
         for file in &files {
@@ -206,10 +221,65 @@ fn set_ups_are_installed_all_or_none() {
     }
 }
 
+/// Bash ends a loop at Ctrl+C only if what runs in it has ended by that.
+#[test]
+fn a_loop_of_the_shell_is_stopped_too() {
+    if ignores("INT") {
+        return;
+    }
+    if Command::new("bash").arg("--version").stdout(Stdio::null()).status().is_err() {
+        println!("passed over: there is no bash here");
+        return;
+    }
+    let room = room();
+    fs::write(room.path().join("short.toml"), LONG.replace("3600", "0.01")).unwrap();
+    let before = names(room.path());
+    let scenes = "for scene in long short; do \"$0\" scene $scene.toml --wav $scene.wav; done; touch after";
+    let mut bash = Command::new("bash");
+    bash.args(["-c", scenes, env!("CARGO_BIN_EXE_low-action")]);
+    bash.current_dir(room.path()).process_group(0).stdin(Stdio::null()).stderr(Stdio::null());
+    let mut bash = bash.spawn().unwrap();
+    wait_for(|| has_part(room.path()));
+    send_to_group("INT", &bash);
+    assert_eq!(bash.wait().unwrap().signal(), Some(libc::SIGINT));
+    // On a busy machine bash may not yet have begun to wait for what it runs, and ends sooner.
+    wait_for(|| !has_part(room.path()));
+    assert_eq!(names(room.path()), before);
+}
+
+/// As in a container whose only program it is: no signal that such a process sends to itself ends it.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_first_process_of_a_container_ends_by_its_exit_code() {
+    if ignores("INT") {
+        return;
+    }
+    let contained = |program: &str| {
+        let mut command = Command::new("unshare");
+        command.args(["--user", "--map-root-user", "--pid", "--fork", program]);
+        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        command
+    };
+    if !contained("true").status().is_ok_and(|status| status.success()) {
+        println!("passed over: no processes can be kept by themselves here");
+        return;
+    }
+    let room = room();
+    let before = names(room.path());
+    let mut command = contained(env!("CARGO_BIN_EXE_low-action"));
+    command.args(SONG).current_dir(room.path());
+    let mut around = command.spawn().unwrap();
+    wait_for(|| has_part(&room.path().join("new/stems")));
+    let inside = format!("/proc/{id}/task/{id}/children", id = around.id());
+    let inside = fs::read_to_string(inside).unwrap().trim().parse().unwrap();
+    // SAFETY: it takes two numbers. What runs inside computes for minutes, and what is around it waits for its end.
+    assert_eq!(unsafe { libc::kill(inside, libc::SIGINT) }, 0);
+    assert_eq!(around.wait().unwrap().code(), Some(130));
+    assert_eq!(names(room.path()), before);
+}
+
 #[test]
 fn where_nothing_is_to_be_cleaned_up_the_signal_itself_ends_the_program() {
-    use std::os::unix::process::ExitStatusExt;
-
     if ignores("TERM") {
         return;
     }

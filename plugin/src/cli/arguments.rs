@@ -31,8 +31,9 @@ Notes go to the string and fret nearest to the hand; those no string can give mo
 Channel 10 is percussion and left out unless asked for with --channel 10. Where channels are strings, or notes \
 of MPE, it is one like the others.
 
-Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept), \
-130 stopped, or ended by the signal itself (143 for SIGTERM, as shells count)."
+Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept). \
+Told to stop, it leaves nothing half written and ends by the very signal (130 for Ctrl+C, 143 for SIGTERM, as \
+shells count), so that a loop over songs ends with it; on Windows the code is 130."
 )]
 pub struct RenderArgs {
     /// MIDI file to play, - for standard input; without it, the built-in demo.
@@ -145,8 +146,9 @@ the energies half a sample later.
 The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to \
 1e-9 of the largest energy, or of what was put in where that is more, beside what rounding can do.
 
-Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check, \
-130 stopped, or ended by the signal itself (143 for SIGTERM, as shells count)."
+Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check. \
+Told to stop, it leaves nothing half written and ends by the very signal (130 for Ctrl+C, 143 for SIGTERM, as \
+shells count), so that a loop over scenes ends with it; on Windows the code is 130."
 )]
 pub struct SceneArgs {
     /// Scene file (TOML, SI units), - for standard input.

@@ -2,9 +2,10 @@
 //! instrument.
 //!
 //! Exit codes: 0 done; 1 it could not be done (a file, its format, the disk, a limit); 2 wrong
-//! usage; 3 the result failed its own check, and is kept; 130 told to stop, by a signal. Where nothing has to be cleaned up,
-//! the signal itself ends the program, which shells count as 128 and its number (143 for SIGTERM). Every error is one line
-//! on standard error; standard output carries a result asked for with `-`, or else the summary of a scene.
+//! usage; 3 the result failed its own check, and is kept. Told to stop by a signal, the program cleans up and then ends by
+//! that very signal, which shells count as 128 and its number (130 for Ctrl+C, 143 for SIGTERM) and end their loops for; on
+//! Windows the exit code is 130. Every error is one line on standard error; standard output carries a result asked for with
+//! `-`, or else the summary of a scene.
 
 mod arguments;
 mod instrument;

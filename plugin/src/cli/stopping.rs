@@ -1,17 +1,46 @@
 //! What asks the program to stop: Ctrl+C, and where there are such things a request to end and a terminal that is closed.
 
+use std::process;
+
+/// The exit code of programs that were told to stop where no signal tells it: 128 and the number of Ctrl+C's, as shells
+/// have it.
+const STOPPED: i32 = 130;
+
+/// That the program was asked to stop, and by what.
+#[derive(Debug)]
+pub(super) struct Stop {
+    #[cfg(unix)]
+    signal: libc::c_int,
+}
+
+impl Stop {
+    /// Ends the program as what asked for it ends programs that do not mind it. Only from that do shells see that a loop
+    /// is to end, too: from an exit code they would go on with the next song.
+    pub fn end_program(self) -> ! {
+        #[cfg(unix)]
+        if process::id() != FIRST_PROCESS {
+            signal_hook::low_level::emulate_default_handler(self.signal).ok();
+        }
+        process::exit(STOPPED)
+    }
+}
+
+/// The number of the first process of a system or a container. No signal that it sends to itself ends it.
+#[cfg(unix)]
+const FIRST_PROCESS: u32 = 1;
+
 /// Has all of them call `stop`, once.
 ///
 /// Each is left as it is if the program was started with something else for it than the usual: nohup has one ignored,
 /// and shells have Ctrl+C ignored in the background.
 #[cfg(unix)]
-pub(super) fn when_asked(stop: impl FnOnce() + Send + 'static) {
+pub(super) fn when_asked(stop: impl FnOnce(Stop) + Send + 'static) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
 
     let usual = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|&signal| is_usual(signal));
     if let Ok(mut signals) = Signals::new(usual) {
-        std::thread::spawn(move || signals.forever().next().map(|_| stop()));
+        std::thread::spawn(move || signals.forever().next().map(|signal| stop(Stop { signal })));
     }
 }
 
@@ -27,11 +56,11 @@ fn is_usual(signal: libc::c_int) -> bool {
 
 /// Has Ctrl+C call `stop`, once.
 #[cfg(not(unix))]
-pub(super) fn when_asked(stop: impl FnOnce() + Send + 'static) {
+pub(super) fn when_asked(stop: impl FnOnce(Stop) + Send + 'static) {
     let mut stop = Some(stop);
     ctrlc::try_set_handler(move || {
         if let Some(stop) = stop.take() {
-            stop();
+            stop(Stop {});
         }
     })
     .ok();

@@ -15,9 +15,6 @@ use crate::files;
 /// All of it in this process.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// The exit code of programs that were told to stop: 128 and the number of Ctrl+C's signal, as shells have it.
-const STOPPED: i32 = 130;
-
 /// A file or folder that vanishes if the program is told to stop while this lives.
 #[derive(Debug)]
 pub(super) struct Unfinished(PathBuf);
@@ -87,7 +84,7 @@ fn list() -> MutexGuard<'static, Vec<PathBuf>> {
 fn watch() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
-        stopping::when_asked(|| {
+        stopping::when_asked(|stop| {
             // The list stays locked, so that nothing more is begun.
             let list = list();
             for path in list.iter() {
@@ -96,7 +93,7 @@ fn watch() {
             for path in list.iter() {
                 fs::remove_dir(path).ok();
             }
-            std::process::exit(STOPPED);
+            stop.end_program();
         });
     });
 }
