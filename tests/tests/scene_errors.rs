@@ -394,7 +394,7 @@ fn a_string_that_begins_inside_the_board_is_warned_of() {
     };
     let (inside, over) = (shaped(-0.003), shaped(-0.0005));
     assert_eq!((inside.code, over.code), (0, 0), "{}{}", inside.error, over.error);
-    assert!(inside.error.starts_with("warning: string[1] begins inside"), "{}", inside.error);
+    assert!(inside.error.starts_with("warning: scene.toml: string[1] begins inside"), "{}", inside.error);
     assert_eq!(inside.error.lines().count(), 1, "{}", inside.error);
     assert!(!over.error.contains("warning"), "{}", over.error);
 }

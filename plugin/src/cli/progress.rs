@@ -15,6 +15,7 @@ const TEMPLATE: &str = "{wide_bar} {percent} %, {eta} to go";
 /// How many of so many samples are done: a bar on standard error if that is a terminal, and else a line there every
 /// minute.
 pub(super) struct Progress {
+    name: String,
     total: u64,
     bar: Option<ProgressBar>,
     started: Instant,
@@ -22,13 +23,14 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub fn new(total: u64) -> Self {
+    /// Of a song or a scene that is so called, and has so many samples.
+    pub fn new(name: String, total: u64) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let style = ProgressStyle::with_template(TEMPLATE);
             let style = style.expect("the template is constant and the tests show it");
             ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr()).with_style(style)
         });
-        Self { total, bar, started: Instant::now(), next_line: BETWEEN_LINES }
+        Self { name, total, bar, started: Instant::now(), next_line: BETWEEN_LINES }
     }
 
     /// So many samples are done.
@@ -40,7 +42,7 @@ impl Progress {
         let elapsed = self.started.elapsed();
         if elapsed >= self.next_line {
             self.next_line += BETWEEN_LINES;
-            say("progress", &line(done as f64 / self.total as f64, elapsed.as_secs_f64()));
+            say("progress", &line(&self.name, done as f64 / self.total as f64, elapsed.as_secs_f64()));
         }
     }
 
@@ -53,10 +55,10 @@ impl Progress {
 }
 
 /// What is done, as a part of 1, after so many seconds, and how long the rest will take.
-fn line(part: f64, elapsed: f64) -> String {
+fn line(name: &str, part: f64, elapsed: f64) -> String {
     let left = elapsed * (1.0 - part) / part;
     let minutes = (left / 60.0).ceil();
-    format!("{:.0} %, about {minutes:.0} min to go", 100.0 * part)
+    format!("{name}: {:.0} %, about {minutes:.0} min to go", 100.0 * part)
 }
 
 #[cfg(test)]
@@ -69,8 +71,8 @@ mod tests {
     }
 
     #[test]
-    fn a_line_says_how_far_and_how_long() {
-        assert_eq!(line(0.25, 60.0), "25 %, about 3 min to go");
-        assert_eq!(line(0.99, 600.0), "99 %, about 1 min to go");
+    fn a_line_says_of_what_how_far_and_how_long() {
+        assert_eq!(line("song.mid", 0.25, 60.0), "song.mid: 25 %, about 3 min to go");
+        assert_eq!(line("song.mid", 0.99, 600.0), "song.mid: 99 %, about 1 min to go");
     }
 }

@@ -37,7 +37,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let song = read_song(arguments)?;
     check_length(arguments, &song).with_context(|| song_name(arguments))?;
     for warning in &song.warnings {
-        say("warning", &warning.to_string());
+        warn(arguments, &warning.to_string());
     }
     let bend_range = arguments.bend_range.unwrap_or(EngineOptions::BEND_RANGE);
     let options = EngineOptions {
@@ -91,6 +91,11 @@ fn song_name(arguments: &RenderArgs) -> String {
         Some(path) if is_dash(path) => "standard input".to_owned(),
         Some(path) => shown(path),
     }
+}
+
+/// Warns of something about the song, by its name: several may be rendered at once.
+fn warn(arguments: &RenderArgs, text: &str) {
+    say("warning", &format!("{}: {text}", song_name(arguments)));
 }
 
 /// Reads the song from wherever it is.
@@ -175,7 +180,8 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     let Compromises { moved_by_octaves, arpeggiated, left_out, without_string, bent_short } = compromises;
     let warn_of = |count: u64, what: &str| {
         if count > 0 {
-            say("warning", &format!("{count} {} {what}", if count == 1 { "note was" } else { "notes were" }));
+            let notes = if count == 1 { "note was" } else { "notes were" };
+            warn(arguments, &format!("{count} {notes} {what}"));
         }
     };
     warn_of(*moved_by_octaves, "moved by octaves: no string gives them as written");
@@ -184,17 +190,17 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     warn_of(*without_string, "left out: no string gives them in any octave, or their channel has none");
     warn_of(*bent_short, "bent less far than asked: string or finger goes no farther (max_bend)");
     if *lost_events > 0 {
-        say("warning", &format!("{lost_events} events were lost: too many at once"));
+        warn(arguments, &format!("{lost_events} events were lost: too many at once"));
     }
     if *seconds == 0.0 {
-        say("warning", "the sound has no samples: the song ends as it begins (--tail SECONDS goes on)");
+        warn(arguments, "the sound has no samples: the song ends as it begins (--tail SECONDS goes on)");
     }
     if arguments.bit_depth != BitDepth::Float32 {
         for (name, findings) in [("sound", mix), ("strings' own sound", stems)] {
             if findings.peak > 1.0 {
                 let peak = decibels(findings.peak);
                 let advice = "use --bit-depth 32f or a set-up with less gain";
-                say("warning", &format!("the {name} peaks at {peak:+.1} dBFS and is clipped: {advice}"));
+                warn(arguments, &format!("the {name} peaks at {peak:+.1} dBFS and is clipped: {advice}"));
             }
         }
     }

@@ -41,29 +41,31 @@ const LOOK: u64 = 64;
 /// Computes a scene.
 pub(super) fn run(arguments: &SceneArgs) -> Outcome {
     let (text, scene) = read(&arguments.file)?;
-    let mut simulation = Simulation::new(&scene).with_context(|| scene_name(&arguments.file))?;
+    let name = scene_name(&arguments.file);
+    let mut simulation = Simulation::new(&scene).with_context(|| name.clone())?;
     check_paths(arguments)?;
-    warn_of_what_is_inside(&simulation);
+    warn_of_what_is_inside(&name, &simulation);
     if arguments.trace.is_some() || arguments.figure.is_some() || arguments.wav.is_none() {
         simulation.open_ledger();
     }
     let mut outputs = Outputs::begin(arguments, &text, &scene, &simulation)?;
     let trace_size = outputs.trace.as_ref().map(Trace::size);
     if let Some((_, bytes)) = trace_size.filter(|(_, bytes)| *bytes > LARGE_TRACE) {
-        say("note", &format!("the trace will take {:.1} GB; --every N keeps less", bytes as f64 / 1e9));
+        let size = bytes as f64 / 1e9;
+        say("note", &format!("{name}: the trace will take {size:.1} GB; --every N keeps less"));
     }
     let started = Instant::now();
-    let seen = compute(&mut simulation, &mut outputs)?;
+    let seen = compute(&name, &mut simulation, &mut outputs)?;
     let elapsed = started.elapsed().as_secs_f64();
     let sound = outputs.finish()?;
     let summary =
         Summary { arguments, scene: &scene, simulation: &simulation, seen, sound, trace_size, elapsed };
     summary.print();
-    check(&seen, sound.as_ref(), simulation.ledgers())
+    check(&name, &seen, sound.as_ref(), simulation.ledgers())
 }
 
 /// Warns of strings that begin inside board, frets or fingers: these would throw them.
-fn warn_of_what_is_inside(simulation: &Simulation) {
+fn warn_of_what_is_inside(name: &str, simulation: &Simulation) {
     for (number, string) in (1..).zip(simulation.strings()) {
         let begun = Ledger::new(&string.model, &string.state, string.model.string.tension).energies();
         let own = begun.string + begun.tension;
@@ -71,8 +73,8 @@ fn warn_of_what_is_inside(simulation: &Simulation) {
             say(
                 "warning",
                 &format!(
-                    "string[{number}] begins inside board, frets or fingers, which store {:.3e} J and throw it: it has {own:.3e} J \
-                     itself",
+                    "{name}: string[{number}] begins inside board, frets or fingers, which store {:.3e} J and throw it: it has \
+                     {own:.3e} J itself",
                     begun.contact
                 ),
             );
@@ -226,8 +228,8 @@ impl Seen {
     }
 }
 
-fn compute(simulation: &mut Simulation, outputs: &mut Outputs) -> Result<Seen> {
-    let mut progress = Progress::new(simulation.samples());
+fn compute(name: &str, simulation: &mut Simulation, outputs: &mut Outputs) -> Result<Seen> {
+    let mut progress = Progress::new(name.to_owned(), simulation.samples());
     let mut seen = Seen::default();
     while simulation.steps() < simulation.samples() {
         let entry = match &mut outputs.trace {
@@ -255,22 +257,23 @@ fn compute(simulation: &mut Simulation, outputs: &mut Outputs) -> Result<Seen> {
     Ok(seen)
 }
 
-/// Whether the result may be believed.
-fn check(seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) -> Outcome {
+/// Whether the result of a scene that is so called may be believed.
+fn check(name: &str, seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) -> Outcome {
+    let fails = |text: String| Err(Failure::Check(format!("{name}: {text}")));
     if let Some(sample) = seen.not_finite {
-        return Err(Failure::Check(format!("the result is not finite from sample {sample} on; it is kept")));
+        return fails(format!("the result is not finite from sample {sample} on; it is kept"));
     }
     if let Some(sound) = sound.filter(|sound| sound.not_finite > 0) {
         let count = sound.not_finite;
-        return Err(Failure::Check(format!("{count} samples are too large for 32 bits; the file is kept")));
+        return fails(format!("{count} samples are too large for 32 bits; the file is kept"));
     }
     for (number, ledger) in (1..).zip(ledgers) {
         let (open, limit) = (open_part(ledger), BALANCE + ledger.rounding / flow(ledger));
         if open.is_nan() || open > limit {
-            return Err(Failure::Check(format!(
+            return fails(format!(
                 "the energy balance of string {number} is open by {open:.1e} of its largest energy or of what was put \
                  in, over the limit of {limit:.1e}; the result is kept"
-            )));
+            ));
         }
     }
     Ok(())
@@ -301,20 +304,20 @@ mod tests {
 
     #[test]
     fn a_good_result_passes() {
-        assert!(check(&Seen::default(), Some(&Findings::default()), &ledgers()).is_ok());
+        assert!(check("it", &Seen::default(), Some(&Findings::default()), &ledgers()).is_ok());
     }
 
     #[test]
     fn what_is_not_finite_or_not_balanced_fails_with_3() {
         let code = |outcome: Outcome| outcome.err().map(|failure| failure.code());
         let seen = Seen { not_finite: Some(7), ..Seen::default() };
-        assert_eq!(code(check(&seen, None, &[])), Some(3));
+        assert_eq!(code(check("it", &seen, None, &[])), Some(3));
         let sound = Findings { not_finite: 1, ..Findings::default() };
-        assert_eq!(code(check(&Seen::default(), Some(&sound), &[])), Some(3));
+        assert_eq!(code(check("it", &Seen::default(), Some(&sound), &[])), Some(3));
         for part in [2.0 * BALANCE, -2.0 * BALANCE, f64::NAN] {
             let mut open = ledgers();
             open[0].residual_sum = part * open[0].largest;
-            assert_eq!(code(check(&Seen::default(), None, &open)), Some(3));
+            assert_eq!(code(check("it", &Seen::default(), None, &open)), Some(3));
         }
     }
 }

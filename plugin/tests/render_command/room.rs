@@ -55,12 +55,16 @@ impl Room {
         self.command(arguments).output().unwrap()
     }
 
-    /// Renders and expects success; returns what was said.
+    /// Renders and expects success, and that every warning names the song; returns what was said.
     pub fn renders(&self, arguments: &[&str]) -> String {
         let output = self.run(&[&["render"], arguments].concat());
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(0), "{said}");
         assert!(output.stdout.is_empty());
+        let song = arguments.first().filter(|first| !first.starts_with('-')).unwrap_or(&"the built-in demo");
+        for warning in said.lines().filter_map(|line| line.strip_prefix("warning: ")) {
+            assert!(warning.starts_with(&format!("{song}: ")), "{said}");
+        }
         said
     }
 

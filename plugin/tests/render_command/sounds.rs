@@ -127,7 +127,10 @@ fn stems_of_another_song_are_told_of() {
     assert!(!render().contains("warning"));
     put("7-B1.wav");
     let said = render();
-    assert!(said.contains("warning: stems also holds 7-B1.wav, which is not of this song\n"), "{said}");
+    assert!(
+        said.contains("warning: song.mid: stems also holds 7-B1.wav, which is not of this song\n"),
+        "{said}"
+    );
     put("2-A2.wav");
     let said = render();
     assert!(
@@ -143,7 +146,7 @@ fn a_sound_of_no_samples_is_told_of() {
     fs::write(room.path("end.mid"), midi(&[(0, &[0x90, 60, 90]), (96, &[0xFF, 1, 0]), (96, &[0xFF, 1, 0])]))
         .unwrap();
     let said = room.renders(&["end.mid", "--tail", "none"]);
-    assert!(said.contains("warning: the sound has no samples"), "{said}");
+    assert!(said.contains("warning: end.mid: the sound has no samples"), "{said}");
     assert_eq!(WavReader::open(room.path("end.wav")).unwrap().duration(), 0);
     assert!(!room.renders(&["end.mid", "--tail", "0.1"]).contains("no samples"));
 }
@@ -192,21 +195,24 @@ fn what_plays_differently_from_the_page_is_said_once() {
     let said = room.renders(&["odd.mid"]);
     let warnings: Vec<&str> = said.lines().filter(|line| line.starts_with("warning: ")).collect();
     assert_eq!(warnings.len(), 2, "{said}");
-    assert!(warnings[0].contains("channel 10") && warnings[0].contains("2 of its notes"), "{said}");
-    assert!(warnings[1].contains("2 notes were moved by octaves"), "{said}");
+    assert!(
+        warnings[0].starts_with("warning: odd.mid: channel 10") && warnings[0].contains("2 of its notes"),
+        "{said}"
+    );
+    assert!(warnings[1].starts_with("warning: odd.mid: 2 notes were moved by octaves"), "{said}");
 
     // Two octaves up on an open string, three times.
     let bent: [(u8, &[u8]); 4] =
         [(0, &[0x90, 64, 90]), (9, &[0xE0, 127, 127]), (9, &[0xE0, 0, 64]), (9, &[0xE0, 127, 127])];
     fs::write(room.path("bent.mid"), midi(&bent)).unwrap();
     let said = room.renders(&["bent.mid", "--bend-range", "24", "--tail", "0.1"]);
-    assert!(said.contains("warning: 1 note was bent less far than asked"), "{said}");
+    assert!(said.contains("warning: bent.mid: 1 note was bent less far than asked"), "{said}");
 
     let faded: [(u8, &[u8]); 4] =
         [(0, &[0xB0, 7, 60]), (0, &[0x90, 64, 90]), (9, &[0xB0, 7, 30]), (9, &[0xB0, 10, 0])];
     fs::write(room.path("faded.mid"), midi(&faded)).unwrap();
     let said = room.renders(&["faded.mid", "--tail", "0.1"]);
-    let expected = "warning: controllers 7 (volume) and 10 (pan) are passed over: use 11, or gain and pan in a set-up file\n";
+    let expected = "warning: faded.mid: controllers 7 (volume) and 10 (pan) are passed over: use 11, or gain and pan in a set-up file\n";
     assert_eq!(said.matches("warning").count(), 1, "{said}");
     assert!(said.contains(expected), "{said}");
 
@@ -214,12 +220,15 @@ fn what_plays_differently_from_the_page_is_said_once() {
     fs::write(room.path("cut.mid"), &whole[..whole.len() - 9]).unwrap();
     let said = room.renders(&["cut.mid", "--tail", "0.1"]);
     assert_eq!(said.matches("warning").count(), 1, "{said}");
-    assert!(said.contains("warning: truncated MIDI file: track 1 announces 20 bytes, 11 are left"), "{said}");
+    assert!(
+        said.contains("warning: cut.mid: truncated MIDI file: track 1 announces 20 bytes, 11 are left"),
+        "{said}"
+    );
     assert!(peak(&room.path("cut.wav")) > 0.01);
 
     fs::write(room.path("empty.mid"), midi(&[])).unwrap();
     let said = room.renders(&["empty.mid"]);
-    assert!(said.contains("warning: no notes") && said.contains("silent"), "{said}");
+    assert!(said.contains("warning: empty.mid: no notes") && said.contains("silent"), "{said}");
     assert_eq!(peak(&room.path("empty.wav")), 0.0);
 
     let chord: Vec<[u8; 3]> = (14..114).map(|key| [0x90, key, 60]).collect();
@@ -306,7 +315,7 @@ fn clipping_is_said_and_saturates() {
     fs::write(room.path("loud.toml"), setup.replace(gain, "gain = 1000.0")).unwrap();
     let arguments = ["song.mid", "-o", "loud.wav", "--instrument", "loud.toml"];
     let said = room.renders(&arguments);
-    assert!(said.contains("warning: the sound peaks at +") && said.contains("clipped"), "{said}");
+    assert!(said.contains("warning: song.mid: the sound peaks at +") && said.contains("clipped"), "{said}");
     assert_eq!(peak(&room.path("loud.wav")), 1.0);
     let said = room.renders(&[&arguments[..], &["--bit-depth", "32f"]].concat());
     assert!(!said.contains("warning"), "{said}");

@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 
 use super::labels::{LabelFile, Labelled};
+use super::warn;
+use crate::cli::RenderArgs;
 use crate::cli::names::shown;
 use crate::cli::output::publish_all;
 use crate::cli::unfinished::NewFolders;
 use crate::cli::wav::{Findings, WavFile};
-use crate::cli::{RenderArgs, say};
 
 /// The files of one rendering.
 pub(super) struct Files {
@@ -35,7 +36,7 @@ impl Files {
         let stems = paths.iter().map(|path| WavFile::begin(path, 1, rate, depth)).collect::<Result<_>>()?;
         let labels = arguments.labels.as_deref().map(LabelFile::begin).transpose()?;
         if let Some(folder) = &arguments.stems {
-            warn_of_others(folder, &paths, output);
+            warn_of_others(arguments, folder, &paths, output);
         }
         Ok(Self { mix, stems, labels, folder })
     }
@@ -68,7 +69,7 @@ pub(super) fn stem_paths(arguments: &RenderArgs, strings: &[&str]) -> Vec<PathBu
 }
 
 /// Warns of files in a folder that look like sounds of strings and are none of those being written.
-fn warn_of_others(folder: &Path, paths: &[PathBuf], output: &Path) {
+fn warn_of_others(arguments: &RenderArgs, folder: &Path, paths: &[PathBuf], output: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
     let is_other = |name: &OsString| {
         let looks_like_it = name.to_str().is_some_and(is_stem_name);
@@ -83,7 +84,7 @@ fn warn_of_others(folder: &Path, paths: &[PathBuf], output: &Path) {
             1 => format!("{first}, which is"),
             count => format!("{count} files, such as {first}, which are"),
         };
-        say("warning", &format!("{folder} also holds {which} not of this song"));
+        warn(arguments, &format!("{folder} also holds {which} not of this song"));
     }
 }
 

@@ -7,6 +7,7 @@ use anyhow::Result;
 use super::files::Files;
 use super::labels::{Labelled, Source};
 use super::options::Tail;
+use super::song_name;
 use crate::cli::progress::Progress;
 use crate::cli::wav::Findings;
 use crate::engine::{Engine, INAUDIBLE, QUIET};
@@ -46,7 +47,8 @@ impl Playing<'_> {
             self.engine.record();
         }
         let rate = self.source.arguments.sample_rate;
-        let mut progress = Progress::new((self.song.duration() * f64::from(rate)) as u64);
+        let samples = (self.song.duration() * f64::from(rate)) as u64;
+        let mut progress = Progress::new(song_name(self.source.arguments), samples);
         let mut buffers = Buffers::new(self.files.stems.len(), Engine::LATENCY as usize);
         let mut peak = 0.0_f64;
         let mut events =
