@@ -2,7 +2,8 @@
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
-use crate::error::{Error, plain, within};
+use crate::digits::plain;
+use crate::error::{Error, within};
 
 /// A number, or `[[where, value], …]` joined by straight lines and constant outside.
 #[derive(Debug, Clone, PartialEq)]

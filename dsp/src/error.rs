@@ -1,5 +1,7 @@
 //! What can be wrong with a description. Errors arise when something is built, never while it runs.
 
+use crate::digits::plain;
+
 /// Why a scene, a set-up or a model was refused: one line that names the thing, its value and what
 /// is accepted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -188,16 +190,6 @@ fn printable(text: &str) -> String {
     match line.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{} ...", &line[..end]),
         None => line,
-    }
-}
-
-/// A number as one would write it: no row of zeros.
-pub(crate) fn plain(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 || !size.is_finite() || (1e-3..1e6).contains(&size) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
     }
 }
 

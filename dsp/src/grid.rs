@@ -2,7 +2,8 @@
 
 use std::cmp::Ordering;
 
-use crate::error::{Error, plain};
+use crate::digits::plain;
+use crate::error::Error;
 use crate::field::{BEFORE, Field, cell};
 
 /// A string of `intervals` equal spacings in space and a step in time.

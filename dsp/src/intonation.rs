@@ -14,7 +14,8 @@ mod equilibrium;
 mod mode;
 
 use crate::curve::Curve;
-use crate::error::{Error, plain};
+use crate::digits::plain;
+use crate::error::Error;
 use crate::grid::Reading;
 use crate::model::{Model, StringParameters};
 use crate::neck::Neck;
@@ -169,12 +170,13 @@ impl<'a> Bench<'a> {
             }
         }
         // However slack it is, it is too stiff to sound as low as that.
-        let pitch = string.pitch + self.setup.tuning;
-        Err(Error::range(
-            "pitch",
-            plain(pitch),
-            "with its core_radius and youngs_modulus the string cannot sound so low",
-        ))
+        let tuning = match self.setup.tuning {
+            0.0 => String::new(),
+            tuning => format!(", and tuning = {},", plain(tuning)),
+        };
+        let accepted =
+            format!("with its core_radius and youngs_modulus{tuning} the string cannot sound so low");
+        Err(Error::range("pitch", plain(string.pitch), accepted))
     }
 
     /// Moves the frets, lowest first, until each stops the string at its pitch.

@@ -125,6 +125,7 @@ pub mod contact;
 mod contact_step;
 pub mod curve;
 mod decimate;
+pub mod digits;
 pub mod drive;
 pub mod energy;
 pub mod entry;

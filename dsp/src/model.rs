@@ -10,7 +10,8 @@ mod stiffness;
 use std::ops::RangeInclusive;
 
 use crate::contact::ContactLaw;
-use crate::error::{Error, plain, within};
+use crate::digits::{at_least, cleared, plain};
+use crate::error::{Error, within};
 use crate::finger::Inertia;
 use crate::flexibility::Flexibility;
 use crate::gesture::Touch;
@@ -136,9 +137,8 @@ impl Model {
             }
             let accepted = format!(
                 "the string is too short for its grid at {} Hz: it must be at least {} m",
-                plain(1.0 / time_step),
-                // Rounded up in the fourth digit.
-                plain((long * 1.001 * 1e6).ceil() / 1e6),
+                plain(cleared(1.0 / time_step)),
+                plain(at_least(1.001 * long)),
             );
             return Err(Error::range("length", plain(string.length), accepted));
         }

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::ContactLaw;
 use crate::curve::Curve;
-use crate::error::{Error, plain, within};
+use crate::digits::{at_most, plain};
+use crate::error::{Error, within};
 use crate::model::Barrier;
 use crate::scene::FretPlacement;
 
@@ -88,7 +89,7 @@ impl Neck {
         if self.relief > most {
             let accepted = format!(
                 "it must lie between 0 and {} m, or crowns stand above the strings",
-                plain((1e6 * most).floor() / 1e6)
+                plain(at_most(most))
             );
             return Err(Error::range("neck.relief", plain(self.relief), accepted));
         }

@@ -8,6 +8,7 @@
 
 use std::ops::RangeInclusive;
 
+use crate::digits::plain;
 use crate::error::{Error, within};
 use crate::intonation::flexible;
 use crate::model::Model;
@@ -81,7 +82,8 @@ impl EngineSettings {
     pub(crate) fn check(&self) -> Result<(), Error> {
         within("sample_rate", self.sample_rate, *RATES.start(), *RATES.end(), "Hz")?;
         if self.widest_spacing.is_nan() || self.widest_spacing < 1e-4 {
-            return Err(Error::range("widest_spacing", self.widest_spacing, "it must be 1e-4 m or more"));
+            let value = plain(self.widest_spacing);
+            return Err(Error::range("widest_spacing", value, "it must be 1e-4 m or more"));
         }
         self.solver().check()
     }

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::choice::choice;
 use crate::curve::Curve;
+use crate::digits::{at_most, plain};
 use crate::error::{Error, within};
 use crate::intonation::Behind;
 use crate::model::Barrier;
@@ -209,8 +210,13 @@ impl Setup {
         within("blend", self.blend, 0.0, 1.0, "")?;
         self.neck.check()?;
         if let Some(Bridge { length, radius }) = self.bridge {
-            let room = self.neck.scale_length - self.neck.board_end();
-            within("bridge.length", length, 1e-4, room.max(1e-4), "m, clear of the board")?;
+            let (least, room) = (1e-4, self.neck.scale_length - self.neck.board_end());
+            if !(least..=room.max(least)).contains(&length) {
+                let most = plain(at_most(room).max(least));
+                let accepted =
+                    format!("it must lie between {} and {most} m, clear of the board", plain(least));
+                return Err(Error::range("bridge.length", plain(length), accepted));
+            }
             within("bridge.radius", radius, 1e-3, 1e3, "m")?;
         }
         self.player.check(self.neck.scale_length)?;
@@ -302,8 +308,8 @@ impl Pickup {
                 if aperture / 2.0 < position.min(scale - position) {
                     return Ok(());
                 }
-                let accepted = format!("half of it must stay on the string around {position} m");
-                Err(Error::range("pickup.aperture", aperture, accepted))
+                let accepted = format!("half of it must stay on the string around {} m", plain(position));
+                Err(Error::range("pickup.aperture", plain(aperture), accepted))
             }
         }
     }
@@ -314,5 +320,6 @@ fn on_scale(name: &str, place: f64, scale: f64) -> Result<(), Error> {
     if place.is_finite() && place > 0.0 && place < scale {
         return Ok(());
     }
-    Err(Error::range(name, place, format!("it must lie above 0 and below {scale} m from the saddle")))
+    let accepted = format!("it must lie above 0 and below {} m from the saddle", plain(scale));
+    Err(Error::range(name, plain(place), accepted))
 }

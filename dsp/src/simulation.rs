@@ -2,9 +2,10 @@
 
 mod scene_string;
 
+use crate::digits::{at_most, plain};
 use crate::energy::Ledger;
 use crate::entry::Entry;
-use crate::error::{Error, plain};
+use crate::error::Error;
 use crate::model::{Model, StringParameters};
 use crate::scene::Scene;
 use scene_string::Clock;
@@ -167,8 +168,9 @@ fn check_size(scene: &Scene) -> Result<(), Error> {
     }
     let longest = MOST_WORK / (things * scene.sample_rate);
     let accepted = format!(
-        "with {points} grid points at {} Hz it must lie between 0 and {longest:.3e} s",
-        plain(scene.sample_rate)
+        "with {points} grid points at {} Hz it must lie between 0 and {} s",
+        plain(scene.sample_rate),
+        plain(at_most(longest))
     );
     Err(Error::range("duration", plain(scene.duration), accepted))
 }

@@ -201,6 +201,36 @@ fn a_setup_can_be_another_with_a_few_things_changed() {
     }
 }
 
+/// What is wrong is shown as it was given, and a limit that was computed in few digits, of which the last is still accepted.
+#[test]
+fn limits_are_short_and_accepted_and_values_as_given() {
+    let refused = |change: &str| {
+        Setup::from_toml(&format!("based_on = \"classical\"\n{change}")).expect_err(change).to_string()
+    };
+    for (table, key, rest, wrong, limited) in [
+        ("bridge", "length", "radius = 1.0", "5.000000000001", "m, clear of the board"),
+        ("neck", "relief", "", "0.0099999999", "m, or crowns stand above the strings"),
+    ] {
+        let with = |value: &str| format!("[{table}]\n{key} = {value}\n{rest}");
+        let error = refused(&with(wrong));
+        let limit = error.strip_prefix(&format!("{table}.{key} = {wrong} is refused: it must lie between "));
+        let limit =
+            limit.and_then(|limit| limit.strip_suffix(limited)?.split(" and ").nth(1)).expect(&error).trim();
+        assert!(limit.trim_start_matches(['0', '.']).len() <= 4, "{error}");
+        Setup::from_toml(&format!("based_on = \"classical\"\n{}", with(limit))).expect("it is accepted");
+    }
+    for (change, expected) in [
+        ("player.pluck_position = -1e-12", "player.pluck_position = -1e-12 is refused: "),
+        (
+            "pickup = { kind = \"magnetic\", position = 2e-5, aperture = 1e-3, resonance = 5e3, quality = 2.0 }",
+            "pickup.aperture = 0.001 is refused: half of it must stay on the string around 2e-5 m",
+        ),
+    ] {
+        let error = refused(change);
+        assert!(error.starts_with(expected), "{error}");
+    }
+}
+
 /// No line can be named of a set-up that is made of two texts; the keys that lead to what is wrong are.
 #[test]
 fn what_is_wrong_with_a_change_is_named_by_its_keys() {

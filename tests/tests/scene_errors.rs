@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use low_action_dsp::{Scene, Simulation};
 use low_action_tests::command::{Finished, Workplace};
 
 const SCENE: &str = r#"
@@ -45,6 +46,12 @@ fn assert_refused(done: &Finished, code: i32, words: &[&str]) {
         assert!(done.error.contains(word), "{word} is not in: {}", done.error);
     }
     assert!(done.output.is_empty(), "{}", done.text());
+}
+
+/// Whether a number that was computed is shown with four digits or fewer.
+fn has_few_digits(shown: &str) -> bool {
+    let digits = shown.split('e').next().unwrap().chars().filter(char::is_ascii_digit).collect::<String>();
+    shown.parse::<f64>().is_ok() && digits.trim_matches('0').len() <= 4
 }
 
 /// That the scene with a part replaced is refused before anything is computed (some of these would take years), and with
@@ -155,8 +162,26 @@ fn the_length_named_as_the_shortest_is_accepted() {
     place.write("scene.toml", format!("{bare}0.002"));
     let done = place.run(&["scene", "scene.toml"]);
     let shortest = done.error.split("at least ").nth(1).unwrap().trim_end_matches(" m\n").to_owned();
+    assert!(has_few_digits(&shortest), "{shortest}");
     place.write("scene.toml", format!("{bare}{shortest}"));
     assert_eq!(place.run(&["scene", "scene.toml"]).code, 0, "{shortest}");
+    // The rate is told as it was given. (Turned over twice it would be 1001.9999999999999.)
+    place.write("scene.toml", format!("{bare}0.002").replace("44100", "1002"));
+    assert_refused(&place.run(&["scene", "scene.toml"]), 1, &["for its grid at 1002 Hz: it must be"]);
+}
+
+#[test]
+fn the_duration_named_as_the_longest_is_accepted() {
+    let with = |duration: &str| {
+        let text = SCENE.replace("duration = 0.01", &format!("duration = {duration}"));
+        let scene = Scene::from_toml(&text.replace("44100", "1e7")).unwrap();
+        Simulation::new(&scene).map(drop).map_err(|error| error.to_string())
+    };
+    let error = with("12345.678901").unwrap_err();
+    assert!(error.starts_with("duration = 12345.678901 is refused: "), "{error}");
+    let longest = error.split("between 0 and ").nth(1).unwrap().trim_end_matches(" s");
+    assert!(has_few_digits(longest), "{longest}");
+    assert_eq!(with(longest), Ok(()), "{longest}");
 }
 
 #[test]

@@ -275,6 +275,11 @@ fn a_string_too_stiff_for_its_pitch_is_refused() {
     let error = Instrument::new(&setup, &Quality::Live.settings(RATE)).unwrap_err().to_string();
     assert!(error.starts_with("string[1].pitch = 43 is refused: "), "{error}");
     assert!(!error.contains('\n') && error.contains("core_radius"), "{error}");
+    // The pitch in the file, and not what it is tuned to.
+    let setup = Setup::from_toml(&format!("tuning = -0.1\n{text}")).unwrap();
+    let error = Instrument::new(&setup, &Quality::Live.settings(RATE)).unwrap_err().to_string();
+    assert!(error.starts_with("string[1].pitch = 43 is refused: "), "{error}");
+    assert!(error.contains("and tuning = -0.1, the string cannot sound so low"), "{error}");
 }
 
 /// What its pitch takes too much tension for is named by the number that can be changed in the file, with limits that can

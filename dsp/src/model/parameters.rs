@@ -1,6 +1,7 @@
 //! The physical numbers of one string.
 
-use crate::error::{Error, plain};
+use crate::digits::plain;
+use crate::error::Error;
 use crate::scene::StringSpec;
 
 /// The physical numbers of one string: the first four above 0, the others 0 or more, all of them finite.

@@ -1,7 +1,8 @@
 //! How stiff a contact may be: stiffer ones cannot be told from rounding.
 
 use crate::contact::ContactLaw;
-use crate::error::{Error, plain};
+use crate::digits::plain;
+use crate::error::Error;
 
 /// A contact is refused if M φ′ is above this at 1 cm of motion in one step.
 const CONDITIONING: f64 = 1e10;

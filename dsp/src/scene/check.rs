@@ -5,7 +5,8 @@ use std::ops::RangeInclusive;
 use super::{FingerSpec, FretboardSpec, ListeningPoint, Scene, SolverSettings, StringSpec};
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, OneOrEach};
-use crate::error::{Error, plain, within};
+use crate::digits::plain;
+use crate::error::{Error, within};
 use crate::gesture::Touch;
 use crate::model::Model;
 

@@ -2,8 +2,9 @@
 
 use super::MOST_NUMBERS;
 use crate::curve::Curve;
+use crate::digits::plain;
 use crate::drive::{Drive, Hand, Push};
-use crate::error::{Error, plain};
+use crate::error::Error;
 use crate::gesture::pluck_push;
 use crate::grid::Reading;
 use crate::model::{Barrier, ContactKind, Model, StringParameters};

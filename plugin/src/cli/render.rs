@@ -13,6 +13,7 @@ use std::thread;
 use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
+use low_action_dsp::digits::{at_least, at_most, plain};
 
 use super::names::{escaped, shown};
 use super::paths::{is_dash, keep_apart};
@@ -126,7 +127,9 @@ fn check_length(arguments: &RenderArgs, song: &Song) -> Result<()> {
     let limit = arguments.max_length;
     if minutes > limit {
         bail!(
-            "the music lasts {minutes:.1} minutes, over the limit of {limit}: raise it with --max-length MIN"
+            "the music lasts {} minutes, over the limit of {}: raise it with --max-length MIN",
+            plain(at_least(minutes)),
+            plain(limit)
         );
     }
     let rate = f64::from(arguments.sample_rate);
@@ -134,7 +137,9 @@ fn check_length(arguments: &RenderArgs, song: &Song) -> Result<()> {
     let whole = minutes + arguments.tail.longest() / 60.0;
     if whole > longest {
         bail!(
-            "{whole:.1} minutes do not fit in a WAV file (4 GiB): at most {longest:.1} at {} Hz and {} bit",
+            "{} minutes do not fit in a WAV file (4 GiB): at most {} at {} Hz and {} bit",
+            plain(at_least(whole)),
+            plain(at_most(longest)),
             arguments.sample_rate,
             arguments.bit_depth
         );

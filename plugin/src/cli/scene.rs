@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
+use low_action_dsp::digits::{at_least, at_most, plain};
 use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::{Ledger, Scene, Simulation};
 use low_action_figures::SceneFigure;
@@ -177,12 +178,13 @@ impl Picture {
 fn check_sound(scene: &Scene, simulation: &Simulation) -> Result<()> {
     let rate = scene.sample_rate;
     if rate.fract() != 0.0 {
-        bail!("sample_rate = {rate} is refused: --wav needs a whole number of hertz");
+        bail!("sample_rate = {} is refused: --wav needs a whole number of hertz", plain(rate));
     }
     let longest = BitDepth::Float32.largest_length(1);
     if simulation.samples() > longest {
         let longest = (longest as f64 / rate).floor();
-        bail!("duration = {} is refused: --wav holds at most {longest} s at {rate} Hz", scene.duration);
+        let (given, rate) = (plain(scene.duration), plain(rate));
+        bail!("duration = {given} is refused: --wav holds at most {longest} s at {rate} Hz");
     }
     Ok(())
 }
@@ -271,8 +273,10 @@ fn check(name: &str, seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) 
         let (open, limit) = (open_part(ledger), BALANCE + ledger.rounding / flow(ledger));
         if open.is_nan() || open > limit {
             return fails(format!(
-                "the energy balance of string {number} is open by {open:.1e} of its largest energy or of what was put \
-                 in, over the limit of {limit:.1e}; the result is kept"
+                "the energy balance of string {number} is open by {} of its largest energy or of what was put in, over \
+                 the limit of {}; the result is kept",
+                plain(at_least(open)),
+                plain(at_most(limit))
             ));
         }
     }

@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use low_action_dsp::digits::{at_least, plain};
 use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::simulation::SceneString;
 use low_action_dsp::{Entry, Simulation};
@@ -121,6 +122,15 @@ impl Plan {
         Plan { arrays, strings, plucks, fingers, output, iterations, ledger, rows, every }
     }
 
+    /// How many samples apart rows must be for all numbers to take at most so many bytes.
+    fn least_every(text: &str, simulation: &Simulation, most: u64) -> u64 {
+        let samples = simulation.samples();
+        let bytes = |rows: u64| Plan::new(text, simulation, samples.div_ceil(rows).max(1)).bytes();
+        let (one, row) = (bytes(1), bytes(2).saturating_sub(bytes(1)).max(1));
+        let rows = (most + row).saturating_sub(one) / row;
+        samples.div_ceil(rows.max(1))
+    }
+
     /// Bytes of all numbers.
     fn bytes(&self) -> u64 {
         self.arrays.iter().map(Array::bytes).sum()
@@ -142,11 +152,11 @@ impl Trace {
     pub fn begin(path: &Path, text: &str, simulation: &Simulation, every: u64) -> Result<Trace> {
         let plan = Plan::new(text, simulation, every);
         if plan.bytes() > LARGEST {
-            let (bytes, limit) = (plan.bytes() as f64, LARGEST as f64);
-            let enough = (every as f64 * bytes / limit).ceil();
+            let (bytes, limit) = (plain(at_least(plan.bytes() as f64)), plain(LARGEST as f64));
+            let least = Plan::least_every(text, simulation, LARGEST);
             bail!(
-                "--every {every} is refused: the trace would take {bytes:.1e} bytes, and at most {limit:e} are \
-                 accepted: it must be at least {enough}"
+                "--every {every} is refused: the trace would take {bytes} bytes, and at most {limit} are accepted: it must \
+                 be at least {least}"
             );
         }
         let draft = Draft::begin(path)?;
@@ -248,4 +258,23 @@ impl Trace {
 
 fn cannot_write(path: &Path) -> String {
     format!("cannot write {}", shown(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use low_action_dsp::Scene;
+
+    use super::*;
+
+    #[test]
+    fn the_least_that_is_named_for_every_is_enough_and_no_less_is() {
+        let text = "sample_rate = 44100\nduration = 0.1\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\n\
+                    tension = 60.0\n";
+        let simulation = Simulation::new(&Scene::from_toml(text).unwrap()).unwrap();
+        let bytes = |every| Plan::new(text, &simulation, every).bytes();
+        for most in [bytes(4410), bytes(4410) + 1, 10_000, 100_000, 123_456, bytes(2), bytes(2) - 1] {
+            let least = Plan::least_every(text, &simulation, most);
+            assert!(bytes(least) <= most && bytes(least - 1) > most, "{most}: {least}");
+        }
+    }
 }

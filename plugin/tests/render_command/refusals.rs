@@ -184,12 +184,20 @@ fn an_hour_is_the_limit_unless_another_is_named() {
         "{said}"
     );
     // More than a WAV file holds, whatever is allowed.
-    let most =
-        ["render", "long.mid", "--max-length", "1000", "--sample-rate", "384000", "--bit-depth", "32f"];
+    let finest = ["--sample-rate", "384000", "--bit-depth", "32f"];
+    let most = [&["render", "long.mid", "--max-length", "1000"], &finest[..]].concat();
     assert!(room.refuses(1, &most).contains("do not fit in a WAV file"));
-    // The limit can be lowered, too.
-    let said = room.refuses(1, &["render", "song.mid", "--max-length", "0.001"]);
-    assert!(said.contains("limit of 0.001"), "{said}");
+    // However little is too much, it is shown as too much.
+    let said = room.refuses(1, &[&["render", "song.mid", "--tail", "1397.86"], &finest[..]].concat());
+    assert!(
+        said.contains("song.mid: 23.31 minutes do not fit in a WAV file (4 GiB): at most 23.3 at"),
+        "{said}"
+    );
+    // The limit can be lowered, too: to what the music is said to last, and no less.
+    let said = room.refuses(1, &["render", "song.mid", "--max-length", "1e-7"]);
+    assert!(said.contains("the music lasts 0.004167 minutes, over the limit of 1e-7: raise it"), "{said}");
+    room.refuses(1, &["render", "song.mid", "--max-length", "0.004166"]);
+    room.renders(&["song.mid", "--max-length", "0.004167", "--tail", "none"]);
 }
 
 #[cfg(target_os = "linux")]
