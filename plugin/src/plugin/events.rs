@@ -107,7 +107,7 @@ pub(super) fn translate(
             key: Key::Wildcard,
             ..
         } => {
-            voices.lift_keys(&(0..=15), &(0..=127));
+            voices.lift_all();
             send(at, PlayerEvent::AllNotesOff);
         }
         NoteEvent::NoteOff { voice_id: voice, channel, key, .. } => {
@@ -160,6 +160,10 @@ pub(super) fn translate(
             }
         }
         NoteEvent::MidiCC { channel, cc: number, value, .. } => {
+            // All sound off, all notes off, and the four mode messages that imply it.
+            if matches!(number, 120 | 123..=127) {
+                voices.lift_keys(&(channel..=channel), &(0..=127));
+            }
             send(at, PlayerEvent::Controller { channel, number, value });
         }
         NoteEvent::MidiPitchBend { channel, value, .. } => {
@@ -276,6 +280,29 @@ mod tests {
         block(&mut voices, false);
         assert_eq!(ended(&mut voices, 4), []);
         assert_eq!(told, [1, 2, 3, 4].map(|id| Some(VoiceID::ID(id))));
+    }
+
+    /// The note-off of one that was let go of with all others lifts no key that has been struck since.
+    #[test]
+    fn what_was_let_go_of_with_all_others_is_let_go_of_once() {
+        let controller = |channel, cc| NoteEvent::MidiCC { timing: 0, channel, cc, value: 0.0 };
+        let (voice_id, key) = (VoiceID::Wildcard, Key::Wildcard);
+        let wildcard =
+            NoteEvent::NoteOff { timing: 0, voice_id, channel: Channel::Wildcard, key, velocity: 0.0 };
+        for all in [controller(2, 120), controller(2, 123), controller(2, 127), wildcard] {
+            let mut voices = Voices::default();
+            voices.begin(1, 2, 45);
+            assert_eq!(translated(&mut voices, all).len(), 1);
+            voices.begin(2, 2, 45);
+            assert_eq!(ended(&mut voices, 1), [], "{all:?}");
+            assert_eq!(ended(&mut voices, 2), [PlayerEvent::NoteOff { channel: 2, key: 45 }], "{all:?}");
+        }
+        for other in [controller(3, 123), controller(2, 121)] {
+            let mut voices = Voices::default();
+            voices.begin(1, 2, 45);
+            assert_eq!(translated(&mut voices, other).len(), 1);
+            assert_eq!(ended(&mut voices, 1), [PlayerEvent::NoteOff { channel: 2, key: 45 }], "{other:?}");
+        }
     }
 
     #[test]

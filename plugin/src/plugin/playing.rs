@@ -98,7 +98,7 @@ impl Playing {
 
     /// Everything that sounds is damped.
     pub fn silence(&mut self) {
-        self.engine.event(0, PlayerEvent::AllNotesOff);
+        self.touch(PlayerEvent::AllNotesOff);
     }
 
     /// Has the hands act as the parameters say from now on.
@@ -115,6 +115,9 @@ impl Playing {
 
     /// Plays what was done with the editor's strings, at once.
     pub fn touch(&mut self, event: PlayerEvent) {
+        if event == PlayerEvent::AllNotesOff {
+            self.voices.lift_all();
+        }
         self.engine.event(0, event);
     }
 

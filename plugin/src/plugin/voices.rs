@@ -96,6 +96,11 @@ impl Voices {
         Some((voice.channel, voice.key))
     }
 
+    /// Every key is up: a note-off that comes after all is not one of a note that has the same key from now on.
+    pub fn lift_all(&mut self) {
+        self.lift_keys(&(0..=15), &(0..=127));
+    }
+
     /// Every key of these channels is up, however often it went down.
     pub fn lift_keys(&mut self, channels: &RangeInclusive<u8>, keys: &RangeInclusive<u8>) {
         for voice in self.notes.iter_mut().chain(&mut self.presses).flatten() {
