@@ -64,7 +64,7 @@ pub fn intonate(
 ) -> Result<Intonated, Error> {
     let bench = Bench::new(setup, stencil, sample_rate);
     let target = std::f64::consts::TAU * frequency(string.pitch + setup.tuning);
-    let tuned = bench.tuned(string, setup.highest_tension_ratio(), target)?;
+    let tuned = bench.tuned(string, setup.tension_room(), target)?;
     let mut frets = setup.neck.equal_places();
     if setup.intonation == Intonation::Compensated {
         bench.place_frets(&tuned, target, &mut frets)?;
@@ -103,7 +103,7 @@ pub(crate) fn flexible(setup: &Setup, string: &SetupString) -> StringParameters 
         length,
         linear_density: string.linear_density,
         tension,
-        tension_limit: tension * setup.highest_tension_ratio(),
+        tension_limit: tension * setup.tension_room(),
         youngs_modulus: string.youngs_modulus,
         core_radius: string.core_radius,
         loss_0: string.loss_0,

@@ -28,7 +28,7 @@ pub struct Setup {
     /// Whether it is made to play in tune.
     #[serde(default)]
     pub intonation: Intonation,
-    /// Largest bend by tension, semitones, 0 to 12; the grids leave room for it.
+    /// Largest bend by tension, semitones, 0 to 12; the grids leave room for it, and for half a semitone in any case.
     pub max_bend: f64,
     /// Output per unit of pickup signal, above 0.
     pub gain: f64,
@@ -271,7 +271,15 @@ impl Setup {
     pub fn highest_tension_ratio(&self) -> f64 {
         tension_ratio(self.max_bend)
     }
+
+    /// The factor up to which the grid of a string bears a higher tension: bends, and in any case what fingers and plucks stretch.
+    pub(crate) fn tension_room(&self) -> f64 {
+        tension_ratio(self.max_bend.max(LEAST_ROOM))
+    }
 }
+
+/// What a grid has room for where strings may not be bent so far, semitones.
+const LEAST_ROOM: f64 = 0.5;
 
 /// The factor of tension that raises a string by so many semitones: pitch goes with its root.
 pub fn tension_ratio(semitones: f64) -> f64 {

@@ -89,7 +89,7 @@ impl Voice {
                 open_pitch: spec.pitch,
                 length: placed.string.length,
                 frets: placed.frets,
-                highest_ratio: placed.string.tension_limit / placed.string.tension,
+                highest_ratio: setup.highest_tension_ratio(),
                 wave_impedance: (placed.string.tension * placed.string.linear_density).sqrt(),
                 behind: setup.behind(),
             },
