@@ -79,6 +79,8 @@ fn they_say_what_they_are_of() {
         ("channel", Value::Null),
         ("input", "auto".into()),
         ("ignore_rpn", false.into()),
+        ("tail", "0".into()),
+        ("bit_depth", "24".into()),
     ] {
         assert_eq!(labels[key], expected, "{key}");
     }

@@ -39,6 +39,9 @@ pub(super) struct About<'a> {
     /// Semitones.
     bend_range: Option<f64>,
     ignore_rpn: bool,
+    /// In the words of their options.
+    tail: String,
+    bit_depth: String,
     /// As a set-up file has it.
     setup: &'a Setup,
 }
@@ -82,6 +85,8 @@ impl Source<'_> {
             string_order: arguments.string_order.and_then(|order| id(order, StringOrder::ids())),
             bend_range: arguments.bend_range,
             ignore_rpn: arguments.ignore_rpn,
+            tail: arguments.tail.to_string(),
+            bit_depth: arguments.bit_depth.to_string(),
             setup,
         }
     }
