@@ -401,3 +401,16 @@ fn every_example_runs() {
     assert_eq!(done.code, 0, "{}", done.error);
     assert!(!done.error.contains("stretching: "), "{}", done.error);
 }
+
+/// What the help shows as a scene is one, without a warning.
+#[test]
+fn the_scene_in_the_help_can_be_computed() {
+    let place = Workplace::new(env!("CARGO_BIN_EXE_low-action-command"));
+    let help = place.run(&["scene", "--help"]).text();
+    let lines = help.lines().skip_while(|line| !line.starts_with("A scene")).skip(1);
+    let scene: Vec<&str> = lines.take_while(|line| !line.is_empty()).map(str::trim).collect();
+    assert!(scene.len() > 20, "{help}");
+    place.write("scene.toml", &scene.join("\n"));
+    let done = place.run(&["scene", "scene.toml"]);
+    assert!(done.code == 0 && !done.error.contains("warning"), "{}", done.error);
+}

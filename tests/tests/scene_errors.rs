@@ -408,6 +408,37 @@ fn wrong_usage_is_told_apart() {
     }
 }
 
+/// Parts that do nothing are allowed, and more often a slip of a unit.
+#[test]
+fn what_does_nothing_is_warned_of() {
+    let place = workplace();
+    let board = "board = -0.002\nfrets = 3\nfret_top = -0.001\n";
+    for (old, new, warning) in [
+        (board, "", "fretboard has neither board nor frets under any string"),
+        (
+            board,
+            "board = [[0.7, -0.001], [0.8, -0.001]]\n",
+            "fretboard has neither board nor frets under any string",
+        ),
+        ("duration = 0.002", "duration = 0.0", "pluck[1] pushes nothing: force -1 N for 0 s"),
+        ("force = -1.0", "force = 0.0", "pluck[1] pushes nothing: force 0 N for 0.002 s"),
+        (
+            "[[pluck]]",
+            "[[pluck]]\nstart = 0.01",
+            "pluck[1] begins at 0.01 s, when the scene of 0.01 s is over",
+        ),
+    ] {
+        assert!(SCENE.contains(old), "{old}");
+        place.write("scene.toml", SCENE.replacen(old, new, 1));
+        let done = place.run(&["scene", "scene.toml"]);
+        assert_eq!(done.code, 0, "{}", done.error);
+        assert!(done.error.starts_with(&format!("warning: scene.toml: {warning}")), "{new}: {}", done.error);
+    }
+    place.write("scene.toml", SCENE);
+    let done = place.run(&["scene", "scene.toml"]);
+    assert!(!done.error.contains("warning"), "{}", done.error);
+}
+
 /// What begins inside the board is thrown by it: that may be meant, and more often is a slip of the pen.
 #[test]
 fn a_string_that_begins_inside_the_board_is_warned_of() {

@@ -119,6 +119,32 @@ Examples:
   low-action scene scene.toml --figure out.svg
   low-action scene - --wav - < scene.toml | aplay      from and to a pipe
 
+A scene, a file in TOML (docs/formats.md has all that may stand in one):
+  sample_rate = 44100        # Hz
+  duration = 1.0             # s
+  [[string]]                 # as many as there are
+  length = 0.65              # m
+  linear_density = 5.25e-3   # kg/m
+  tension = 60.0             # N
+  loss_0 = 1.4               # 1/s
+  [fretboard]                # if it may hit one
+  stiffness = 1e12           # N/m^exponent
+  exponent = 2.3
+  board = -0.003             # m, up is positive
+  frets = 12                 # or [places, m from the nut]
+  fret_top = -0.001          # m
+  [[finger]]                 # none or more
+  mass = 5e-3                # kg
+  stiffness = 1e7            # N/m^exponent
+  exponent = 2.0
+  position = 0.09            # m, or a course over time: [[s, m], ...]
+  force = 3.0                # N, downwards
+  [[pluck]]                  # none or more
+  start = 0.1                # s
+  duration = 0.002           # s
+  position = 0.5             # m
+  force = 1.0                # N, upwards
+
 The trace is an .npz file of NumPy arrays. Strings (S), frets (F) and fingers (N) count from 1. Row n of \
 the arrays over time belongs to its time t: the state there, the forces and powers that act there, and \
 the energies half a sample later.

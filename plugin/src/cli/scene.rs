@@ -6,6 +6,7 @@
 //! makes a WAV file goes without.
 
 mod summary;
+mod warnings;
 
 use std::fs::File;
 use std::io::{self, Read, Write};
@@ -32,8 +33,6 @@ const LARGEST_SCENE: u64 = 16 << 20;
 /// How far the energy balance may be open over a whole run, as a part of the largest energy or of what was put in, whichever is
 /// more, and beyond what rounding alone may come to. It leaves some 1e-13 a second.
 const BALANCE: f64 = 1e-9;
-/// Contacts that begin with less energy than this, J, are not warned of: a pluck of 1 N that moves its place by 2 mm gives as much.
-const NO_THROW: f64 = 1e-3;
 /// A trace of more bytes is announced.
 const LARGE_TRACE: u64 = 1_000_000_000;
 /// Samples between two looks at the progress: with the largest scenes a second or so.
@@ -45,7 +44,9 @@ pub(super) fn run(arguments: &SceneArgs) -> Outcome {
     let name = scene_name(&arguments.file);
     let mut simulation = Simulation::new(&scene).with_context(|| name.clone())?;
     check_paths(arguments)?;
-    warn_of_what_is_inside(&name, &simulation);
+    warnings::of(&scene, &simulation)
+        .iter()
+        .for_each(|warning| say("warning", &format!("{name}: {warning}")));
     if arguments.trace.is_some() || arguments.figure.is_some() || arguments.wav.is_none() {
         simulation.open_ledger();
     }
@@ -63,24 +64,6 @@ pub(super) fn run(arguments: &SceneArgs) -> Outcome {
         Summary { arguments, scene: &scene, simulation: &simulation, seen, sound, trace_size, elapsed };
     summary.print();
     check(&name, &seen, sound.as_ref(), simulation.ledgers())
-}
-
-/// Warns of strings that begin inside board, frets or fingers: these would throw them.
-fn warn_of_what_is_inside(name: &str, simulation: &Simulation) {
-    for (number, string) in (1..).zip(simulation.strings()) {
-        let begun = Ledger::new(&string.model, &string.state, string.model.string.tension).energies();
-        let own = begun.string + begun.tension;
-        if begun.contact > own.max(NO_THROW) {
-            say(
-                "warning",
-                &format!(
-                    "{name}: string[{number}] begins inside board, frets or fingers, which store {:.3e} J and throw it: it has \
-                     {own:.3e} J itself",
-                    begun.contact
-                ),
-            );
-        }
-    }
 }
 
 /// What the scene is called in messages.

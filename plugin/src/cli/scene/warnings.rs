@@ -1,0 +1,55 @@
+//! What a scene says that is allowed and hardly meant: strings that begin inside something, and parts that do nothing.
+
+use low_action_dsp::digits::plain;
+use low_action_dsp::{Ledger, Scene, Simulation};
+
+/// Contacts that begin with less energy than this, J, are not warned of: a pluck of 1 N that moves its place by 2 mm gives as much.
+const NO_THROW: f64 = 1e-3;
+
+/// Everything to warn of before a scene is computed, a line each.
+pub(super) fn of(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let mut warnings = inside(simulation);
+    warnings.extend(untouchable(scene, simulation));
+    warnings.extend(unheard(scene));
+    warnings
+}
+
+/// Strings that begin inside board, frets or fingers: these would throw them.
+fn inside(simulation: &Simulation) -> Vec<String> {
+    let thrown = (1..).zip(simulation.strings()).filter_map(|(number, string)| {
+        let begun = Ledger::new(&string.model, &string.state, string.model.string.tension).energies();
+        let own = begun.string + begun.tension;
+        (begun.contact > own.max(NO_THROW)).then(|| {
+            format!(
+                "string[{number}] begins inside board, frets or fingers, which store {:.3e} J and throw it: it has {own:.3e} J \
+                 itself",
+                begun.contact
+            )
+        })
+    });
+    thrown.collect()
+}
+
+/// A fretboard without anything that a string could touch.
+fn untouchable(scene: &Scene, simulation: &Simulation) -> Option<String> {
+    let touches_nothing = simulation.strings().iter().all(|string| string.model.contacts.is_empty());
+    (scene.fretboard.is_some() && touches_nothing)
+        .then(|| "fretboard has neither board nor frets under any string: nothing is touched".to_owned())
+}
+
+/// Plucks that push nothing, and those that begin when all is over.
+fn unheard(scene: &Scene) -> Vec<String> {
+    let why = |pluck: &low_action_dsp::scene::PluckSpec| {
+        if pluck.duration == 0.0 || pluck.force == 0.0 {
+            let (duration, force) = (plain(pluck.duration), plain(pluck.force));
+            Some(format!("pushes nothing: force {force} N for {duration} s"))
+        } else if pluck.start >= scene.duration {
+            let (start, end) = (plain(pluck.start), plain(scene.duration));
+            Some(format!("begins at {start} s, when the scene of {end} s is over"))
+        } else {
+            None
+        }
+    };
+    let numbered = (1..).zip(&scene.pluck);
+    numbered.filter_map(|(number, pluck)| Some(format!("pluck[{number}] {}", why(pluck)?))).collect()
+}
