@@ -410,7 +410,7 @@ fn the_scene_in_the_help_can_be_computed() {
     let lines = help.lines().skip_while(|line| !line.starts_with("A scene")).skip(1);
     let scene: Vec<&str> = lines.take_while(|line| !line.is_empty()).map(str::trim).collect();
     assert!(scene.len() > 20, "{help}");
-    place.write("scene.toml", &scene.join("\n"));
+    place.write("scene.toml", scene.join("\n"));
     let done = place.run(&["scene", "scene.toml"]);
     assert!(done.code == 0 && !done.error.contains("warning"), "{}", done.error);
 }
