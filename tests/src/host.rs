@@ -5,9 +5,11 @@ mod score;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clack_extensions::audio_ports_config::PluginAudioPortsConfig;
+use clack_extensions::latency::{HostLatency, HostLatencyImpl};
 use clack_extensions::render::{PluginRender, RenderMode};
 use clack_extensions::state::PluginState;
 use clack_extensions::tail::{PluginTail, TailLength};
+use clack_extensions::voice_info::{HostVoiceInfo, HostVoiceInfoImpl};
 use clack_host::events::event_types::NoteEndEvent;
 use clack_host::prelude::*;
 
@@ -29,13 +31,30 @@ impl SharedHandler<'_> for Listener {
     fn request_callback(&self) {}
 }
 
-/// Names the types of the three threads of a host.
+/// What the plugin tells the host's main thread: it is asked for both anyway whenever they are needed.
+pub struct MainListener;
+
+impl<'a> MainThreadHandler<'a> for MainListener {}
+
+impl HostLatencyImpl for MainListener {
+    fn changed(&self) {}
+}
+
+impl HostVoiceInfoImpl for MainListener {
+    fn changed(&self) {}
+}
+
+/// Names the types of the three threads of a host, and what it can be told.
 pub struct Handlers;
 
 impl HostHandlers for Handlers {
     type Shared<'a> = Listener;
-    type MainThread<'a> = ();
+    type MainThread<'a> = MainListener;
     type AudioProcessor<'a> = ();
+
+    fn declare_extensions(builder: &mut HostExtensions<Self>, _: &Listener) {
+        builder.register::<HostLatency>().register::<HostVoiceInfo>();
+    }
 }
 
 /// What came out of the plugin.
@@ -94,7 +113,7 @@ impl Host {
         let info = HostInfo::new("Low Action tests", "Low Action", "", "0").expect("no zero bytes");
         let instance = PluginInstance::new(
             |_| Listener { restart_requested: AtomicBool::new(false) },
-            |_| (),
+            |_| MainListener,
             &entry,
             &id,
             &info,

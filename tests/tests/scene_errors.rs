@@ -420,6 +420,7 @@ fn what_does_nothing_is_warned_of() {
             "board = [[0.7, -0.001], [0.8, -0.001]]\n",
             "fretboard has neither board nor frets under any string",
         ),
+        ("duration = 0.01", "duration = 1e-6", "duration = 1e-6 s has no sample at 44100 Hz"),
         ("duration = 0.002", "duration = 0.0", "pluck[1] pushes nothing: force -1 N for 0 s"),
         ("force = -1.0", "force = 0.0", "pluck[1] pushes nothing: force 0 N for 0.002 s"),
         (

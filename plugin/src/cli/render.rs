@@ -203,7 +203,8 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     if arguments.bit_depth != BitDepth::Float32 {
         for (name, findings) in [("sound", mix), ("strings' own sound", stems)] {
             if findings.peak > 1.0 {
-                let peak = decibels(findings.peak);
+                // Rounded up: what is clipped is not at 0.
+                let peak = (10.0 * decibels(findings.peak)).ceil() / 10.0;
                 let advice = "use --bit-depth 32f or a set-up with less gain";
                 warn(arguments, &format!("the {name} peaks at {peak:+.1} dBFS and is clipped: {advice}"));
             }

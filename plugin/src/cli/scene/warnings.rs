@@ -9,6 +9,7 @@ const NO_THROW: f64 = 1e-3;
 /// Everything to warn of before a scene is computed, a line each.
 pub(super) fn of(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     let mut warnings = inside(simulation);
+    warnings.extend(over_at_once(scene, simulation));
     warnings.extend(untouchable(scene, simulation));
     warnings.extend(unheard(scene));
     warnings
@@ -28,6 +29,13 @@ fn inside(simulation: &Simulation) -> Vec<String> {
         })
     });
     thrown.collect()
+}
+
+/// A scene that is over before its first sample.
+fn over_at_once(scene: &Scene, simulation: &Simulation) -> Option<String> {
+    let (duration, rate) = (plain(scene.duration), plain(scene.sample_rate));
+    (simulation.samples() == 0)
+        .then(|| format!("duration = {duration} s has no sample at {rate} Hz: nothing is computed"))
 }
 
 /// A fretboard without anything that a string could touch.
