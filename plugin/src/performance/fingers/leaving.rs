@@ -19,20 +19,32 @@ impl Fingers {
         if let Some(anchor) = self.anchor.take() {
             // It keeps quiet what is behind; it leaves as softly as the other.
             self.depart(anchor.slot, anchor.touch, parting.easing, at);
-        } else if self.light.is_none() {
-            // Behind the finger, or behind the capo if there is more that could ring.
-            let stopped = self.string.geometry.length - self.sounding_length();
-            let capo = self.string.geometry.finger_position(self.capo[1]);
-            let (from, to) = if stopped - capo < capo { (0.0, capo) } else { (capo, stopped) };
-            if BEHIND_FINGER * (to - from) >= NEAREST_NUT {
-                self.rest(self.next_slot, from + BEHIND_FINGER * (to - from), at);
-            }
+        } else if self.light.is_none() && self.waits_behind(at.time).is_none() {
+            self.damp_behind(at);
         }
         let holding = HOLDING * self.fretting.map_or(0.0, |finger| self.string.leaving_force(finger.fret));
         if holding < self.hands.fretting.force && self.fretting.is_some_and(|finger| !finger.bar) {
             self.ease(holding, parting.relaxing, at);
         }
         self.relax_capo(parting.relaxing, at);
+    }
+
+    /// Until when a damper waits behind the finger that stops the string: the finger before that one is still leaving there. It
+    /// keeps quiet what is behind, and does not become the damper: a string that is let go of at once sounds.
+    pub(crate) fn waits_behind(&self, time: u64) -> Option<u64> {
+        let clear = self.departing[self.next_slot].map(|(_, clear)| clear);
+        clear.filter(|&clear| clear > time && self.light.is_none())
+    }
+
+    /// Rests a finger of the left hand behind the one that stops the string, or behind the capo if there is more that could
+    /// ring.
+    pub(crate) fn damp_behind(&mut self, at: &mut Moment<impl GestureSink>) {
+        let stopped = self.string.geometry.length - self.sounding_length();
+        let capo = self.string.geometry.finger_position(self.capo[1]);
+        let (from, to) = if stopped - capo < capo { (0.0, capo) } else { (capo, stopped) };
+        if BEHIND_FINGER * (to - from) >= NEAREST_NUT {
+            self.rest(self.next_slot, from + BEHIND_FINGER * (to - from), at);
+        }
     }
 
     /// Fretting finger and capo ease off until the string is free of them: what was shut in behind them comes out under the

@@ -10,6 +10,8 @@ use crate::performance::{Annotation, GestureSink, Moment};
 pub(super) enum Ending {
     /// The dampers come to rest on the string.
     Damp,
+    /// So does the one behind the fretting finger, where another finger was still leaving; the next step is at that sample.
+    DampBehind(u64),
     /// The string is quiet: fretting finger and capo ease off.
     EaseOff,
     /// They go, and the dampers ease off.
@@ -29,29 +31,38 @@ impl StringPlayer {
 
     /// Takes one step of an ending and plans the next.
     pub(super) fn end_by(&mut self, step: Ending, mut at: Moment<impl GestureSink>) {
-        let next = match step {
+        self.ending = match step {
             Ending::Damp => {
                 (self.deeds, self.touched) = (Deeds::default(), false);
                 self.fingers.damp(self.parting, &mut at);
                 at.tells(Annotation::Damped);
-                let next = if self.fingers.stopped() { Ending::EaseOff } else { Ending::Leave };
-                Some((self.parting.relaxing, next))
+                let next = self.quiet_by(at.after(self.parting.relaxing));
+                let behind = self.fingers.waits_behind(at.time).filter(|&clear| clear < next.0);
+                Some(behind.map_or(next, |clear| (clear, Ending::DampBehind(next.0))))
+            }
+            Ending::DampBehind(quiet) => {
+                self.fingers.damp_behind(&mut at);
+                Some(self.quiet_by(quiet))
             }
             Ending::EaseOff => {
                 self.fingers.ease_off(self.parting, &mut at);
-                Some((self.parting.easing.turning, Ending::Leave))
+                Some((at.after(self.parting.easing.turning), Ending::Leave))
             }
             Ending::Leave => {
                 self.fingers.leave(self.parting, &mut at);
                 // A hand that went on swinging would never let the string rest.
                 self.bend.set_vibrato(at.time, 0.0);
-                Some((DAMPER_EASING.turning, Ending::Gone))
+                Some((at.after(DAMPER_EASING.turning), Ending::Gone))
             }
             Ending::Gone => {
                 self.fingers.gone();
                 None
             }
         };
-        self.ending = next.map(|(delay, step)| (at.after(delay), step));
+    }
+
+    /// What is done as soon as the string is quiet.
+    fn quiet_by(&self, time: u64) -> (u64, Ending) {
+        (time, if self.fingers.stopped() { Ending::EaseOff } else { Ending::Leave })
     }
 }

@@ -1,0 +1,59 @@
+//! The promise: however short a note is, and whatever was on its string just before, its end is heard in nothing but the
+//! string falling silent.
+
+use low_action_tests::numbers::largest;
+use low_action_tests::stage::{Stage, decibels, off, on};
+
+const RATE: f64 = 48_000.0;
+/// When the second note begins, s.
+const NEXT: f64 = 0.4;
+/// For how long after a note it is listened to closely, s, and then until nobody touches the string any more.
+const SOON: f64 = 0.1;
+const LATE: f64 = 1.5;
+
+/// Set-up, string, its open key.
+const STRINGS: [(&str, usize, u8); 6] = [
+    ("electric", 2, 55),
+    ("electric", 5, 40),
+    ("classical", 1, 59),
+    ("steel", 0, 64),
+    ("ukulele", 3, 69),
+    ("bass", 3, 28),
+];
+
+/// How sharply a sound turns at most, dB: third differences, in which clicks are loud and strings are not.
+fn click(sound: &[f32], from: f64, to: f64) -> f64 {
+    let part = &sound[(from * RATE) as usize..(to * RATE) as usize];
+    let third = |w: &[f32]| f64::from(w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs();
+    decibels(largest(part.windows(4).map(third)))
+}
+
+/// (The finger of the softest note may come down after its key is up. One that was taken away while it still held the string, to
+/// damp behind the other with it, was up to 45 dB louder than the note.)
+#[test]
+fn a_short_note_ends_without_a_click() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        for [before, fret] in [[5, 7], [3, 8], [2, 12], [0, 5], [8, 3], [5, 5]] {
+            for velocity in [10, 40, 100] {
+                for length in [0.03, 0.05, 0.1, 0.14] {
+                    let end = NEXT + length;
+                    let events = [
+                        (0.0, on(open + before, 64)),
+                        (NEXT, off(open + before)),
+                        (NEXT, on(open + fret, velocity)),
+                        (end, off(open + fret)),
+                    ];
+                    let sound = &stage.play(&events, end + LATE).strings[0];
+                    let note = click(sound, NEXT, end);
+                    let (soon, late) = (click(sound, end, end + SOON), click(sound, end + SOON, end + LATE));
+                    let here = format!(
+                        "{setup} {string}, fret {fret} after {before}, velocity {velocity}, {length} s"
+                    );
+                    assert!(soon < note + 9.0, "{here}: {soon} dB soon after a note of {note} dB");
+                    assert!(late < note - 12.0, "{here}: {late} dB later, after a note of {note} dB");
+                }
+            }
+        }
+    }
+}
