@@ -1,8 +1,8 @@
-//! The promise: however short a note is, and whatever was on its string just before, its end is heard in nothing but the
-//! string falling silent.
+//! The promise: however short notes are, hands make no noise between them. A note's end is heard in nothing but the string
+//! falling silent, and in a quick figure a note is no louder than in a slow one.
 
 use low_action_tests::numbers::largest;
-use low_action_tests::stage::{Stage, decibels, off, on};
+use low_action_tests::stage::{Stage, decibels, off, on, peak};
 
 const RATE: f64 = 48_000.0;
 /// When the second note begins, s.
@@ -52,6 +52,37 @@ fn a_short_note_ends_without_a_click() {
                     );
                     assert!(soon < note + 9.0, "{here}: {soon} dB soon after a note of {note} dB");
                     assert!(late < note - 12.0, "{here}: {late} dB later, after a note of {note} dB");
+                }
+            }
+        }
+    }
+}
+
+/// (The third note finds the finger of the first still leaving. One that was taken away at once for it made a soft note up to 25 dB
+/// louder; louder notes ring into the next.)
+#[test]
+fn a_quick_figure_is_as_loud_as_a_slow_one() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        for frets in [[2, 4, 7], [3, 5, 3], [2, 5, 3]] {
+            for velocity in [10, 40] {
+                let mut third = |length: f64| {
+                    let mut events = Vec::new();
+                    for (n, fret) in (0..3).map(f64::from).zip(frets) {
+                        events.push((n * length, on(open + fret, velocity)));
+                        events.push(((n + 1.0) * length - 0.001, off(open + fret)));
+                    }
+                    let begins = (2.0 * length * RATE) as usize;
+                    let sound = &stage.play(&events, 2.0 * length + 0.04).strings[0];
+                    decibels(peak(&sound[begins..]))
+                };
+                let slow = third(0.6);
+                for length in [0.04, 0.06, 0.08, 0.125] {
+                    let quick = third(length);
+                    assert!(
+                        (quick - slow).abs() < 9.0,
+                        "{setup} {string}, frets {frets:?}, velocity {velocity}, {length} s each: {quick} dB, slowly {slow} dB"
+                    );
                 }
             }
         }

@@ -44,6 +44,17 @@ impl Finger {
     }
 }
 
+/// A finger that is leaving the string.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Departing {
+    /// What takes it off at once.
+    lift: Gesture,
+    /// Sample by which it is off the string.
+    clear: u64,
+    /// The finger, if it stopped the string: the next note may want it back.
+    finger: Option<Finger>,
+}
+
 /// The fingers near one string.
 #[derive(Debug, Clone)]
 pub(crate) struct Fingers {
@@ -58,8 +69,8 @@ pub(crate) struct Fingers {
     light: Option<FingerSlot>,
     /// Where that touches it, m from the nut.
     touched: f64,
-    /// By slot, what lifts at once a finger that is leaving, and the sample by which it is off the string.
-    departing: [Option<(Gesture, u64)>; FINGERS_PER_STRING],
+    /// By slot, what is leaving.
+    departing: [Option<Departing>; FINGERS_PER_STRING],
     /// Which slots hold a damper that rests on the string.
     resting: [bool; FINGERS_PER_STRING],
     right: RightHand,
@@ -233,7 +244,24 @@ impl Fingers {
     /// A finger leaves in a manner of leaving, and at once if the next note comes first.
     fn depart(&mut self, slot: FingerSlot, touch: Touch, manner: Leaving, at: &mut Moment<impl GestureSink>) {
         at.does(lifting(slot, touch, manner));
-        self.departing[slot] = Some((hurried(slot, touch), at.after(LINGERING * manner.turning)));
+        let (lift, clear) = (hurried(slot, touch), at.after(LINGERING * manner.turning));
+        self.departing[slot] = Some(Departing { lift, clear, finger: None });
+    }
+
+    /// A finger that stopped the string does so.
+    fn depart_from(&mut self, finger: Finger, manner: Leaving, at: &mut Moment<impl GestureSink>) {
+        self.depart(finger.slot, finger.touch, manner, at);
+        if let Some(departing) = &mut self.departing[finger.slot] {
+            departing.finger = Some(finger);
+        }
+    }
+
+    /// The finger that is still leaving behind the one that stops the string, which a note there wants back.
+    fn call_back(&mut self, time: u64) -> Option<Finger> {
+        let departing = self.departing[self.next_slot].filter(|departing| time < departing.clear)?;
+        let finger = departing.finger.filter(|finger| !finger.bar)?;
+        self.departing[finger.slot] = None;
+        Some(finger)
     }
 
     /// Whatever keeps the string from sounding leaves at once; the palm stays as it is told.
@@ -242,7 +270,7 @@ impl Fingers {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
         self.resting = [false; FINGERS_PER_STRING];
-        for (lift, clear) in self.departing.iter_mut().filter_map(Option::take) {
+        for Departing { lift, clear, .. } in self.departing.iter_mut().filter_map(Option::take) {
             if at.time < clear {
                 at.does(lift);
             }

@@ -131,10 +131,9 @@ impl StringPlayer {
         self.fingers.press(start.manner.pressure, &mut at);
         self.parting = if taps { TAPPING } else { RESTING };
         if taps {
-            if self.fingers.let_up(&mut at) {
-                self.deeds.plan(at.after(RISING), Deed::Tap { fret: start.fret, strength });
-            } else {
-                self.tap(start.fret, strength, &mut at);
+            match self.fingers.let_up(start.fret, strength, &mut at) {
+                Some(rising) => self.deeds.plan(at.after(rising), Deed::Tap { fret: start.fret, strength }),
+                None => self.tap(start.fret, strength, &mut at),
             }
         } else {
             self.fingers.stop(start.fret, stop, [start.force() * start.haste(), start.haste()], &mut at);

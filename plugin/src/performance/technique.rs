@@ -136,6 +136,8 @@ pub(crate) const HAMMER_LANDING: f64 = 0.001;
 pub(crate) const ANCHOR_RAMP: (f64, f64) = (0.02, 0.003);
 /// How fast a finger is set down behind another, m/s: before that one has left.
 pub(crate) const BEHIND_SPEED: f64 = 0.5;
+/// How fast one that is behind another already is at another fret, s, if no hand's speed keeps it from that.
+pub(crate) const BEHIND_SLIDE: f64 = 0.002;
 /// How hard a finger that pulls off plucks the string, as a part of the usual pluck, and for how long, s.
 pub(crate) const PULL_OFF: (f64, f64) = (0.8, 0.002);
 /// Farthest a hammer or a pull reaches, frets: from the first finger to the last, stretched.

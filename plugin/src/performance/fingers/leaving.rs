@@ -32,7 +32,7 @@ impl Fingers {
     /// Until when a damper waits behind the finger that stops the string: the finger before that one is still leaving there. It
     /// keeps quiet what is behind, and does not become the damper: a string that is let go of at once sounds.
     pub(crate) fn waits_behind(&self, time: u64) -> Option<u64> {
-        let clear = self.departing[self.next_slot].map(|(_, clear)| clear);
+        let clear = self.departing[self.next_slot].map(|departing| departing.clear);
         clear.filter(|&clear| clear > time && self.light.is_none())
     }
 

@@ -73,21 +73,34 @@ impl Fingers {
         // An anchor there was has the slot that the new finger takes.
         self.anchor = None;
         match before {
-            Some(old) if old.fret < fret && !old.bar && !old.eased => self.hold_behind(old, at),
+            Some(old) if old.fret < fret && !old.bar => self.hold_behind(old, at),
             Some(old) => at.does(old.gives_way()),
             None => {}
         }
         self.come_down(fret, HAMMER_SPEED.0 + HAMMER_SPEED.1 * strength, at)
     }
 
-    /// The finger that stops the string leaves, for another to strike it; `false` if there is none. What damps the
-    /// string stays until then.
-    pub(crate) fn let_up(&mut self, at: &mut Moment<impl GestureSink>) -> bool {
+    /// The finger that stops the string leaves, for another to strike it at a fret, how hard, 0 to 1. Gives back in how many
+    /// seconds the string is up; `None` if it can be struck at once: there is no finger, or one that stays down behind the other.
+    /// What damps the string stays until then.
+    pub(crate) fn let_up(
+        &mut self,
+        fret: usize,
+        strength: f64,
+        at: &mut Moment<impl GestureSink>,
+    ) -> Option<f64> {
+        if self.fretting.is_some_and(|finger| finger.fret < fret && !finger.bar) {
+            return None;
+        }
+        let manner = self.letting_go(strength);
         let leaving = [self.fretting.take(), self.anchor.take()];
         for finger in leaving.into_iter().flatten() {
-            at.does(finger.gives_way());
+            at.does(match finger.bar {
+                true => finger.gives_way(),
+                false => lifting(finger.slot, finger.touch, manner),
+            });
         }
-        leaving[0].is_some()
+        leaving[0].map(|_| RISING + manner.turning - QUICK_LIFT.turning)
     }
 
     /// The finger that sounds plucks the string as it leaves, how hard, 0 to 1; one behind it, or the nut,
@@ -119,8 +132,8 @@ impl Fingers {
         Some(pluck)
     }
 
-    /// A finger stops the string behind the one of a slot before that one leaves: an anchor that is there already, or a
-    /// new one, in the slot of an anchor elsewhere.
+    /// A finger stops the string behind the one of a slot before that one leaves: a new one, or one that is behind it already and
+    /// comes to the fret. (That one has the slot that a new one would take, and would be gone at once.)
     pub(super) fn stop_behind(
         &mut self,
         fret: usize,
@@ -128,14 +141,19 @@ impl Fingers {
         anchor: Option<Finger>,
         at: &mut Moment<impl GestureSink>,
     ) {
-        let Some(anchor) = anchor.filter(|anchor| anchor.fret == fret) else {
+        let Some(anchor) = anchor else {
             self.come_down(fret, BEHIND_SPEED, at);
             return;
         };
-        self.fretting = Some(anchor);
+        let finger = anchor.slot;
+        if anchor.fret != fret || anchor.free.is_some() {
+            let position = self.string.geometry.finger_position(fret);
+            at.does(Gesture::Slide { finger, position, duration: BEHIND_SLIDE });
+        }
+        self.fretting = Some(Finger { fret, free: None, eased: false, ..anchor });
         self.next_slot = leaving;
         let force = self.force();
-        at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.1 });
+        at.does(Gesture::Press { finger, force, duration: ANCHOR_RAMP.1 });
     }
 
     /// A finger that stopped the string stays down behind the one that does, just hard enough.

@@ -19,6 +19,7 @@ impl Fingers {
         [strength, haste]: [f64; 2],
         at: &mut Moment<impl GestureSink>,
     ) {
+        let called_back = if self.gives_way_to(fret) { self.call_back(at.time) } else { None };
         self.make_way(at);
         self.lay_capo(at);
         self.home = fret;
@@ -30,12 +31,12 @@ impl Fingers {
             return self.press_again(at);
         }
         self.glided = 0.0;
-        let (old, anchor) = (self.fretting.take(), self.anchor.take());
+        let (old, anchor) = (self.fretting.take(), self.anchor.take().or(called_back));
         let presses = matches!(stop, Stop::Press | Stop::Harmonic) && fret > self.capo[1];
         match old.filter(|old| presses && !old.bar && old.free.is_none()) {
             Some(old) if old.fret < fret => {
                 self.land(fret, old.fret, [strength, haste], at);
-                return self.depart(old.slot, old.touch, BEHIND_LIFT, at);
+                return self.depart_from(old, BEHIND_LIFT, at);
             }
             Some(old) => {
                 self.stop_behind(fret, old.slot, anchor, at);
