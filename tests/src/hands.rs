@@ -8,7 +8,7 @@ pub const RATE: f64 = 48_000.0;
 /// Every pluck exactly alike, and a wheel that reaches two semitones.
 pub const EXACT: Style = Style { variation: 0.0, seed: 0, bend_range: 2.0 };
 /// How long hands are given to leave the strings after the last event, samples.
-const REST: u64 = 2 * RATE as u64;
+const REST: u64 = 4 * RATE as u64;
 
 /// An instrument as its player knows it.
 pub struct Neck {
@@ -39,7 +39,7 @@ pub fn strings(setup: &Setup, instrument: &Instrument) -> Vec<PlayedString> {
     (0..instrument.string_count()).map(|index| PlayedString::new(setup, instrument, index)).collect()
 }
 
-/// Plays events (samples) and two seconds more.
+/// Plays events (samples) and four seconds more, until every hand is gone.
 pub fn play(performance: &mut Performance, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
     let mut gestures = Vec::new();
     for &(time, event) in events {

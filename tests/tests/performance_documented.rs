@@ -116,8 +116,8 @@ fn pitch_changes_by_100_semitones_a_second_at_most() {
     let mut player = GUITAR.player(EXACT);
     play(&mut player, &[(0, on(64, 80))]);
     let mut done = Vec::new();
-    player.touch(96_000, &Touching { tremolo_arm: -12.0, ..Touching::new(0.0, 2.0) }, &mut done);
-    player.advance(100_800, &mut done);
+    player.touch(192_000, &Touching { tremolo_arm: -12.0, ..Touching::new(0.0, 2.0) }, &mut done);
+    player.advance(196_800, &mut done);
     done.retain(|timed| timed.string == 0);
     let armed = bends(&done);
     assert!(matches!(armed[..], [down] if near(down, 0.12)), "{armed:?} s");

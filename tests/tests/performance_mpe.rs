@@ -39,11 +39,18 @@ fn plucks(gestures: &[TimedGesture]) -> Vec<u64> {
     gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).map(|g| g.time).collect()
 }
 
-/// Whether the thumb was thrown at the string, and whether the palm was laid on it.
+/// Whether the thumb was thrown at the string that is struck, and whether the palm lay on it then.
 fn slap_and_palm(gestures: &[TimedGesture]) -> [bool; 2] {
-    let palm = |g: &Gesture| matches!(g, Gesture::Place { finger: 4, .. });
-    let thumb = |g: &Gesture| matches!(g, Gesture::Throw { finger: 4, .. });
-    [gestures.iter().any(|g| thumb(&g.gesture)), gestures.iter().any(|g| palm(&g.gesture))]
+    let strikes =
+        |g: &&TimedGesture| matches!(g.gesture, Gesture::Pluck { .. } | Gesture::Throw { finger: 4, .. });
+    let stroke = gestures.iter().find(strikes).expect("there is a note");
+    let on_it = gestures.iter().filter(|g| g.string == stroke.string);
+    let laid = on_it.take_while(|g| g != &stroke).fold(false, |laid, g| match g.gesture {
+        Gesture::Place { finger: 4, .. } => true,
+        Gesture::Lift { finger: 4, .. } => false,
+        _ => laid,
+    });
+    [matches!(stroke.gesture, Gesture::Throw { .. }), laid]
 }
 
 #[test]

@@ -1,9 +1,10 @@
 //! The promise: a palm mutes whatever the thumb of its hand does beside it. It is back when a pinch has been heard and a slap
-//! has bounced off, and so is one that is laid on meanwhile.
+//! has bounced off, and so is one that is laid on meanwhile. It waits on the strings, so that the first note of a riff is as short
+//! as the others.
 
 use low_action::performance::PlayerEvent;
 use low_action_dsp::Gesture;
-use low_action_tests::stage::{Stage, cc, decibels, on, peak};
+use low_action_tests::stage::{Stage, cc, decibels, level, off, on, peak};
 
 const RATE: f64 = 48_000.0;
 /// The slot of palm and thumb.
@@ -54,5 +55,46 @@ fn a_tremolo_of_pinches_or_slaps_stays_muted() {
         let bare = fallen(&tremolo, last);
         let muted = fallen(&[&[(0.0, cc(20, 100))], &tremolo[..]].concat(), last);
         assert!(muted > bare + 12.0, "stroke {stroke}: {muted} dB under the palm, {bare} dB without");
+    }
+}
+
+/// (A palm that came with the stroke alone had yet to sink in: the first note after each rest was 2 to 6 dB louder.)
+#[test]
+fn the_first_note_under_a_palm_is_as_loud_as_the_others() {
+    for (setup, string, key) in
+        [("drop-d", 5, 38), ("electric", 5, 40), ("electric", 4, 47), ("steel", 5, 43), ("bass", 3, 28)]
+    {
+        let mut stage = Stage::alone(setup, string);
+        for palm in [50, 80, 110] {
+            for (lead, rest) in [(0.1, 0.2), (0.45, 1.5), (0.45, 2.5)] {
+                let begins = |n: usize| lead + n as f64 * rest;
+                let mut events = vec![(0.0, cc(20, palm))];
+                for n in 0..3 {
+                    events.push((begins(n), on(key, 100)));
+                    events.push((begins(n) + 0.15, off(key)));
+                }
+                let sound = &stage.play(&events, begins(3)).strings[0];
+                let heard = [0, 1, 2].map(|n| level(&sound[at(begins(n))..at(begins(n) + 0.06)]));
+                let louder = [heard[0] - heard[2], heard[1] - heard[2]];
+                assert!(
+                    louder.iter().all(|louder| louder.abs() < 2.0),
+                    "{setup} {string}, palm {palm}, {rest} s apart: the first two are {louder:?} dB louder than the third"
+                );
+            }
+        }
+    }
+}
+
+/// And it goes from strings that nobody plays.
+#[test]
+fn a_palm_does_not_wait_for_ever() {
+    for events in [vec![(0.0, cc(20, 80))], vec![(0.0, cc(20, 80)), (0.5, on(40, 100)), (0.7, off(40))]] {
+        let mut stage = Stage::alone("electric", 5);
+        let mut there = [false; 2];
+        stage.watch(&events, 4.5, |time, instrument| {
+            let fingers = instrument.state(0).fingers().iter().flatten().count();
+            there[usize::from(time > 4.2)] |= fingers > 0;
+        });
+        assert_eq!(there, [true, false]);
     }
 }

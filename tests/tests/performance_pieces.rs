@@ -94,7 +94,7 @@ fn play(name: &str, song: &Song, setup: &str, input: InputMode) -> Fate {
         assert_eq!(silent, late, "{name}: notes at sample {time} that do not sound");
     }
     let end = events.last().expect("events").0;
-    performance.advance(end + u64::from(RATE) * 5 / 2, &mut gestures);
+    performance.advance(end + u64::from(RATE) * 9 / 2, &mut gestures);
     for channel in 0..16 {
         assert!(
             (0..128).all(|key| !performance.sounds(channel, key)),

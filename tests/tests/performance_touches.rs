@@ -364,7 +364,8 @@ fn every_stroke_is_heard_within_three_milliseconds_and_every_finger_leaves() {
         for stroke in 0..7 {
             let events =
                 [(0.0, cc(22, stroke)), (0.0, cc(20, 40)), (0.0, on(open + 3, 100)), (0.4, off(open + 3))];
-            let played = stage.play(&events, 2.5);
+            // A palm waits for another note.
+            let played = stage.play(&events, 4.0);
             let sound = &played.strings[0];
             let attack = peak(&sound[..at(0.04)]);
             let first = sound.iter().position(|sample| f64::from(sample.abs()) > 0.01 * attack);

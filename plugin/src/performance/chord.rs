@@ -68,7 +68,7 @@ struct Strum {
 impl Performance {
     /// Notes a struck key; it is placed with all others of the same instant.
     pub(super) fn strike(&mut self, channel: u8, key: u8, velocity: f64) {
-        if usize::from(channel) >= CHANNELS || self.press_switch(channel, key) {
+        if usize::from(channel) >= CHANNELS {
             return;
         }
         let twin =
@@ -176,7 +176,7 @@ impl Performance {
             let start = self.start(index, placement, strum.as_ref());
             let (channel, string) = (start.channel, placement.string);
             let (bend, palm) = (self.bend(channel), start.articulation.palm);
-            self.strings[string].set_palm(time, palm, out);
+            self.strings[string].expect_palm(palm);
             self.strings[string].start(time, start, out);
             self.strings[string].bend(time, channel, bend);
         }

@@ -169,6 +169,20 @@ impl Performance {
             }
             self.welcome_back(index);
         }
+        if matches!(request, Request::Touch) {
+            self.lay_palm(number, out);
+        }
+    }
+
+    /// The palm of a channel waits for notes on strings where nobody plays: those of its last notes, and those that have had none.
+    pub(super) fn lay_palm(&mut self, number: u8, out: &mut impl GestureSink) {
+        let Some(channel) = self.channels.get(usize::from(number)) else { return };
+        let (palm, by_strings) = (channel.articulation.palm, self.is_by_strings());
+        for string in &mut self.strings {
+            if !string.is_played() && string.channel().map_or(!by_strings, |own| own == number) {
+                string.set_palm(self.now, palm, out);
+            }
+        }
     }
 
     /// From now on the first channel speaks for all, with what it has said before.

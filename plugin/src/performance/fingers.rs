@@ -51,8 +51,8 @@ struct Departing {
     lift: Gesture,
     /// Sample by which it is off the string.
     clear: u64,
-    /// The finger, if it stopped the string: the next note may want it back.
-    finger: Option<Finger>,
+    /// The finger, if it stopped the string, and until which sample it is surely there: the next note may want it back.
+    back: Option<(Finger, u64)>,
 }
 
 /// The fingers near one string.
@@ -224,11 +224,28 @@ impl Fingers {
         1.0 / frequency(self.string.geometry.open_pitch)
     }
 
-    /// The palm is to rest so hard on notes to come, 0 to 1, and on one that sounds.
-    pub(crate) fn set_palm(&mut self, palm: f64, sounds: bool, at: &mut Moment<impl GestureSink>) {
+    /// The palm is to rest so hard, 0 to 1, at the next stroke.
+    pub(crate) fn expect_palm(&mut self, palm: f64) {
+        self.right.expect_palm(palm);
+    }
+
+    /// The palm is to rest so hard on the string, 0 to 1.
+    pub(crate) fn set_palm(&mut self, palm: f64, at: &mut Moment<impl GestureSink>) {
         let sounding = self.sounding_length();
         let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        self.right.set_palm(palm, sounds, &field, at);
+        self.right.set_palm(palm, &field, at);
+    }
+
+    /// Whether the palm rests on the string.
+    pub(crate) fn palm_rests(&self) -> bool {
+        self.right.rests()
+    }
+
+    /// The palm, or a thumb, leaves the string until the next stroke.
+    pub(crate) fn lift_palm(&mut self, at: &mut Moment<impl GestureSink>) {
+        let sounding = self.sounding_length();
+        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
+        self.right.leave(&field, at);
     }
 
     /// The string under them.
@@ -245,21 +262,23 @@ impl Fingers {
     fn depart(&mut self, slot: FingerSlot, touch: Touch, manner: Leaving, at: &mut Moment<impl GestureSink>) {
         at.does(lifting(slot, touch, manner));
         let (lift, clear) = (hurried(slot, touch), at.after(LINGERING * manner.turning));
-        self.departing[slot] = Some(Departing { lift, clear, finger: None });
+        self.departing[slot] = Some(Departing { lift, clear, back: None });
     }
 
     /// A finger that stopped the string does so.
     fn depart_from(&mut self, finger: Finger, manner: Leaving, at: &mut Moment<impl GestureSink>) {
         self.depart(finger.slot, finger.touch, manner, at);
         if let Some(departing) = &mut self.departing[finger.slot] {
-            departing.finger = Some(finger);
+            departing.back = Some((finger, at.after(manner.turning)));
         }
     }
 
     /// The finger that is still leaving behind the one that stops the string, which a note there wants back.
     fn call_back(&mut self, time: u64) -> Option<Finger> {
-        let departing = self.departing[self.next_slot].filter(|departing| time < departing.clear)?;
-        let finger = departing.finger.filter(|finger| !finger.bar)?;
+        let (finger, until) = self.departing[self.next_slot]?.back?;
+        if time >= until || finger.bar {
+            return None;
+        }
         self.departing[finger.slot] = None;
         Some(finger)
     }

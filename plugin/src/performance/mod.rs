@@ -138,7 +138,11 @@ impl Performance {
         self.advance(time, out);
         match event {
             PlayerEvent::NoteOn { channel, key, velocity } if velocity > 0.0 => {
-                self.strike(channel, key, f64::from(velocity.min(1.0)));
+                if self.press_switch(channel, key) {
+                    self.lay_palm(channel, out);
+                } else {
+                    self.strike(channel, key, f64::from(velocity.min(1.0)));
+                }
             }
             PlayerEvent::NoteOn { channel, key, .. } | PlayerEvent::NoteOff { channel, key } => {
                 if self.chord_needs(channel, key) {

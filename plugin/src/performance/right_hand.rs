@@ -28,6 +28,8 @@ pub(crate) struct RightHand {
     palm: f64,
     /// Sample by which a hand that has left quietly is off the string.
     clear: u64,
+    /// Sample by which the palm presses as it is to.
+    pressed: u64,
 }
 
 /// Where a stroke falls.
@@ -113,7 +115,7 @@ impl RightHand {
 
     /// Takes over from another.
     pub(crate) fn take_over(&mut self, old: &Self) {
-        (self.laid, self.palm, self.clear) = (old.laid, old.palm, old.clear);
+        *self = old.clone();
     }
 
     /// Nothing is on the string.
@@ -121,22 +123,27 @@ impl RightHand {
         *self = Self::default();
     }
 
-    /// The palm is to rest so hard on notes to come, 0 to 1, and on one that sounds.
-    pub(crate) fn set_palm(
-        &mut self,
-        palm: f64,
-        sounds: bool,
-        field: &Field,
-        at: &mut Moment<impl GestureSink>,
-    ) {
+    /// The palm is to rest so hard, 0 to 1, at the next stroke.
+    pub(crate) fn expect_palm(&mut self, palm: f64) {
+        self.palm = palm;
+    }
+
+    /// The palm is to rest so hard on the string, 0 to 1. It is laid on one that is silent, too: pressed in by a soft weight its
+    /// flesh takes some hundredths of a second, longer than any stroke waits.
+    pub(crate) fn set_palm(&mut self, palm: f64, field: &Field, at: &mut Moment<impl GestureSink>) {
         if palm == self.palm {
             return;
         }
         self.palm = palm;
         // A thumb goes first; the palm follows it.
-        if sounds && self.laid != Laid::Thumb {
+        if self.laid != Laid::Thumb {
             self.lay(field, PALM_RAMP, at);
         }
+    }
+
+    /// Whether the palm rests on the string.
+    pub(crate) fn rests(&self) -> bool {
+        matches!(self.laid, Laid::Palm(_))
     }
 
     /// Gets ready for a stroke: thumb off, palm on or off, at once even if it is on its way off.
@@ -150,10 +157,10 @@ impl RightHand {
         self.lay(field, PALM_LANDING, at);
     }
 
-    /// Brings the palm to the pressure asked for.
+    /// Brings the palm to the pressure asked for, in no more than such a time.
     fn lay(&mut self, field: &Field, duration: f64, at: &mut Moment<impl GestureSink>) {
         let wanted = if self.palm > 0.0 { Laid::Palm(self.palm) } else { Laid::Nothing };
-        if wanted == self.laid {
+        if wanted == self.laid && self.pressed <= at.after(duration) {
             return;
         }
         let finger = RIGHT_HAND;
@@ -169,6 +176,7 @@ impl RightHand {
         }
         at.does(Gesture::Press { finger, force, duration });
         self.laid = wanted;
+        self.pressed = at.after(duration);
     }
 
     /// The thumb is thrown at the string; gives back the throw.

@@ -190,6 +190,11 @@ impl StringPlayer {
         self.bend.set_vibrato(time, manner.vibrato);
     }
 
+    /// Whether it has a note.
+    pub(crate) fn is_played(&self) -> bool {
+        self.note.is_some()
+    }
+
     /// Channel of the string's last note, whose wheel and pedals count.
     pub(crate) fn channel(&self) -> Option<u8> {
         self.bend.channel()
@@ -236,9 +241,8 @@ impl StringPlayer {
 
     /// The hands act differently on the note that sounds, and on those to come.
     pub(crate) fn set_touch(&mut self, time: u64, articulation: &Articulation, out: &mut impl GestureSink) {
-        let sounds = self.note.is_some();
-        let mut at = self.moment(time, out);
-        self.fingers.set_palm(articulation.palm, sounds, &mut at);
+        self.set_palm(time, articulation.palm, out);
+        let at = self.moment(time, out);
         let before = self.set_tremolo(articulation.tremolo);
         if let Some(note) = self.note.filter(|_| before == 0.0 && self.tremolo > 0.0) {
             let beside = self.towards_antinode();
@@ -247,10 +251,26 @@ impl StringPlayer {
         }
     }
 
-    /// The palm rests so hard on notes to come, 0 to 1.
+    /// The palm is to rest so hard, 0 to 1, at the next stroke.
+    pub(crate) fn expect_palm(&mut self, palm: f64) {
+        self.fingers.expect_palm(palm);
+    }
+
+    /// The palm rests so hard on the string, 0 to 1; on a silent one for a while, until there is a note.
     pub(crate) fn set_palm(&mut self, time: u64, palm: f64, out: &mut impl GestureSink) {
         let mut at = self.moment(time, out);
-        self.fingers.set_palm(palm, false, &mut at);
+        self.fingers.set_palm(palm, &mut at);
+        if self.note.is_none() && self.ending.is_none() {
+            self.palm_waits(&at);
+        }
+    }
+
+    /// A palm on a string that is silent waits for the next note, and goes if there is none.
+    fn palm_waits(&mut self, at: &Moment<impl GestureSink>) {
+        self.deeds.forget_palm();
+        if self.fingers.palm_rests() {
+            self.deeds.plan(at.after(PALM_WAITS), Deed::LiftPalm);
+        }
     }
 
     /// A capo at this fret, 0 for none, from the next note on.

@@ -142,6 +142,9 @@ pub(crate) const BEHIND_SLIDE: f64 = 0.002;
 pub(crate) const PULL_OFF: (f64, f64) = (0.8, 0.002);
 /// Farthest a hammer or a pull reaches, frets: from the first finger to the last, stretched.
 pub(crate) const HAMMER_REACH: usize = 5;
+/// Fastest slide to another note, m/s: seven frets of a guitar in 0.17 s. Where frets go by much faster, they pluck the
+/// string, and where they keep time with it, each adds to what the one before did.
+pub(crate) const SLIDE_SPEED: f64 = 1.0;
 /// Farthest a slide goes, frets; what lies beyond is plucked anew.
 pub(crate) const SLIDE_REACH: usize = 12;
 
@@ -193,6 +196,8 @@ pub(crate) const PALM_FORCE: (f64, f64) = (0.25, 2.0);
 /// How fast the palm's force is there at a stroke, and how fast it follows its controller, s.
 pub(crate) const PALM_LANDING: f64 = 0.001;
 pub(crate) const PALM_RAMP: f64 = 0.03;
+/// How long it waits on a silent string for the next note, s: a bar of slow music. A string under it is computed.
+pub(crate) const PALM_WAITS: f64 = 2.0;
 
 /// The joint of a thumb, bone under thin flesh.
 pub(crate) const THUMB: Touch =
@@ -233,9 +238,10 @@ pub(crate) const BAR_SHARE: f64 = 0.5;
 
 /// How long the rest of a chord waits that has more notes than strings, s from note to note.
 pub(crate) const ARPEGGIO: f64 = 0.07;
-/// Where a hand mutes an open string, as a part of its length from the nut: away from the nodes of low
-/// partials.
-pub(crate) const MUTED_OPEN: f64 = 0.29;
+/// Where a hand mutes an open string, as a part of its length from the nut, and how far on its next finger lies, as a part of what
+/// is left to the saddle: some three frets. No partial up to the sixteenth has a node near both.
+pub(crate) const MUTED_OPEN: f64 = 0.36;
+pub(crate) const MUTED_BESIDE: f64 = 0.184;
 
 /// Largest part by which a strum grows or falls on its way.
 pub(crate) const STRUM_ACCENT: f64 = 0.7;

@@ -4,7 +4,6 @@ use low_action_dsp::setup::Damper;
 use low_action_dsp::{FINGERS_PER_STRING, FingerSlot, Gesture, Touch};
 
 use super::Fingers;
-use crate::performance::right_hand::Field;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
@@ -57,7 +56,7 @@ impl Fingers {
         }
     }
 
-    /// Fretting finger and capo go, and the dampers ease off and go.
+    /// Fretting finger and capo go, and the dampers ease off and go. A palm waits for the next note.
     pub(crate) fn leave(&mut self, parting: Parting, at: &mut Moment<impl GestureSink>) {
         if let Some(finger) = self.fretting.take() {
             self.depart(finger.slot, finger.touch, parting.easing, at);
@@ -67,9 +66,9 @@ impl Fingers {
             at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));
         }
         self.lift_light(DAMPER_EASING, at);
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        self.right.leave(&field, at);
+        if !self.palm_rests() {
+            self.lift_palm(at);
+        }
     }
 
     /// The dampers have gone.
@@ -85,7 +84,7 @@ impl Fingers {
         }
     }
 
-    fn rest(&mut self, finger: FingerSlot, position: f64, at: &mut Moment<impl GestureSink>) {
+    pub(super) fn rest(&mut self, finger: FingerSlot, position: f64, at: &mut Moment<impl GestureSink>) {
         // It takes the place of a light finger that is still there.
         self.light = self.light.filter(|&light| light != finger);
         let Damper { touch, force, landing, .. } = self.hands.damper;

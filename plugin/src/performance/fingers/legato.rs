@@ -188,8 +188,11 @@ impl Fingers {
         thrown
     }
 
-    /// The finger that sounds slides to another fret, which is the note's own from then on. Gives back the slide.
+    /// The finger that sounds slides to another fret, which is the note's own from then on, no faster than hands do. Gives back
+    /// the slide.
     fn slide_to(&mut self, fret: usize, duration: f64, at: &mut Moment<impl GestureSink>) -> Option<Gesture> {
+        let way = self.fretting.map_or(0.0, |finger| self.place(fret, finger.bar) - self.pressed(&finger));
+        let duration = duration.max(way.abs() / SLIDE_SPEED);
         (self.home, self.glided) = (fret, 0.0);
         if let Some(finger) = &mut self.fretting {
             finger.arrives = at.after(duration);

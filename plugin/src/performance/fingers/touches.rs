@@ -27,13 +27,16 @@ impl Fingers {
         (antinode - self.hands.pluck_position).min(0.0)
     }
 
-    /// A finger rests on the string over a fret, or where a hand would lie over an open string.
+    /// Two fingers of a hand rest on the string, one over a fret, or where a hand would lie over an open string. One alone would
+    /// leave the partials that have a node there.
     pub(super) fn mute(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
+        let length = self.string.geometry.length;
         let position = match fret > self.capo[1] {
             true => self.string.geometry.finger_position(fret),
-            false => MUTED_OPEN * self.string.geometry.length,
+            false => MUTED_OPEN * length,
         };
         self.touch_lightly(position, MUTE, at);
+        self.rest(LIGHT, position + MUTED_BESIDE * (length - position), at);
     }
 
     fn touch_lightly(&mut self, position: f64, times: f64, at: &mut Moment<impl GestureSink>) {

@@ -38,6 +38,8 @@ pub(super) enum Deed {
     /// The thumb bounces off, and the palm comes back.
     Bounce,
     LayPalm,
+    /// A palm that has waited for a note goes.
+    LiftPalm,
     /// The thumb grazes the string at a node of this partial, and leaves it.
     Graze(u32),
     LeaveGraze,
@@ -80,6 +82,13 @@ impl Deeds {
             }
             _ => None,
         })
+    }
+
+    /// A palm waits no more.
+    pub(super) fn forget_palm(&mut self) {
+        for deed in &mut self.0 {
+            *deed = deed.filter(|(_, deed)| *deed != Deed::LiftPalm);
+        }
     }
 
     /// A tremolo ends.
@@ -146,6 +155,7 @@ impl StringPlayer {
                 self.deeds.plan(at.after(SLAP_CLEAR), Deed::LayPalm);
             }
             Some(Deed::LayPalm) => self.fingers.lay_palm(at),
+            Some(Deed::LiftPalm) => self.fingers.lift_palm(at),
             Some(Deed::Graze(partial)) => {
                 self.fingers.graze(partial, at);
                 self.deeds.plan(at.after(GRAZE_TIME), Deed::LeaveGraze);

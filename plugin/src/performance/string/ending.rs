@@ -52,6 +52,7 @@ impl StringPlayer {
                 self.fingers.leave(self.parting, &mut at);
                 // A hand that went on swinging would never let the string rest.
                 self.bend.set_vibrato(at.time, 0.0);
+                self.palm_waits(&at);
                 Some((at.after(DAMPER_EASING.turning), Ending::Gone))
             }
             Ending::Gone => {
