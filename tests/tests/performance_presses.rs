@@ -159,6 +159,24 @@ fn a_choke_ends_a_note_that_a_pedal_keeps() {
     assert!(!player.sounds(0, KEY));
 }
 
+/// It is heard nevertheless, but no pedal keeps it.
+#[test]
+fn a_choke_ends_a_note_that_waits_for_a_string() {
+    let keys = [40, 47, 52, 55, 59, 64, 67, 71];
+    let chord = keys.map(|key| (0, on(key, 90)));
+    let choked = keys.map(|key| (480, PlayerEvent::NoteEnd { channel: 0, key }));
+    let mut player = GUITAR.player(EXACT);
+    let pedal = [(0, cc(64, 127))];
+    let gestures = play_by(&mut player, &[&pedal[..], &chord, &choked].concat());
+    assert_eq!(plucks(&gestures), 8);
+    assert!(keys.iter().all(|&key| !player.sounds(0, key)), "the pedal keeps what was choked");
+    // One that is struck again before it comes is another note.
+    let again = keys.map(|key| (960, on(key, 90)));
+    let mut player = GUITAR.player(EXACT);
+    play_by(&mut player, &[&pedal[..], &chord, &choked, &again].concat());
+    assert!(keys.iter().filter(|&&key| player.sounds(0, key)).count() >= 6, "struck again, and pedal");
+}
+
 /// As the damper of a piano's string stays up, however often its key is struck under the pedal.
 #[test]
 fn the_sostenuto_pedal_holds_a_key_that_is_struck_again() {

@@ -8,9 +8,10 @@
 //! **Strums**: the right hand goes over the strings at one speed, towards the high ones or back, and reaches
 //! the first at once. Notes that are told the same way and time are one strum, whatever their channels.
 //!
-//! What notes do that overlap is in `legato`.
+//! What notes do that overlap is in `legato`, what is known of one until it is placed in `waiting`.
 
 mod legato;
+mod waiting;
 
 use super::articulation::{Articulation, Stop, Stroke};
 use super::channel::{Channel, controller};
@@ -19,43 +20,7 @@ use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
 use super::string::{Manner, Start};
 use super::technique::*;
 use super::{CHANNELS, GestureSink, InputMode, Performance};
-
-/// A note-on waiting for the rest of its chord.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Struck {
-    pub wanted: Wanted,
-    pub velocity: f64,
-    /// Sample at which its key went down.
-    pub asked: u64,
-    /// How often that was.
-    pub presses: u32,
-    /// What the note has for itself, its channel's share included.
-    pub manner: Manner,
-    pub articulation: Articulation,
-    /// Whether it has waited for a string.
-    pub waited: bool,
-}
-
-/// A note that comes late.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Late {
-    pub time: u64,
-    pub struck: Struck,
-    /// How often its key has gone up already.
-    pub releases: u32,
-}
-
-impl Late {
-    /// Whether its key is down.
-    pub fn key_down(&self) -> bool {
-        self.releases < self.struck.presses
-    }
-
-    /// Whether it is the note of a key of a channel.
-    pub fn is(&self, channel: u8, key: u8) -> bool {
-        (self.struck.wanted.channel, self.struck.wanted.key) == (channel, key)
-    }
-}
+pub(super) use waiting::{Late, Struck};
 
 /// The way of the right hand over the strings of a chord.
 struct Strum {
@@ -269,7 +234,8 @@ impl Performance {
                 late += 1;
                 let time = self.now + (f64::from(late) * ARPEGGIO * self.sample_rate).round() as u64;
                 self.compromises.arpeggiated += u64::from(!struck.waited);
-                self.late.push(Late { time, struck: Struck { waited: true, ..struck }, releases: 0 });
+                let struck = Struck { waited: true, ..struck };
+                self.late.push(Late { time, struck, releases: 0, cut: false });
             } else {
                 self.count_move(before, false);
                 self.compromises.left_out += 1;
@@ -302,21 +268,5 @@ impl Performance {
             self.chord[index].wanted = moved;
             Some(found)
         })
-    }
-
-    /// Plays the notes that come late and are due before sample `until`.
-    pub(super) fn begin_late(&mut self, until: u64, out: &mut impl GestureSink) {
-        loop {
-            let due = self.late.iter().enumerate().filter(|(_, late)| late.time < until);
-            let Some((index, &late)) = due.min_by_key(|(_, late)| late.time) else { return };
-            self.late.remove(index);
-            self.advance_strings(late.time.max(self.now), out);
-            let Wanted { channel, key, .. } = late.struck.wanted;
-            self.chord.push(late.struck);
-            self.begin_chord(out);
-            for _ in 0..late.releases {
-                self.let_go(channel, key, out);
-            }
-        }
     }
 }

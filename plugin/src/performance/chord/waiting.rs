@@ -1,0 +1,67 @@
+//! Notes on their way to a string: struck and not placed yet, or waiting until one is free.
+
+use super::{Articulation, Manner, Wanted};
+use crate::performance::{GestureSink, Performance};
+
+/// A note-on waiting for the rest of its chord.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::performance) struct Struck {
+    pub wanted: Wanted,
+    pub velocity: f64,
+    /// Sample at which its key went down.
+    pub asked: u64,
+    /// How often that was.
+    pub presses: u32,
+    /// What the note has for itself, its channel's share included.
+    pub manner: Manner,
+    pub articulation: Articulation,
+    /// Whether it has waited for a string.
+    pub waited: bool,
+}
+
+/// A note that comes late.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::performance) struct Late {
+    pub time: u64,
+    pub struck: Struck,
+    /// How often its key has gone up already.
+    pub releases: u32,
+    /// Whether it is to end at once, whatever the pedals say.
+    pub cut: bool,
+}
+
+impl Late {
+    /// Whether its key is down.
+    pub fn key_down(&self) -> bool {
+        self.releases < self.struck.presses
+    }
+
+    /// Whether it is the note of a key of a channel.
+    pub fn is(&self, channel: u8, key: u8) -> bool {
+        (self.struck.wanted.channel, self.struck.wanted.key) == (channel, key)
+    }
+}
+
+impl Performance {
+    /// Plays the notes that come late and are due before sample `until`.
+    pub(in crate::performance) fn begin_late(&mut self, until: u64, out: &mut impl GestureSink) {
+        loop {
+            let due = self.late.iter().enumerate().filter(|(_, late)| late.time < until);
+            let Some((index, &late)) = due.min_by_key(|(_, late)| late.time) else { return };
+            self.late.remove(index);
+            self.advance_strings(late.time.max(self.now), out);
+            let Wanted { channel, key, .. } = late.struck.wanted;
+            // A key that was struck again since is another note, which goes on.
+            let alone = !self.sounds(channel, key) && !self.awaits(channel, key);
+            self.chord.push(late.struck);
+            self.begin_chord(out);
+            if late.cut && alone {
+                self.cut(channel, key, out);
+                continue;
+            }
+            for _ in 0..late.releases {
+                self.let_go(channel, key, out);
+            }
+        }
+    }
+}
