@@ -124,3 +124,25 @@ fn what_is_said_of_a_pluck_counts_at_its_sample_after_its_note_on() {
     assert!((after / plain - 0.5).abs() < 1e-9);
     assert_eq!(before, plain);
 }
+
+/// Its own share comes on top of what its channel's controllers say, in whatever order they come.
+#[test]
+fn what_is_said_of_a_pluck_adds_to_what_its_channel_says() {
+    let pluck = |told: &[(u64, PlayerEvent)], said: &[Expression]| {
+        let said = said.iter().map(|&expression| (0, has(64, expression)));
+        last_pluck(&play(&told.iter().copied().chain([(0, on(64, 90))]).chain(said).collect::<Vec<_>>()))
+    };
+    let channel = [(0, cc(74, 32)), (0, cc(2, 64)), (0, cc(11, 100))];
+    let (_, plain_place, plain_force) = pluck(&[], &[]);
+    let (_, place, force) = pluck(&channel, &[]);
+    assert!(place < plain_place && force < 0.5 * plain_force, "the channel says nothing");
+    // Nothing of its own takes nothing away.
+    let nothing = [Expression::PluckPlace(0.0), Expression::PluckForce(1.0), Expression::Brightness(0.5)];
+    assert_eq!(pluck(&channel, &nothing), (0, place, force));
+    let close = |one: f64, other: f64| (one - other).abs() < 1e-7;
+    // 5 mm away from the saddle, which is where places end, and half of 80 mm towards it.
+    let told = pluck(&channel, &[Expression::PluckPlace(0.005), Expression::Brightness(0.75)]);
+    assert!(close(told.1, place - 0.005 + 0.04), "{} m instead of {place} m", told.1);
+    let told = pluck(&channel, &[Expression::PluckForce(0.5)]);
+    assert!(close(told.2, 0.5 * force), "{} N instead of {force} N", told.2);
+}

@@ -20,7 +20,7 @@ use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
 use super::string::{Manner, Start};
 use super::technique::*;
 use super::{CHANNELS, GestureSink, InputMode, Performance};
-pub(super) use waiting::{Late, Struck};
+pub(super) use waiting::{Late, OwnPluck, Struck};
 
 /// The way of the right hand over the strings of a chord.
 struct Strum {
@@ -54,6 +54,7 @@ impl Performance {
                     asked: self.now,
                     presses: 1,
                     manner,
+                    own: OwnPluck::PLAIN,
                     articulation,
                     waited: false,
                 });
@@ -160,7 +161,7 @@ impl Performance {
 
     /// What a string is told of the note of the chord that is placed there.
     fn start(&mut self, index: usize, placement: Placement, strum: Option<&Strum>) -> Start {
-        let Struck { wanted, velocity, asked, presses, manner, .. } = self.chord[index];
+        let Struck { wanted, velocity, asked, presses, manner, own, .. } = self.chord[index];
         let mut articulation = self.articulation(index);
         if articulation.stroke == Stroke::Alternate {
             articulation.stroke = if self.upward { Stroke::Up } else { Stroke::Down };
@@ -183,7 +184,7 @@ impl Performance {
             fret,
             strength: self.touching.strength(velocity),
             deviation: self.variation.next(),
-            manner,
+            manner: own.with(manner),
             articulation,
             order: self.hand.order(string, wanted.pitch),
             wait,

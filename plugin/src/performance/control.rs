@@ -250,16 +250,16 @@ impl Performance {
             .iter_mut()
             .chain(late)
             .find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
-        if let Some(Struck { manner, .. }) = struck {
+        if let Some(Struck { manner, own, .. }) = struck {
             match expression {
                 Expression::Tuning(semitones) => manner.tuning = value(semitones).clamp(-WIDEST, WIDEST),
                 Expression::Pressure(pressure) => manner.pressure = pressure_factor(pressure),
                 Expression::Brightness(part) => {
-                    manner.place = (1.0 - 2.0 * value(part).clamp(0.0, 1.0)) * BRIGHTNESS_REACH;
+                    own.brightness = (1.0 - 2.0 * value(part).clamp(0.0, 1.0)) * BRIGHTNESS_REACH;
                 }
                 Expression::Vibrato(depth) => manner.vibrato = value(depth).clamp(0.0, 1.0),
-                Expression::PluckPlace(metres) => manner.place = value(metres),
-                Expression::PluckForce(factor) => manner.force = value(factor).clamp(0.0, 100.0),
+                Expression::PluckPlace(metres) => own.place = value(metres),
+                Expression::PluckForce(factor) => own.force = value(factor).clamp(0.0, 100.0),
                 Expression::FingerForce(factor) => manner.pressure = value(factor).clamp(0.0, 100.0),
             }
             return;

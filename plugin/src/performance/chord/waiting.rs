@@ -12,11 +12,35 @@ pub(in crate::performance) struct Struck {
     pub asked: u64,
     /// How often that was.
     pub presses: u32,
-    /// What the note has for itself, its channel's share included.
+    /// How its channel's notes are played, and how it is bent and pressed itself: there the last word counts.
     pub manner: Manner,
+    /// What its own pluck has beside its channel's.
+    pub own: OwnPluck,
     pub articulation: Articulation,
     /// Whether it has waited for a string.
     pub waited: bool,
+}
+
+/// What a note has for its own pluck; each thing that can be said of it is kept apart from the others.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::performance) struct OwnPluck {
+    /// Moves the pluck away from the saddle, m.
+    pub place: f64,
+    /// Its brightness does so, too, m.
+    pub brightness: f64,
+    /// Factor of the pluck's force.
+    pub force: f64,
+}
+
+impl OwnPluck {
+    /// Nothing special.
+    pub(super) const PLAIN: Self = Self { place: 0.0, brightness: 0.0, force: 1.0 };
+
+    /// With what the channel says.
+    pub(super) fn with(&self, channel: Manner) -> Manner {
+        let (place, force) = (channel.place + self.place + self.brightness, channel.force * self.force);
+        Manner { place, force, ..channel }
+    }
 }
 
 /// A note that comes late.
