@@ -3,10 +3,10 @@
 
 use std::sync::LazyLock;
 
-use low_action::performance::{Performance, PlayerEvent};
+use low_action::performance::{Expression, Performance, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, play};
-use low_action_tests::stage::{cc, on};
+use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 static BASS: LazyLock<Neck> = LazyLock::new(|| Neck::of("bass"));
@@ -79,4 +79,36 @@ fn capo_and_keyswitches_stay_where_they_are() {
     let before = bass.compromises().moved_by_octaves;
     play(&mut bass, &[(400_000, on(28, 90))]);
     assert_eq!(bass.compromises().moved_by_octaves, before + 1);
+}
+
+/// On other strings notes end; but those that were begun for them are struck there.
+#[test]
+fn what_is_held_since_the_change_was_asked_for_is_struck_again() {
+    let mut player = GUITAR.player(EXACT);
+    let tuned = PlayerEvent::Note { channel: 0, key: 45, expression: Expression::Tuning(0.5) };
+    // A note from before, one that has ended, one that was struck twice and tuned.
+    let events = [
+        (0, on(62, 90)),
+        (6_000, on(50, 90)),
+        (6_000, on(45, 90)),
+        (7_000, on(45, 90)),
+        (7_000, tuned),
+        (8_000, off(50)),
+    ];
+    let mut gestures = Vec::new();
+    for (time, event) in events {
+        player.event(time, event, &mut gestures);
+    }
+    player.advance(12_000, &mut gestures);
+    let mut bass = BASS.player(EXACT);
+    bass.take_over(&player, false);
+    bass.strike_again(&player, 6_000);
+    let mut gestures = Vec::new();
+    bass.event(24_000, off(45), &mut gestures);
+    let plucks = gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).map(|g| g.time);
+    assert_eq!(plucks.collect::<Vec<_>>(), [12_000]);
+    assert!(bent(&gestures).0 > 1.0, "its tuning is lost");
+    assert!(bass.sounds(0, 45), "it was struck twice");
+    bass.event(36_000, off(45), &mut gestures);
+    assert!(!bass.sounds(0, 45));
 }

@@ -99,3 +99,20 @@ fn another_instrument_fades_in() {
     assert_eq!(peak(&left[LENGTH - 60_000..LENGTH - 48_000]), 0.0);
     assert!(peak(&left[LENGTH - 48_000..]) > 0.01);
 }
+
+/// As when the host changed it while the plugin slept: the first note comes before the new instrument is built.
+#[test]
+fn a_note_that_comes_after_the_change_is_played_by_the_new_instrument() {
+    let played = |change: &[(u64, Action)]| {
+        let mut score = change.to_vec();
+        score.insert(0, set(0, "relax", 0.0));
+        score.push((CHANGE as u64 + 10, Action::NoteOn { channel: 0, key: 40, velocity: 100 }));
+        score
+    };
+    let [unchanged, _] = Host::in_real_time().play(RATE, &played(&[]), LENGTH, &[512]);
+    let mut host = Host::in_real_time();
+    host.sleepy = true;
+    host.watch = wait(CHANGE, move |left| left[CHANGE..] != unchanged[CHANGE..left.len()]);
+    let [left, _] = host.play(RATE, &played(&[set(CHANGE as u64, "instrument", 3.0)]), LENGTH, &[512]);
+    assert!(peak(&left[LENGTH - 48_000..]) > 1e-4, "the key is down, and nothing sounds");
+}

@@ -29,12 +29,13 @@ impl Replacement {
 impl Engine {
     /// Goes on as another engine from the next sample on. If its strings are much the same, they go on
     /// sounding with the fingers on them and the notes held; otherwise the sound fades away and the strings
-    /// are silent. Nothing is allocated or given back.
+    /// are silent. But notes whose keys are down and that began at sample `asked` or later, when this engine was asked for, were
+    /// meant for it: they are struck again. Nothing is allocated or given back.
     ///
     /// # Errors
     /// When the replacement is built for another sample rate, and while what the engine was before is still fading or has not been fetched; the replacement comes back
     /// unused.
-    pub fn replace(&mut self, mut replacement: Box<Replacement>) -> Result<(), Box<Replacement>> {
+    pub fn replace(&mut self, mut replacement: Box<Replacement>, asked: u64) -> Result<(), Box<Replacement>> {
         if self.outgoing.is_some() {
             return Err(replacement);
         }
@@ -45,6 +46,9 @@ impl Engine {
             return Err(replacement);
         }
         replacement.performance.take_over(&self.performance, goes_on);
+        if !goes_on {
+            replacement.performance.strike_again(&self.performance, asked);
+        }
         std::mem::swap(&mut self.performance, &mut replacement.performance);
         std::mem::swap(&mut self.tail, &mut replacement.tail);
         self.outgoing = Some(replacement);

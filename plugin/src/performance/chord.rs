@@ -33,14 +33,18 @@ struct Strum {
 impl Performance {
     /// Notes a struck key; it is placed with all others of the same instant.
     pub(super) fn strike(&mut self, channel: u8, key: u8, velocity: f64) {
-        if usize::from(channel) >= CHANNELS {
-            return;
+        if usize::from(channel) < CHANNELS {
+            self.ask_for(channel, key, velocity, 1);
         }
+    }
+
+    /// Asks for the note of a key that went down so often.
+    fn ask_for(&mut self, channel: u8, key: u8, velocity: f64, presses: u32) {
         let twin =
             self.chord.iter_mut().find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
         if let Some(twin) = twin {
             twin.velocity = twin.velocity.max(velocity);
-            twin.presses = twin.presses.saturating_add(1);
+            twin.presses = twin.presses.saturating_add(presses);
             return;
         }
         match self.wanted(channel, key) {
@@ -52,7 +56,7 @@ impl Performance {
                     wanted,
                     velocity,
                     asked: self.now,
-                    presses: 1,
+                    presses,
                     manner,
                     own: OwnPluck::PLAIN,
                     articulation,

@@ -26,8 +26,7 @@ use super::technique::*;
 use super::{GestureSink, Moment, PlayedString};
 use deeds::{Deed, Deeds, Struck};
 use ending::Ending;
-use note::Note;
-pub(crate) use note::{Manner, Start};
+pub(crate) use note::{Manner, Note, Start};
 pub(crate) use own::Own;
 
 /// The player's dealings with one string.

@@ -27,6 +27,8 @@ pub(super) struct Playing {
     refused: Option<Order>,
     /// What the workshop has been asked for and is not played yet.
     asked: Option<Order>,
+    /// The sample at which something else than what plays was asked for.
+    asked_at: u64,
     /// A finished engine waiting until the last one has faded.
     ready: Option<Finished>,
     /// What the outgoing part of the engine was ordered as.
@@ -59,6 +61,7 @@ impl Playing {
             order,
             refused: (order != wanted).then_some(wanted),
             asked: None,
+            asked_at: 0,
             ready: None,
             leaving: order,
             workshop,

@@ -67,6 +67,18 @@ impl Late {
 }
 
 impl Performance {
+    /// Strikes the notes again that have begun since some sample under the player whom this one has taken over from, and whose
+    /// keys are down: on strings that are no more they would be lost.
+    pub fn strike_again(&mut self, old: &Self, since: u64) {
+        for note in old.strings.iter().filter_map(|string| string.note_since(since)) {
+            let count = self.chord.len();
+            self.ask_for(note.channel, note.key, note.velocity, note.presses);
+            if let Some(Struck { manner, .. }) = self.chord.get_mut(count) {
+                (manner.tuning, manner.pressure, manner.vibrato) = (note.tuning, note.pressure, note.vibrato);
+            }
+        }
+    }
+
     /// Plays the notes that come late and are due before sample `until`.
     pub(in crate::performance) fn begin_late(&mut self, until: u64, out: &mut impl GestureSink) {
         loop {

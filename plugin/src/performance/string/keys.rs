@@ -1,6 +1,6 @@
 //! What keeps a note sounding, and lets it end: its key, the pedals, and the messages that stop everything.
 
-use super::{StringPlayer, UNDER};
+use super::{Note, StringPlayer, UNDER};
 use crate::performance::technique::SHORTEST_NOTE;
 use crate::performance::{Annotation, GestureSink};
 
@@ -46,7 +46,13 @@ impl StringPlayer {
         true
     }
 
-    /// The sostenuto pedal of a channel goes down: it catches the note if its key is down.
+    /// Its note, if the key of that is down and it began at some sample or later.
+    pub(crate) fn note_since(&self, since: u64) -> Option<Note> {
+        self.note.filter(|note| note.key_down() && note.since >= since)
+    }
+
+    /// A sostenuto pedal of a channel goes down: it catches the note if its key is down. What another one has caught, as in
+    /// MPE, stays caught.
     pub(crate) fn catch(&mut self, channel: u8) {
         if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel) {
             note.caught = note.key_down();

@@ -83,7 +83,7 @@ impl Manner {
 
 /// The note on a string, from its pluck until it is damped.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Note {
+pub(crate) struct Note {
     pub channel: u8,
     pub key: u8,
     /// How hard that was struck, 0 to 1.

@@ -33,7 +33,7 @@ impl Playing {
             return None;
         }
         match result {
-            Ok(replacement) => match self.engine.replace(replacement) {
+            Ok(replacement) => match self.engine.replace(replacement, self.asked_at) {
                 Ok(()) => {
                     self.leaving = std::mem::replace(&mut self.order, order);
                     self.set_effort(self.relaxed);
@@ -63,6 +63,9 @@ impl Playing {
             self.refused = None;
         }
         if wanted != self.asked.or(self.refused).unwrap_or(self.order) {
+            if self.asked.is_none() {
+                self.asked_at = self.engine.now();
+            }
             self.asked = (wanted != self.order).then_some(wanted);
             if let Some(order) = self.asked {
                 self.workshop.order(order);
