@@ -202,7 +202,7 @@ impl Plugin for LowAction {
     fn reset(&mut self) {
         self.played.clear();
         if let Some(playing) = &mut self.playing {
-            playing.reset_sound();
+            playing.begin_again();
         }
     }
 

@@ -83,6 +83,8 @@ pub struct Host {
     pub watch: Option<Watch>,
     /// Whether the host asks a plugin that says it is at rest for nothing until there are events, and plays silence.
     pub sleepy: bool,
+    /// Whether it stops processing meanwhile, and starts again.
+    pub stops: bool,
 }
 
 impl Default for Host {
@@ -119,7 +121,7 @@ impl Host {
             &info,
         )
         .expect("the plugin can be created");
-        Self { instance, mistaken: None, watch: None, sleepy: false }
+        Self { instance, mistaken: None, watch: None, sleepy: false, stops: false }
     }
 
     /// Activates the plugin at a sample rate in Hz, plays the score for `length` samples in blocks of the
@@ -151,7 +153,7 @@ impl Host {
         let mut block_sizes = blocks.iter().cycle();
         let mut start = 0;
         let mut running = None;
-        let (mut rests, mut slept) = (false, 0);
+        let (mut rests, mut slept, mut asleep) = (false, 0, false);
         while start < length {
             let size = *block_sizes.next().expect("a cycle has no end") as usize;
             let end = length.min(start + size);
@@ -167,8 +169,12 @@ impl Host {
             }
             if self.sleepy && rests && events.is_empty() {
                 slept += end - start;
+                asleep = true;
                 start = end;
                 continue;
+            }
+            if std::mem::take(&mut asleep) && self.stops {
+                processor = processor.stop_processing().start_processing().expect("processing starts again");
             }
             let mut parts: Vec<Vec<&mut [f32]>> =
                 vec![stereo.iter_mut().map(|channel| &mut channel[start..end]).collect()];

@@ -16,26 +16,41 @@ fn off(at: u64, key: u8) -> (u64, Action) {
     (at, Action::NoteOff { channel: 0, key })
 }
 
+fn controller(at: u64, number: u8, value: u8) -> (u64, Action) {
+    (at, Action::Midi([0xB0, number, value]))
+}
+
+/// Also one that stops processing while it sleeps.
 #[test]
 fn a_host_that_lets_it_sleep_loses_nothing() {
     let score: Score = vec![
         // Strings that are soon at rest.
         (0, Action::Parameter(parameter("loss_0"), 1.0)),
+        // What is said of notes to come, and how far the wheel reaches.
+        controller(500, 11, 90),
+        controller(500, 101, 0),
+        controller(500, 100, 0),
+        controller(500, 6, 5),
         on(1000, 45),
         on(1200, 57),
+        // A key that stays down while its note dies away.
+        (1400, Action::Begin { number: 7, channel: 0, key: 64 }),
         off(9000, 45),
         off(9600, 57),
         // Long after everything has died away.
+        controller(220_000, 64, 127),
         on(230_000, 52),
         (231_000, Action::Midi([0xE0, 0, 96])),
         off(236_000, 52),
+        (240_000, Action::Lift { number: 7 }),
+        controller(245_000, 64, 0),
     ];
-    for block in [64, 512] {
+    for (block, stops) in [(64, false), (64, true), (512, false), (512, true)] {
         let awake = Host::new().play(RATE, &score, 260_000, &[block]);
         let mut host = Host::new();
-        host.sleepy = true;
+        (host.sleepy, host.stops) = (true, stops);
         let asleep = host.perform(RATE, &score, 260_000, &[block], 0);
-        assert!(asleep.stereo == awake, "blocks of {block}");
+        assert!(asleep.stereo == awake, "blocks of {block}, processing stopped meanwhile: {stops}");
         // It sleeps as long as nothing sounds, but for parts of blocks and for hands that leave a string that is still.
         let silent = awake[0].iter().filter(|sample| **sample == 0.0).count();
         println!("slept for {} of {silent} silent samples in blocks of {block}", asleep.slept);

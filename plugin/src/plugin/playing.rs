@@ -97,6 +97,16 @@ impl Playing {
             self.engine.restart();
         }
         self.voices = Voices::default();
+        self.asked_at = 0;
+    }
+
+    /// The host begins to process again, or asks for silence: the framework tells of both in the same way. One that lets a
+    /// plugin at rest sleep begins again with every first note, and is to lose nothing by it: where nothing sounds there is
+    /// nothing to silence, and pedals, wheels and keys are where they were.
+    pub fn begin_again(&mut self) {
+        if !self.engine.is_silent() {
+            self.reset_sound();
+        }
     }
 
     /// Everything that sounds is damped.
