@@ -133,6 +133,21 @@ fn a_channel_that_is_reset_leaves_what_the_pedals_of_the_first_hold() {
 }
 
 #[test]
+fn what_two_sostenuto_pedals_hold_ends_when_both_are_up() {
+    for ups in [[3, 0], [0, 3]] {
+        let mut player = GUITAR.player(EXACT);
+        player.set_input(InputMode::Mpe);
+        // The first channel's comes down when the key is up already.
+        let caught = [(0, note(3, 60)), (2400, control(3, 66, 127))];
+        let held = [(4800, PlayerEvent::NoteOff { channel: 3, key: 60 }), (9600, control(0, 66, 127))];
+        play(&mut player, &[&caught[..], &held, &[(24_000, control(ups[0], 66, 0))]].concat());
+        assert!(player.sounds(3, 60), "one pedal is down, {ups:?}");
+        play(&mut player, &[(200_000, control(ups[1], 66, 0))]);
+        assert!(!player.sounds(3, 60), "{ups:?}");
+    }
+}
+
+#[test]
 fn a_note_that_comes_back_when_another_channel_is_reset_swings_as_its_own_has_it() {
     let swings = |reset: PlayerEvent| {
         let told = [(0, control(0, 68, 127)), (0, control(1, 1, 127)), (0, control(2, 64, 127))];

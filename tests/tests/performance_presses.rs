@@ -188,3 +188,17 @@ fn the_sostenuto_pedal_holds_a_key_that_is_struck_again() {
     play_by(&mut player, &[up]);
     assert!(!player.sounds(0, KEY));
 }
+
+/// Also from a key that is down under the one that sounds: it comes back held by nothing but itself.
+#[test]
+fn the_sostenuto_pedal_lets_go_of_a_key_under_another() {
+    let other = KEY + 2;
+    for up in [cc(66, 0), cc(121, 0)] {
+        let caught = [(0, cc(68, 127)), press(0), (4_000, cc(66, 127)), (WHILE, on(other, 80))];
+        let mut player = GUITAR.player(EXACT);
+        let up = [(2 * WHILE, up), (3 * WHILE, off(other))];
+        let back = play_by(&mut player, &[&caught[..], &up].concat());
+        assert!(player.sounds(0, KEY) && ends(&back).is_empty(), "{up:?}: its key is down");
+        assert_eq!(ends(&play_by(&mut player, &[release(20 * WHILE)])), [20 * WHILE], "{up:?}");
+    }
+}

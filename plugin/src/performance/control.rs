@@ -125,6 +125,11 @@ impl Performance {
             let said = |own: u8| (own == number || acts_on_all).then(|| manners[usize::from(own)]);
             self.strings.iter_mut().for_each(|string| string.hear(request, said));
         }
+        if matches!(request, Request::LetFall | Request::Reset) {
+            let caught: [bool; CHANNELS] = std::array::from_fn(|channel| self.sostenuto(channel as u8));
+            let fallen = |own: u8| (own == number || acts_on_all) && !caught[usize::from(own)];
+            self.strings.iter_mut().for_each(|string| string.let_fall_under(fallen));
+        }
         for index in 0..self.strings.len() {
             if matches!(request, Request::ReleaseKeys | Request::Silence) {
                 self.strings[index].forget_under((!acts_on_all).then_some(number));

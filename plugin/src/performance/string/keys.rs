@@ -55,7 +55,7 @@ impl StringPlayer {
     /// MPE, stays caught.
     pub(crate) fn catch(&mut self, channel: u8) {
         if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel) {
-            note.caught = note.key_down();
+            note.caught |= note.key_down();
         }
     }
 
@@ -67,6 +67,15 @@ impl StringPlayer {
                 self.go_back_or_end(time, out);
             }
         }
+    }
+
+    /// It goes up on such channels for the keys under the one that sounds: they come back held by nothing but themselves.
+    pub(crate) fn let_fall_under(&mut self, fallen: impl Fn(u8) -> bool) {
+        self.under
+            .iter_mut()
+            .flatten()
+            .filter(|note| fallen(note.channel))
+            .for_each(|note| note.caught = false);
     }
 
     /// Lets go of whatever key of a channel holds this string.
