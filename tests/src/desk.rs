@@ -156,6 +156,13 @@ impl Desk {
         self.press(way[way.len() - 1], false, Modifiers::NONE);
     }
 
+    /// The window is closed; gives back what that plays.
+    pub fn close(self) -> Vec<PlayerEvent> {
+        let Self { harness, queue, .. } = self;
+        drop(harness);
+        std::iter::from_fn(|| queue.next()).collect()
+    }
+
     /// Plays so that something is seen.
     pub fn play(&mut self, event: PlayerEvent) {
         self.engine.event(0, event);

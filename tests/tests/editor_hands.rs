@@ -133,6 +133,24 @@ fn with_shift_the_finger_stays() {
 }
 
 #[test]
+fn a_finger_leaves_when_the_window_is_closed() {
+    for (modifiers, lifted) in [(Modifiers::NONE, true), (Modifiers::SHIFT, false)] {
+        let mut desk = Desk::new();
+        let at = desk.at(FIFTH, 2.0);
+        desk.point(at);
+        desk.press(at, true, modifiers);
+        desk.wait(0.1);
+        assert_eq!(deeds(&desk, 2).len(), 1, "{:?}", desk.played);
+        let lift = PlayerEvent::Touched { string: 2, deed: StringDeed::Lift };
+        assert_eq!(desk.close(), if lifted { vec![lift] } else { vec![] }, "{modifiers:?}");
+    }
+    // One that has left already does so once.
+    let mut desk = Desk::new();
+    desk.drag(&[desk.at(FIFTH, 2.0)], 0.0);
+    assert_eq!(desk.close(), []);
+}
+
+#[test]
 fn strings_are_silenced() {
     let mut desk = Desk::new();
     let at = desk.at(BEYOND, 1.0);

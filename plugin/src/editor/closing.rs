@@ -6,19 +6,31 @@ use std::sync::Arc;
 use egui::{Context, Id};
 
 use super::noted::Noted;
+use super::strings::Finger;
+use crate::performance::{PlayerEvent, StringDeed};
+use crate::pointer::Pointer;
 
 /// Goes when the window does.
-struct Closing(Noted);
+struct Closing {
+    noted: Noted,
+    finger: Finger,
+    pointer: Pointer,
+}
 
 impl Drop for Closing {
     fn drop(&mut self) {
-        self.0.end_dropped();
+        self.noted.end_dropped();
         // What was held at the last picture, too.
-        self.0.end_dropped();
+        self.noted.end_dropped();
+        // No mouse will ever be let go of in it: a finger that was to leave then leaves now.
+        if let Some(string) = self.finger.take() {
+            self.pointer.play(PlayerEvent::Touched { string, deed: StringDeed::Lift });
+        }
     }
 }
 
-/// Ends the gestures that are under way when a new window is closed.
-pub fn end_gestures(window: &Context, noted: Noted) {
-    window.data_mut(|data| data.insert_temp(Id::unique("closing"), Arc::new(Closing(noted))));
+/// Ends the gestures that are under way when a new window is closed, and takes the mouse's finger off its string.
+pub fn end_gestures(window: &Context, noted: Noted, finger: Finger, pointer: Pointer) {
+    let closing = Closing { noted, finger, pointer };
+    window.data_mut(|data| data.insert_temp(Id::unique("closing"), Arc::new(closing)));
 }

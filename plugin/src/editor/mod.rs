@@ -107,7 +107,7 @@ impl Editor {
         self.plan.follow(&self.params);
         let noted = Noted { gui: gui.clone(), history: self.history.clone() };
         if self.opening {
-            closing::end_gestures(ui.ctx(), noted.clone());
+            closing::end_gestures(ui.ctx(), noted.clone(), self.strings.finger(), self.pointer.clone());
         }
         self.resume(ui);
         let given = Given {

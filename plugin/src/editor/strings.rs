@@ -16,6 +16,7 @@ use super::shapes::fit_text;
 use super::theme::{self, NEAR, TIGHT};
 use crate::plugin::layout::KeyMap;
 use glow::Glow;
+pub(super) use play::Finger;
 use play::Play;
 pub use sight::Sight;
 
@@ -37,6 +38,11 @@ impl Strings {
     /// Has the side view show another, until the mouse is over one.
     pub fn watch(&mut self, string: usize) {
         self.watched = string;
+    }
+
+    /// The mouse's finger, for whoever sees the window go.
+    pub(super) fn finger(&self) -> Finger {
+        self.play.finger()
     }
 
     /// Draws the strings.

@@ -4,6 +4,9 @@
 //! it is a finger: it slides along while it is held and leaves when it is let go, or stays if Shift was down, so that
 //! the other strings can be stopped too and all be strummed. The other button silences a string.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, Ordering};
+
 use egui::{Align2, PointerButton, Pos2, Response, Stroke, Ui, pos2, vec2};
 use low_action_dsp::Setup;
 
@@ -32,17 +35,46 @@ enum Doing {
     Nothing,
     /// Plucks what it crosses; where it was.
     Strumming(Pos2),
-    /// Is a finger on a string, at a place (m from the nut), and stays there afterwards or not.
-    Pressing { string: usize, place: f32, stays: bool },
+    /// Is a finger on a string, at a place (m from the nut).
+    Pressing { string: usize, place: f32 },
+}
+
+/// The string that the mouse holds a finger on which is to leave with it; clones are of the same mouse.
+#[derive(Debug, Clone)]
+pub(in crate::editor) struct Finger(Arc<AtomicU8>);
+
+impl Finger {
+    const NOWHERE: u8 = u8::MAX;
+
+    fn put(&self, string: usize) {
+        self.0.store(u8::try_from(string).unwrap_or(Self::NOWHERE), Ordering::Relaxed);
+    }
+
+    /// Takes it off: gives the string, but only once, whoever asks.
+    pub fn take(&self) -> Option<u8> {
+        Some(self.0.swap(Self::NOWHERE, Ordering::Relaxed)).filter(|string| *string != Self::NOWHERE)
+    }
+}
+
+impl Default for Finger {
+    fn default() -> Self {
+        Self(Arc::new(AtomicU8::new(Self::NOWHERE)))
+    }
 }
 
 /// What the view remembers of the mouse.
 #[derive(Debug, Default)]
 pub(super) struct Play {
     doing: Doing,
+    finger: Finger,
 }
 
 impl Play {
+    /// The mouse's finger.
+    pub fn finger(&self) -> Finger {
+        self.finger.clone()
+    }
+
     /// Whether the mouse is playing.
     pub fn is_busy(&self) -> bool {
         self.doing != Doing::Nothing
@@ -83,7 +115,10 @@ impl Play {
             self.doing = Doing::Strumming(at);
         } else if over_board(place, setup) {
             // One that was left there goes with the mouse.
-            self.doing = Doing::Pressing { string, place, stays: shift };
+            self.doing = Doing::Pressing { string, place };
+            if !shift {
+                self.finger.put(string);
+            }
             self.deed(given, string, StringDeed::Press { position: place });
         } else {
             self.doing = Doing::Strumming(at);
@@ -111,7 +146,7 @@ impl Play {
                     }
                 }
             }
-            Doing::Pressing { string, place, .. } => {
+            Doing::Pressing { string, place } => {
                 // The finger stays over the board.
                 let end = setup.neck.board_end() as f32;
                 let (string, new) = (*string, sight.place(at.x).max(0.0).min(end));
@@ -124,8 +159,9 @@ impl Play {
     }
 
     fn end(&mut self, given: &Given) {
-        if let Doing::Pressing { string, stays: false, .. } = std::mem::take(&mut self.doing) {
-            self.deed(given, string, StringDeed::Lift);
+        self.doing = Doing::Nothing;
+        if let Some(string) = self.finger.take() {
+            self.deed(given, string.into(), StringDeed::Lift);
         }
     }
 
