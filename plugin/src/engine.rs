@@ -216,7 +216,10 @@ impl Engine {
 
     /// Whether a string sounds a key of a channel that has not been let go of, or will as soon as one is free.
     pub fn sounds(&self, channel: u8, key: u8) -> bool {
-        self.performance.sounds(channel, key) || self.performance.awaits(channel, key)
+        let Self { performance, .. } = self;
+        performance.sounds(channel, key)
+            || performance.awaits(channel, key)
+            || performance.forces(channel, key)
     }
 
     /// Number of strings, and so of stems.

@@ -248,7 +248,7 @@ impl Plugin for LowAction {
         context.set_current_voice_capacity(playing.string_count());
         self.output.shape(&self.params.output, left, right, &mut stems[..count]);
         self.meters.see_output(left, right);
-        playing.end_voices(|event| context.try_send_event(event).is_ok());
+        playing.end_voices(left.len(), |event| context.try_send_event(event).is_ok());
         playing.stop_clock(started, left.len(), self.params.instrument.relax.value());
         let health = Health { load: self.meters.load(), relaxed: self.meters.relaxed() };
         let status = playing.status(looked_at);

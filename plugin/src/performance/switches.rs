@@ -46,6 +46,14 @@ impl Performance {
         }
     }
 
+    /// Whether a key is a keyswitch that is down and asks for a string.
+    pub fn forces(&self, channel: u8, key: u8) -> bool {
+        let string = self.switch(key).and_then(|number| number.checked_sub(SWITCHES));
+        let asks =
+            |string| self.channels.iter().any(|own| own.forced == Some((usize::from(string), channel)));
+        string.is_some_and(asks)
+    }
+
     /// The channels for which a keyswitch of one counts: all where each note or each string has its own.
     fn switched_by(&mut self, channel: u8) -> impl Iterator<Item = &mut Channel> {
         let all = self.is_mpe() || self.is_by_strings();

@@ -258,7 +258,7 @@ mod tests {
         let mut voices = Voices::default();
         let mut told = Vec::new();
         let mut block = |voices: &mut Voices, sounds| {
-            voices.end(|_, _| sounds, &mut |event| {
+            voices.end(0, |_, _| sounds, &mut |event| {
                 told.push(event.voice_id());
                 true
             });
@@ -310,7 +310,7 @@ mod tests {
         let mut voices = Voices::default();
         for id in [1, 2] {
             voices.begin(id, 2, 45);
-            voices.end(|_, _| true, &mut |_| true);
+            voices.end(0, |_, _| true, &mut |_| true);
         }
         let mut other = voices;
         // Of the one that was struck again, only its press is left.

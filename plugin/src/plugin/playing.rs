@@ -1,6 +1,8 @@
 //! An engine at work: events in, sound out, and other engines put in its place on the way (`exchange`).
 
 mod exchange;
+#[cfg(test)]
+mod tests;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -165,10 +167,11 @@ impl Playing {
         }
     }
 
-    /// Tells the host which of its notes have ended; `send` says whether it took that in.
-    pub fn end_voices(&mut self, mut send: impl FnMut(NoteEvent<()>) -> bool) {
+    /// Tells the host which of its notes have ended in a block of so many samples; `send` says whether it took that in.
+    pub fn end_voices(&mut self, samples: usize, mut send: impl FnMut(NoteEvent<()>) -> bool) {
         let engine = &self.engine;
-        self.voices.end(|channel, key| engine.sounds(channel, key), &mut send);
+        let last = samples.saturating_sub(1) as u32;
+        self.voices.end(last, |channel, key| engine.sounds(channel, key), &mut send);
     }
 
     /// Number of strings.
@@ -225,90 +228,5 @@ impl Playing {
             // An endless tail becomes the largest number, by which hosts mean just that.
             ProcessStatus::Tail((self.engine.tail() * f64::from(self.order.sample_rate)) as u32)
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const RATE: f32 = 48_000.0;
-
-    fn order() -> Order {
-        Order::of(&LowActionParams::default(), RATE, false)
-    }
-
-    fn playing(order: Order, offline: bool, meters: &Arc<Meters>) -> Playing {
-        Playing::new(order, offline, Shelf::new(Vec::new()), meters.clone()).expect("it can be built")
-    }
-
-    #[test]
-    fn a_rendering_shows_no_load() {
-        let meters = Arc::new(Meters::default());
-        let busy = || meters.see_load(0.9, true);
-        let rests = || meters.load() == 0.0 && !meters.relaxed();
-        busy();
-        let mut playing = playing(order(), true, &meters);
-        assert!(rests(), "after it was built");
-        busy();
-        playing.reset(true);
-        assert!(rests(), "after it was activated again");
-    }
-
-    #[test]
-    fn the_host_goes_on_while_the_editor_is_open() {
-        let meters = Arc::new(Meters::default());
-        let live = playing(order(), false, &meters);
-        assert_eq!(live.status(false), ProcessStatus::Normal);
-        assert_eq!(live.status(true), ProcessStatus::KeepAlive);
-        // A rendering ends all the same.
-        assert_eq!(playing(order(), true, &meters).status(true), ProcessStatus::Normal);
-    }
-
-    /// A hard chord, and a second in which every block is said to have taken so many times as long as it lasts.
-    fn chord(load: f64, may_relax: bool, meters: &Arc<Meters>) -> (Playing, Vec<f32>) {
-        let mut playing = playing(order(), false, meters);
-        for key in [40, 45, 50, 55, 59, 64] {
-            playing.touch(PlayerEvent::NoteOn { channel: 0, key, velocity: 1.0 });
-        }
-        let mut sound = Vec::new();
-        for _ in 0..100 {
-            let (mut left, mut right) = ([0.0; 480], [0.0; 480]);
-            playing.play(&LowActionParams::default(), &mut left, &mut right, &mut []);
-            playing.spend(load * 0.01, 480, may_relax);
-            sound.extend(left);
-        }
-        (playing, sound)
-    }
-
-    #[test]
-    fn what_takes_too_long_is_solved_less_exactly_if_it_may_be() {
-        let meters = Arc::new(Meters::default());
-        let (_, exact) = chord(0.1, true, &meters);
-        assert!(!meters.relaxed());
-        let (_, kept) = chord(2.0, false, &meters);
-        assert!(kept == exact && !meters.relaxed(), "relaxed though it is not allowed");
-        let (mut late, relaxed) = chord(2.0, true, &meters);
-        assert!(relaxed != exact && meters.relaxed(), "never relaxed");
-        // It is the same music, whole.
-        let level = |sound: &[f32]| 10.0 * sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>().log10();
-        for (one, other) in exact.chunks(4800).zip(relaxed.chunks(4800)) {
-            let [one, other] = [one, other].map(level);
-            assert!((one - other).abs() < 1.0, "{one} and {other} dB");
-        }
-        // A second of ease, after the time in which the load comes down.
-        (0..130).for_each(|_| late.spend(0.001, 480, true));
-        assert!(!meters.relaxed(), "it never recovers");
-        // And so it is at once where it is not allowed any more.
-        let (mut late, _) = chord(2.0, true, &meters);
-        late.spend(0.02, 480, false);
-        assert!(!meters.relaxed());
-    }
-
-    #[test]
-    fn only_what_plays_in_real_time_looks_at_the_clock() {
-        let meters = Arc::new(Meters::default());
-        assert!(playing(order(), false, &meters).start_clock().is_some());
-        assert!(playing(order(), true, &meters).start_clock().is_none());
     }
 }

@@ -48,8 +48,14 @@ impl Voices {
         remember(&mut self.notes, voice);
     }
 
-    /// Forgets the notes that sound no more and those struck again under another number, telling of each.
-    pub fn end(&mut self, sounds: impl Fn(u8, u8) -> bool, send: &mut impl FnMut(NoteEvent<()>) -> bool) {
+    /// Forgets the notes that sound no more and those struck again under another number, telling of each at the last sample of
+    /// the block: at an earlier one it might not have begun.
+    pub fn end(
+        &mut self,
+        last: u32,
+        sounds: impl Fn(u8, u8) -> bool,
+        send: &mut impl FnMut(NoteEvent<()>) -> bool,
+    ) {
         for press in &mut self.presses {
             *press = press.filter(|voice| voice.down && sounds(voice.channel, voice.key));
         }
@@ -61,7 +67,7 @@ impl Voices {
                 continue;
             }
             let ended = NoteEvent::VoiceTerminated {
-                timing: 0,
+                timing: last,
                 voice_id: VoiceID::ID(id),
                 channel: Channel::Number(channel),
                 key: Key::Number(key),
@@ -148,9 +154,24 @@ mod tests {
         voices.begin(1000, 0, 40);
         for id in 0..200 {
             voices.begin(id, 0, 50);
-            voices.end(|_, key| key == 40, &mut |_| true);
+            voices.end(0, |_, key| key == 40, &mut |_| true);
             assert_eq!((voices.find(1000), voices.find(id)), (Some((0, 40)), None));
         }
+    }
+
+    /// Hosts take the events of a block in order: a note has begun, and a key was struck again, before that is told.
+    #[test]
+    fn a_note_ends_at_the_last_sample_of_its_block() {
+        let mut voices = Voices::default();
+        for (id, key) in [(1, 40), (2, 40), (3, 50)] {
+            voices.begin(id, 0, key);
+        }
+        let mut told = Vec::new();
+        voices.end(511, |_, key| key == 40, &mut |event| {
+            told.push((event.timing(), event.voice_id()));
+            true
+        });
+        assert_eq!(told, [(511, Some(VoiceID::ID(1))), (511, Some(VoiceID::ID(3)))]);
     }
 
     #[test]
@@ -158,7 +179,7 @@ mod tests {
         let mut voices = Voices::default();
         voices.begin(1, 0, 40);
         voices.begin(2, 0, 50);
-        voices.end(|_, key| key != 40, &mut |_| true);
+        voices.end(0, |_, key| key != 40, &mut |_| true);
         // Takes the place of the first.
         voices.begin(3, 0, 50);
         assert_eq!(voices.latest(0, 50), Some(3));

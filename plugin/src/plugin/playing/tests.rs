@@ -1,0 +1,127 @@
+//! What a host and a player notice of an engine at work.
+
+use nice_plug::midi::{Channel, Key, VoiceID};
+
+use super::*;
+
+const RATE: f32 = 48_000.0;
+
+fn order() -> Order {
+    Order::of(&LowActionParams::default(), RATE, false)
+}
+
+fn playing(order: Order, offline: bool, meters: &Arc<Meters>) -> Playing {
+    Playing::new(order, offline, Shelf::new(Vec::new()), meters.clone()).expect("it can be built")
+}
+
+#[test]
+fn a_rendering_shows_no_load() {
+    let meters = Arc::new(Meters::default());
+    let busy = || meters.see_load(0.9, true);
+    let rests = || meters.load() == 0.0 && !meters.relaxed();
+    busy();
+    let mut playing = playing(order(), true, &meters);
+    assert!(rests(), "after it was built");
+    busy();
+    playing.reset(true);
+    assert!(rests(), "after it was activated again");
+}
+
+#[test]
+fn the_host_goes_on_while_the_editor_is_open() {
+    let meters = Arc::new(Meters::default());
+    let live = playing(order(), false, &meters);
+    assert_eq!(live.status(false), ProcessStatus::Normal);
+    assert_eq!(live.status(true), ProcessStatus::KeepAlive);
+    // A rendering ends all the same.
+    assert_eq!(playing(order(), true, &meters).status(true), ProcessStatus::Normal);
+}
+
+/// A hard chord, and a second in which every block is said to have taken so many times as long as it lasts.
+fn chord(load: f64, may_relax: bool, meters: &Arc<Meters>) -> (Playing, Vec<f32>) {
+    let mut playing = playing(order(), false, meters);
+    for key in [40, 45, 50, 55, 59, 64] {
+        playing.touch(PlayerEvent::NoteOn { channel: 0, key, velocity: 1.0 });
+    }
+    let mut sound = Vec::new();
+    for _ in 0..100 {
+        let (mut left, mut right) = ([0.0; 480], [0.0; 480]);
+        playing.play(&LowActionParams::default(), &mut left, &mut right, &mut []);
+        playing.spend(load * 0.01, 480, may_relax);
+        sound.extend(left);
+    }
+    (playing, sound)
+}
+
+#[test]
+fn what_takes_too_long_is_solved_less_exactly_if_it_may_be() {
+    let meters = Arc::new(Meters::default());
+    let (_, exact) = chord(0.1, true, &meters);
+    assert!(!meters.relaxed());
+    let (_, kept) = chord(2.0, false, &meters);
+    assert!(kept == exact && !meters.relaxed(), "relaxed though it is not allowed");
+    let (mut late, relaxed) = chord(2.0, true, &meters);
+    assert!(relaxed != exact && meters.relaxed(), "never relaxed");
+    // It is the same music, whole.
+    let level = |sound: &[f32]| 10.0 * sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>().log10();
+    for (one, other) in exact.chunks(4800).zip(relaxed.chunks(4800)) {
+        let [one, other] = [one, other].map(level);
+        assert!((one - other).abs() < 1.0, "{one} and {other} dB");
+    }
+    // A second of ease, after the time in which the load comes down.
+    (0..130).for_each(|_| late.spend(0.001, 480, true));
+    assert!(!meters.relaxed(), "it never recovers");
+    // And so it is at once where it is not allowed any more.
+    let (mut late, _) = chord(2.0, true, &meters);
+    late.spend(0.02, 480, false);
+    assert!(!meters.relaxed());
+}
+
+#[test]
+fn a_keyswitch_for_a_string_is_let_go_of_by_its_number() {
+    let meters = Arc::new(Meters::default());
+    let params = LowActionParams::default();
+    let mut playing = playing(order(), false, &meters);
+    // Keyswitches from key 1 on: that of the sixth string is 18.
+    playing.touch(PlayerEvent::Controller { channel: 0, number: 27, value: 1.0 / 127.0 });
+    // Plays a block, and gives back how many notes have ended.
+    let mut block = |event| {
+        playing.event(event, &params);
+        let (mut left, mut right) = ([0.0; 480], [0.0; 480]);
+        playing.play(&params, &mut left, &mut right, &mut []);
+        let mut ended = 0;
+        playing.end_voices(480, |_| {
+            ended += 1;
+            true
+        });
+        ended
+    };
+    let (timing, channel) = (0, Channel::Wildcard);
+    let on = |id, key| NoteEvent::NoteOn {
+        timing,
+        voice_id: VoiceID::ID(id),
+        channel: Channel::Number(0),
+        key: Key::Number(key),
+        velocity: 0.7,
+    };
+    let off = |id| NoteEvent::NoteOff {
+        timing,
+        voice_id: VoiceID::ID(id),
+        channel,
+        key: Key::Wildcard,
+        velocity: 0.0,
+    };
+    assert_eq!(block(on(1, 18)), 0, "it is down");
+    assert_eq!(block(off(1)), 1);
+    // E3, which the sixth string has at its twelfth fret.
+    block(on(2, 52));
+    let fingers = |string| playing.engine.instrument().state(string).fingers().iter().flatten().count();
+    assert_eq!(fingers(5), 0, "the keyswitch still asks for its string");
+}
+
+#[test]
+fn only_what_plays_in_real_time_looks_at_the_clock() {
+    let meters = Arc::new(Meters::default());
+    assert!(playing(order(), false, &meters).start_clock().is_some());
+    assert!(playing(order(), true, &meters).start_clock().is_none());
+}
