@@ -1,5 +1,8 @@
 //! A host's events in the player's words.
 
+#[cfg(test)]
+mod tests;
+
 use std::ops::RangeInclusive;
 
 use nice_plug::midi::{Channel, Key, VoiceID};
@@ -20,26 +23,23 @@ struct Address {
 }
 
 impl Address {
-    /// The number of a note that nothing else names.
-    fn number(&self) -> Option<i32> {
-        match (self.voice, self.channel, self.key) {
-            (VoiceID::ID(id), Channel::Wildcard, _) | (VoiceID::ID(id), _, Key::Wildcard) => Some(id),
-            _ => None,
-        }
-    }
-
-    /// All channels and keys meant; a host may name a note by its number alone, which `find` looks up. A number that
-    /// nobody has any more means nobody.
+    /// All channels and keys meant. A number means its note, which is at `found`, whatever else is said. One that nobody has
+    /// any more means nobody, or the note of the key that is named with it, if that has no other number.
     fn notes(
         &self,
-        find: impl FnOnce(i32) -> Option<(u8, u8)>,
+        voices: &Voices,
+        found: Option<(u8, u8)>,
     ) -> Option<(RangeInclusive<u8>, RangeInclusive<u8>)> {
-        let (channel, key) = match self.number() {
-            Some(id) => {
-                let (channel, key) = find(id)?;
-                (Channel::Number(channel), Key::Number(key))
-            }
-            None => (self.channel, self.key),
+        let (channel, key) = match (self.voice, found) {
+            (VoiceID::ID(_), Some((channel, key))) => (Channel::Number(channel), Key::Number(key)),
+            (VoiceID::ID(id), None) => match (self.channel, self.key) {
+                (Channel::Number(channel), Key::Number(key)) if voices.is_another(id, channel, key) => {
+                    return None;
+                }
+                (Channel::Number(_), Key::Number(_)) => (self.channel, self.key),
+                _ => return None,
+            },
+            _ => (self.channel, self.key),
         };
         let channels = match channel {
             Channel::Number(number) => number..=number,
@@ -52,10 +52,10 @@ impl Address {
         Some((channels, keys))
     }
 
-    /// Says something of every note meant.
-    fn each(&self, find: impl FnOnce(i32) -> Option<(u8, u8)>, mut say: impl FnMut(u8, u8)) {
-        let Some((channels, keys)) = self.notes(find) else { return };
-        channels.for_each(|channel| keys.clone().for_each(|key| say(channel, key)));
+    /// The same of the note that its number has now.
+    fn present(&self, voices: &Voices) -> Option<(RangeInclusive<u8>, RangeInclusive<u8>)> {
+        let found = self.voice.id().and_then(|id| voices.find(id));
+        self.notes(voices, found)
     }
 }
 
@@ -73,7 +73,7 @@ pub(super) fn translate(
 ) {
     let at = event.timing();
     let mut express = |voices: &Voices, address: Address, expression| {
-        let Some((channels, keys)) = address.notes(|id| voices.find(id)) else { return };
+        let Some((channels, keys)) = address.present(voices) else { return };
         let [channel, key] = [single(&channels), single(&keys)];
         // One event, however many notes are meant: there is room for so many.
         send(
@@ -111,19 +111,22 @@ pub(super) fn translate(
             send(at, PlayerEvent::AllNotesOff);
         }
         NoteEvent::NoteOff { voice_id: voice, channel, key, .. } => {
-            let lifted = if let VoiceID::ID(id) = voice { voices.lift(id) } else { None };
+            let lifted = voice.id().and_then(|id| voices.lift(id));
             let address = Address { voice, channel, key };
-            address.each(|_| lifted, |channel, key| send(at, PlayerEvent::NoteOff { channel, key }));
+            let Some((channels, keys)) = address.notes(voices, lifted) else { return };
+            for channel in channels {
+                keys.clone().for_each(|key| send(at, PlayerEvent::NoteOff { channel, key }));
+            }
         }
         // A string has no faster way to stop than a finger put on it, so a choke is a note-off for every press, and for pedals.
         NoteEvent::Choke { voice_id: voice, channel, key, .. } => {
             let address = Address { voice, channel, key };
-            if let Some((channels, keys)) = address.notes(|id| voices.find(id)) {
+            if let Some((channels, keys)) = address.present(voices) {
                 voices.lift_keys(&channels, &keys);
                 for channel in channels {
                     keys.clone().for_each(|key| send(at, PlayerEvent::NoteEnd { channel, key }));
                 }
-            } else if let Some((channel, key)) = address.number().and_then(|id| voices.lift(id)) {
+            } else if let Some((channel, key)) = voice.id().and_then(|id| voices.lift(id)) {
                 // It was struck again: what sounds is another note's.
                 send(at, PlayerEvent::NoteOff { channel, key });
             }
@@ -203,159 +206,4 @@ fn modulated(params: &LowActionParams, id: u32, offset: f32) -> Option<Expressio
 fn signed_bend(value: f32) -> f32 {
     let steps = (value * 16383.0).round() - 8192.0;
     if steps < 0.0 { steps / 8192.0 } else { steps / 8191.0 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// What becomes of a note's end that names the note by its number alone.
-    fn ended(voices: &mut Voices, id: i32) -> Vec<PlayerEvent> {
-        let (voice_id, channel, key) = (VoiceID::ID(id), Channel::Wildcard, Key::Wildcard);
-        translated(voices, NoteEvent::NoteOff { timing: 0, voice_id, channel, key, velocity: 0.0 })
-    }
-
-    /// The same of a choke.
-    fn choked(voices: &mut Voices, id: i32) -> Vec<PlayerEvent> {
-        let (voice_id, channel, key) = (VoiceID::ID(id), Channel::Wildcard, Key::Wildcard);
-        translated(voices, NoteEvent::Choke { timing: 0, voice_id, channel, key })
-    }
-
-    fn translated(voices: &mut Voices, event: NoteEvent<()>) -> Vec<PlayerEvent> {
-        let mut sent = Vec::new();
-        translate(event, &LowActionParams::default(), voices, |_, event| sent.push(event));
-        sent
-    }
-
-    #[test]
-    fn a_number_that_nobody_has_means_nobody() {
-        let mut voices = Voices::default();
-        voices.begin(7, 2, 45);
-        assert_eq!(ended(&mut voices, 8), []);
-        assert_eq!(ended(&mut voices, 7), [PlayerEvent::NoteOff { channel: 2, key: 45 }]);
-    }
-
-    /// However many notes are meant: many events would leave no room for others.
-    #[test]
-    fn what_is_said_of_all_notes_is_one_event() {
-        let mut voices = Voices::default();
-        let mut said = |channel, key| {
-            let (timing, voice_id, tuning) = (0, VoiceID::Wildcard, 0.5);
-            translated(&mut voices, NoteEvent::PolyTuning { timing, voice_id, channel, key, tuning })
-        };
-        let expression = Expression::Tuning(0.5);
-        let all = PlayerEvent::Notes { channel: None, key: None, expression };
-        assert_eq!(said(Channel::Wildcard, Key::Wildcard), [all]);
-        let some = PlayerEvent::Notes { channel: Some(3), key: None, expression };
-        assert_eq!(said(Channel::Number(3), Key::Wildcard), [some]);
-        let one = PlayerEvent::Note { channel: 3, key: 60, expression };
-        assert_eq!(said(Channel::Number(3), Key::Number(60)), [one]);
-    }
-
-    #[test]
-    fn a_number_that_was_struck_again_still_has_its_note_off() {
-        let lifted = [PlayerEvent::NoteOff { channel: 2, key: 45 }];
-        let mut voices = Voices::default();
-        let mut told = Vec::new();
-        let mut block = |voices: &mut Voices, sounds| {
-            voices.end(0, |_, _| sounds, &mut |event| {
-                told.push(event.voice_id());
-                true
-            });
-        };
-        for id in [1, 2, 3] {
-            voices.begin(id, 2, 45);
-            block(&mut voices, true);
-        }
-        // In any order, each once.
-        for id in [2, 1, 3] {
-            assert_eq!(ended(&mut voices, id), lifted, "{id}");
-            assert_eq!(ended(&mut voices, id), [], "{id} again");
-            block(&mut voices, true);
-        }
-        // What is over is forgotten.
-        voices.begin(4, 2, 45);
-        block(&mut voices, true);
-        block(&mut voices, false);
-        block(&mut voices, false);
-        assert_eq!(ended(&mut voices, 4), []);
-        assert_eq!(told, [1, 2, 3, 4].map(|id| Some(VoiceID::ID(id))));
-    }
-
-    /// The note-off of one that was let go of with all others lifts no key that has been struck since.
-    #[test]
-    fn what_was_let_go_of_with_all_others_is_let_go_of_once() {
-        let controller = |channel, cc| NoteEvent::MidiCC { timing: 0, channel, cc, value: 0.0 };
-        let (voice_id, key) = (VoiceID::Wildcard, Key::Wildcard);
-        let wildcard =
-            NoteEvent::NoteOff { timing: 0, voice_id, channel: Channel::Wildcard, key, velocity: 0.0 };
-        for all in [controller(2, 120), controller(2, 123), controller(2, 127), wildcard] {
-            let mut voices = Voices::default();
-            voices.begin(1, 2, 45);
-            assert_eq!(translated(&mut voices, all).len(), 1);
-            voices.begin(2, 2, 45);
-            assert_eq!(ended(&mut voices, 1), [], "{all:?}");
-            assert_eq!(ended(&mut voices, 2), [PlayerEvent::NoteOff { channel: 2, key: 45 }], "{all:?}");
-        }
-        for other in [controller(3, 123), controller(2, 121)] {
-            let mut voices = Voices::default();
-            voices.begin(1, 2, 45);
-            assert_eq!(translated(&mut voices, other).len(), 1);
-            assert_eq!(ended(&mut voices, 1), [PlayerEvent::NoteOff { channel: 2, key: 45 }], "{other:?}");
-        }
-    }
-
-    #[test]
-    fn a_choke_ends_its_own_note_alone() {
-        let mut voices = Voices::default();
-        for id in [1, 2] {
-            voices.begin(id, 2, 45);
-            voices.end(0, |_, _| true, &mut |_| true);
-        }
-        let mut other = voices;
-        // Of the one that was struck again, only its press is left.
-        assert_eq!(choked(&mut voices, 1), [PlayerEvent::NoteOff { channel: 2, key: 45 }]);
-        assert_eq!(ended(&mut voices, 2), [PlayerEvent::NoteOff { channel: 2, key: 45 }]);
-        // The one that sounds takes all presses with it.
-        assert_eq!(choked(&mut other, 2), [PlayerEvent::NoteEnd { channel: 2, key: 45 }]);
-        assert_eq!(ended(&mut other, 1), []);
-    }
-
-    #[test]
-    fn automation_moves_what_a_note_has_for_itself_along() {
-        let (params, mut voices) = (LowActionParams::default(), Voices::default());
-        voices.begin(7, 2, 45);
-        voices.begin(8, 2, 50);
-        let poly_modulation_id = poly::FINGER_FORCE;
-        let moved =
-            NoteEvent::PolyModulation { timing: 0, voice_id: 7, poly_modulation_id, normalized_offset: 0.2 };
-        let mut factor = |event| {
-            let mut sent = Vec::new();
-            translate(event, &params, &mut voices, |_, event| sent.push(event));
-            match sent[..] {
-                [PlayerEvent::Note { channel: 2, key: 45, expression: Expression::FingerForce(factor) }] => {
-                    factor
-                }
-                _ => panic!("{sent:?}"),
-            }
-        };
-        let before = factor(moved);
-        // SAFETY: the parameter lives on.
-        unsafe { params.player.finger_force.as_ptr()._internal_set_normalized_value(0.9) };
-        let after =
-            factor(NoteEvent::MonoAutomation { timing: 0, poly_modulation_id, normalized_value: 0.9 });
-        // There is hardly room for more.
-        assert!(before > 1.2 && after > 1.0 && after < before, "{before}, {after}");
-    }
-
-    #[test]
-    fn bends_are_those_of_a_midi_file() {
-        for raw in 0..16384_u16 {
-            let steps = f32::from(raw) - 8192.0;
-            let expected = if steps < 0.0 { steps / 8192.0 } else { steps / 8191.0 };
-            assert_eq!(signed_bend(f32::from(raw) / 16383.0), expected);
-        }
-        // A VST3 host's centre.
-        assert_eq!(signed_bend(0.5), 0.0);
-    }
 }

@@ -87,9 +87,19 @@ impl Voices {
         self.last(|voice| (voice.channel, voice.key) == (channel, key)).map(|voice| voice.id)
     }
 
-    /// Channel and key of a note; the latest if its number was used again.
+    /// Channel and key of a note, unless that key was struck again under another number; of the latest if its number was used
+    /// again.
     pub fn find(&self, id: i32) -> Option<(u8, u8)> {
-        self.last(|voice| voice.id == id).map(|voice| (voice.channel, voice.key))
+        let voice = self.last(|voice| voice.id == id)?;
+        let (channel, key) = (voice.channel, voice.key);
+        (self.latest(channel, key) == Some(id)).then_some((channel, key))
+    }
+
+    /// Whether what is said of a note with such a number and key cannot be meant for whatever note that key has: the number
+    /// is that of a note which is known, or the key's note has another.
+    pub fn is_another(&self, id: i32, channel: u8, key: u8) -> bool {
+        let all = self.notes.iter().chain(&self.presses).flatten();
+        self.latest(channel, key).is_some() || all.into_iter().any(|voice| voice.id == id)
     }
 
     /// A note-off that names a note: gives its channel and key, once for each time it began. The press of one whose key was
