@@ -16,7 +16,7 @@ use low_action_dsp::setup::SetupString;
 use low_action_dsp::{EngineSettings, Instrument, Setup};
 
 use crate::controls::Touching;
-use crate::performance::{Compromises, InputMode, Performance, PlayedString, PlayerEvent, Style};
+use crate::performance::{Announced, Compromises, InputMode, Performance, PlayedString, PlayerEvent, Style};
 pub use handover::Replacement;
 pub use record::Record;
 use sink::Sink;
@@ -214,7 +214,8 @@ impl Engine {
         }
     }
 
-    /// Whether a string sounds a key of a channel that has not been let go of, or will as soon as one is free.
+    /// Whether a string sounds a key of a channel that has not been let go of, or will as soon as one is free; or the key asks
+    /// for a string, as long as it is down.
     pub fn sounds(&self, channel: u8, key: u8) -> bool {
         let Self { performance, .. } = self;
         performance.sounds(channel, key)
@@ -287,6 +288,16 @@ impl Engine {
     pub fn restart(&mut self) {
         self.performance.restart();
         self.forget();
+    }
+
+    /// What those who play have announced so far.
+    pub fn announced(&self) -> Announced {
+        self.performance.announced()
+    }
+
+    /// Takes it as announced to this engine, which has not played yet.
+    pub fn announce(&mut self, announced: &Announced) {
+        self.performance.announce(announced);
     }
 
     fn forget(&mut self) {

@@ -29,6 +29,7 @@ use crate::display::{Health, Writer, display};
 use crate::editor::Link;
 use crate::engine::Engine;
 use crate::params::{LowActionParams, start};
+use crate::performance::Announced;
 use crate::pointer::{Played, pointer};
 pub use clap::clap_entry;
 use level::Output;
@@ -54,6 +55,9 @@ pub struct LowAction {
     meters: Arc<Meters>,
     /// What plays; there is one from the first activation on.
     playing: Option<Playing>,
+    /// What was announced to those that played in real time, for those to come: who plays says it only once, and a host may
+    /// have rendered offline meanwhile, or changed the sample rate.
+    announced: Option<Announced>,
     output: Output,
     /// Whether the host's transport ran at the last block.
     transport_ran: bool,
@@ -78,6 +82,7 @@ impl Default for LowAction {
             params,
             meters,
             playing: None,
+            announced: None,
             output: Output::default(),
             transport_ran: false,
             display,
@@ -170,6 +175,7 @@ impl Plugin for LowAction {
         self.output.activate(buffers.sample_rate, self.params.output.bypass.value());
         self.transport_ran = false;
         self.played.clear();
+        self.announced = self.playing.as_ref().and_then(Playing::announced).or(self.announced);
         if !RATES.contains(&buffers.sample_rate) {
             nice_error!(
                 "nothing sounds at {} Hz: the sample rate must be {} to {} Hz",
@@ -193,7 +199,10 @@ impl Plugin for LowAction {
             },
         }
         context.set_latency_samples(Engine::LATENCY);
-        if let Some(playing) = &self.playing {
+        if let Some(playing) = &mut self.playing {
+            if let Some(announced) = &self.announced {
+                playing.announce(&self.params, announced);
+            }
             context.set_current_voice_capacity(playing.string_count());
         }
         true

@@ -127,7 +127,7 @@ impl Channel {
         self.announced.then_some(self.range)
     }
 
-    /// Takes over a reach that another channel has announced for all.
+    /// Takes over a reach that another channel has announced for all, or this one before.
     pub(crate) fn take_reach(&mut self, announced: Option<(f64, f64)>) {
         if let Some(range) = announced.filter(|_| !self.ignores_range) {
             (self.range, self.announced) = (range, true);
@@ -137,11 +137,6 @@ impl Channel {
     /// No pedal holds anything any more, wherever it stands: what is pressed next goes down anew.
     pub(crate) fn forget_pedals(&mut self) {
         (self.pedal, self.sostenuto) = (false, false);
-    }
-
-    /// What was announced before goes on: how far the wheel reaches, and the channels of MPE.
-    pub(crate) fn keep_announced(&mut self, before: &Self) {
-        (self.range, self.announced, self.members) = (before.range, before.announced, before.members);
     }
 
     /// Back to rest.

@@ -9,6 +9,7 @@
 //! not on how the time between them is cut into blocks.
 
 mod annotation;
+mod announced;
 mod articulation;
 mod bend;
 mod channel;
@@ -30,6 +31,7 @@ use low_action_dsp::setup::Player;
 
 use crate::controls::Touching;
 pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedAnnotation};
+pub use announced::Announced;
 use articulation::Stop;
 use channel::Channel;
 use chord::{Late, Struck};
@@ -294,11 +296,9 @@ impl Performance {
     /// Starts again at sample 0, but with the capo, the keyswitches, and the reach of wheels and the channels for MPE that were
     /// announced: those who send them do so once.
     pub fn restart(&mut self) {
-        let (capo, switches, channels) = (self.hand.capo(), self.switches, self.channels.clone());
+        let announced = self.announced();
         self.reset();
-        self.channels.iter_mut().zip(&channels).for_each(|(channel, before)| channel.keep_announced(before));
-        self.switches = switches;
-        self.set_capo(capo);
+        self.announce(&announced);
     }
 
     /// Forgets everything and starts again at sample 0.

@@ -18,7 +18,7 @@ use super::voices::Voices;
 use super::workshop::{Finished, Workshop};
 use crate::engine::{Engine, INAUDIBLE, Quality};
 use crate::params::LowActionParams;
-use crate::performance::PlayerEvent;
+use crate::performance::{Announced, PlayerEvent};
 
 /// An engine, what it was built from, and the workshop that builds others.
 pub(super) struct Playing {
@@ -114,6 +114,20 @@ impl Playing {
     /// Everything that sounds is damped.
     pub fn silence(&mut self) {
         self.touch(PlayerEvent::AllNotesOff);
+    }
+
+    /// What has been announced to it, where it plays in real time.
+    pub fn announced(&self) -> Option<Announced> {
+        (!self.offline).then(|| self.engine.announced())
+    }
+
+    /// What was announced to another that played in real time before is so to this one, if that is how it is to play.
+    pub fn announce(&mut self, params: &LowActionParams, announced: &Announced) {
+        if !self.offline {
+            // What the parameters say of wheels and keyswitches comes before.
+            self.follow(params);
+            self.engine.announce(announced);
+        }
     }
 
     /// Has the hands act as the parameters say from now on.

@@ -1,0 +1,46 @@
+//! What those who play say once and never again, whatever becomes of the player who has heard it.
+
+use super::{CHANNELS, Performance};
+
+/// What was announced: the capo, keyswitches, and what each channel was told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Announced {
+    capo: usize,
+    /// Where keyswitches begin or that there are none, if a controller said so.
+    switches: Option<Option<u8>>,
+    channels: [Channel; CHANNELS],
+}
+
+/// What was announced on one channel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Channel {
+    /// How far its wheel reaches, semitones and hundredths.
+    reach: Option<(f64, f64)>,
+    /// How many channels of MPE there are.
+    members: Option<u8>,
+}
+
+impl Performance {
+    /// What has been announced so far.
+    pub fn announced(&self) -> Announced {
+        let channel = |number: usize| {
+            let channel = &self.channels[number];
+            Channel { reach: channel.announced_reach(), members: channel.members }
+        };
+        Announced {
+            capo: self.hand.capo(),
+            switches: (self.switches != self.touching.keyswitches).then_some(self.switches),
+            channels: std::array::from_fn(channel),
+        }
+    }
+
+    /// Takes it as announced to this player, who has not played yet.
+    pub fn announce(&mut self, announced: &Announced) {
+        for (channel, &Channel { reach, members }) in self.channels.iter_mut().zip(&announced.channels) {
+            channel.take_reach(reach);
+            channel.members = members;
+        }
+        self.switches = announced.switches.unwrap_or(self.switches);
+        self.set_capo(announced.capo);
+    }
+}

@@ -1,0 +1,77 @@
+//! Promise: what a keyboard announces once is known as long as the plugin plays in real time: it outlives another sample rate,
+//! another quality and a rendering in between. A rendering knows nothing of it: it is the same every time.
+
+use clack_extensions::render::RenderMode;
+use low_action_tests::host::{Action, Host, Score, parameter};
+
+const RATE: f64 = 48_000.0;
+const LENGTH: usize = 24_000;
+
+/// A capo at the fifth fret, an octave for the wheel, keyswitches, MPE on all channels.
+fn announcements() -> [Score; 4] {
+    let said = |messages: &[[u8; 3]]| messages.iter().map(|&bytes| (0, Action::Midi(bytes))).collect();
+    let registered = |number, value| said(&[[0xB0, 101, 0], [0xB0, 100, number], [0xB0, 6, value]]);
+    [said(&[[0xB0, 26, 5]]), registered(0, 12), said(&[[0xB0, 27, 1]]), registered(6, 15)]
+}
+
+/// A note that is too low with the capo, bent by the first channel's wheel and its own, with a keyswitch for the sixth string.
+fn notes() -> Score {
+    vec![
+        (0, Action::Parameter(parameter("relax"), 0.0)),
+        (0, Action::NoteOn { channel: 0, key: 18, velocity: 100 }),
+        (0, Action::NoteOn { channel: 2, key: 43, velocity: 100 }),
+        (0, Action::Midi([0xE0, 0, 80])),
+        (0, Action::Midi([0xE2, 0, 68])),
+        (100, Action::NoteOn { channel: 0, key: 52, velocity: 100 }),
+    ]
+}
+
+fn played(host: &mut Host, score: &Score) -> Vec<f32> {
+    let [left, _] = host.play(RATE, score, LENGTH, &[512]);
+    left
+}
+
+/// What is heard of the notes after an announcement and whatever a host does then.
+fn heard(announced: &Score, between: impl Fn(&mut Host)) -> Vec<f32> {
+    let mut host = Host::in_real_time();
+    played(&mut host, announced);
+    between(&mut host);
+    played(&mut host, &notes())
+}
+
+#[test]
+fn what_was_announced_outlives_another_rate_and_a_rendering() {
+    let nothing = heard(&Score::new(), |_| {});
+    for (which, announced) in announcements().iter().enumerate() {
+        let expected = heard(announced, |_| {});
+        assert!(expected != nothing, "announcement {which} changes nothing");
+        let after_rate = heard(announced, |host| {
+            host.play(44_100.0, &Score::new(), 512, &[512]);
+        });
+        assert!(after_rate == expected, "announcement {which}, another rate");
+        // Rendered as it is played, which is the same engine, or better.
+        for quality in [0.0, 1.0] {
+            let after_rendering = heard(announced, |host| {
+                played(host, &vec![(0, Action::Parameter(parameter("render_quality"), quality))]);
+                host.set_mode(RenderMode::Offline);
+                played(host, &notes());
+                host.set_mode(RenderMode::Realtime);
+            });
+            assert!(after_rendering == expected, "announcement {which}, rendered at {quality}");
+        }
+    }
+}
+
+#[test]
+fn a_rendering_does_not_know_of_it() {
+    let rendered = |announced: &Score| {
+        let mut host = Host::in_real_time();
+        played(&mut host, announced);
+        host.set_mode(RenderMode::Offline);
+        played(&mut host, &notes())
+    };
+    let nothing = rendered(&Score::new());
+    for (which, announced) in announcements().iter().enumerate() {
+        assert!(rendered(announced) == nothing, "announcement {which}");
+    }
+}
