@@ -3,9 +3,9 @@
 
 use std::sync::LazyLock;
 
-use low_action::performance::{Expression, PlayerEvent};
+use low_action::performance::{Expression, PlayerEvent, StringDeed};
 use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, play as play_by};
+use low_action_tests::hands::{EXACT, Neck, RATE, play as play_by};
 use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
@@ -145,4 +145,47 @@ fn what_is_said_of_a_pluck_adds_to_what_its_channel_says() {
     assert!(close(told.1, place - 0.005 + 0.04), "{} m instead of {place} m", told.1);
     let told = pluck(&channel, &[Expression::PluckForce(0.5)]);
     assert!(close(told.2, 0.5 * force), "{} N instead of {force} N", told.2);
+}
+
+/// (time, ratio of tensions, seconds) of what bends the string.
+fn bent(gestures: &[TimedGesture]) -> Vec<(u64, f64, f64)> {
+    let bend = |g: &TimedGesture| match g.gesture {
+        Gesture::Bend { tension_ratio, duration } => Some((g.time, tension_ratio, duration)),
+        _ => None,
+    };
+    gestures.iter().filter_map(bend).collect()
+}
+
+/// A hand bends a string before it plucks it, but does not hurry where that is heard.
+#[test]
+fn a_note_on_a_string_at_rest_begins_in_tune() {
+    let tuned = (0, has(64, Expression::Tuning(1.0)));
+    let wheel = |time| (time, PlayerEvent::PitchBend { channel: 0, value: 0.5 });
+    for events in [&[(0, on(64, 90)), tuned][..], &[wheel(0), (0, on(64, 90))], &[(0, on(64, 90)), wheel(0)]]
+    {
+        let found = bent(&play(events));
+        let [(0, ratio, seconds)] = found[..] else { panic!("{found:?}") };
+        assert!(seconds <= 1.0 / RATE, "{seconds} s");
+        // By a semitone, 2^(2/12).
+        assert!((ratio - 1.122462).abs() < 1e-6, "{ratio}");
+    }
+    // What comes later is heard, and so is what is bent while another note sounds or ends.
+    for before in [&[][..], &[(10, off(64))], &[(10, off(64)), (40, on(64, 90))]] {
+        let found = bent(&play(&[&[(0, on(64, 90))], before, &[wheel(40)]].concat()));
+        assert!(found.len() == 1 && found[0].2 > 0.005, "{found:?}");
+    }
+}
+
+#[test]
+fn the_tuning_of_a_note_goes_with_it() {
+    let tuned = [(0, on(64, 90)), (0, has(64, Expression::Tuning(1.0))), (9_600, off(64))];
+    let again = [(96_000, on(64, 90))];
+    let found = bent(&play(&[&tuned[..], &again].concat()));
+    let [_, (time, ratio, _)] = found[..] else { panic!("{found:?}") };
+    assert!((9_600..96_000).contains(&time) && (ratio - 1.0).abs() < 1e-12, "{time}: {ratio}");
+    // Or with the mouse that takes the string while it ends.
+    let deed = StringDeed::Pluck { position: 0.5, force: 1.0 };
+    let found = bent(&play(&[&tuned[..], &[(9_700, PlayerEvent::Touched { string: 0, deed })]].concat()));
+    let [_, (9_700.., ratio, _)] = found[..] else { panic!("{found:?}") };
+    assert!(found[1].0 < 12_000 && (ratio - 1.0).abs() < 1e-12, "{found:?}");
 }

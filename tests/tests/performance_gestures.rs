@@ -217,8 +217,14 @@ fn the_wheel_bends_by_tension_and_no_farther_than_the_string_allows() {
     let octave = [(0, controller(101, 0)), (0, controller(100, 0)), (0, controller(6, 12)), (1, on(64))];
     let far = ratios(&[&octave[..], &[wheel(WHILE, 1.0)]].concat());
     assert!(far[0] <= 2_f64.powf(max_bend / 6.0) * 1.001 && far[0] > 2_f64.powf(2.5 / 6.0), "{far:?}");
-    // A note that begins with the wheel turned is bent from the start.
-    assert_eq!(ratios(&[wheel(0, 1.0), (WHILE, on(64))]).len(), 1);
+    // A note that begins with the wheel turned is bent from the start: its string was at rest, and nobody heard how.
+    let turned = play(&[wheel(0, 1.0), (WHILE, on(64))]);
+    let bends: Vec<_> = turned.iter().filter(|g| matches!(g.gesture, Gesture::Bend { .. })).collect();
+    let [TimedGesture { time: WHILE, gesture: Gesture::Bend { tension_ratio, duration }, .. }] = bends[..]
+    else {
+        panic!("{bends:?}")
+    };
+    assert!((tension_ratio - 2_f64.powf(2.0 / 6.0)).abs() < 1e-12 && *duration < 1e-4, "{bends:?}");
     // Another channel's wheel does nothing.
     assert!(ratios(&[(0, on(64)), (WHILE, PlayerEvent::PitchBend { channel: 3, value: 1.0 })]).is_empty());
     // However fast the wheel shakes, goals come at a bounded rate and end at the last.

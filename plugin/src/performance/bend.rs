@@ -1,5 +1,5 @@
 //! What bends one string: pitch wheel, note's own tuning, tremolo arm and vibrato, followed no faster than
-//! a hand bends, in goals at a bounded rate.
+//! a hand bends, in goals at a bounded rate. Before a note on a string at rest nobody hears it pulled: it begins in tune.
 //!
 //! Wheel and tuning pull the string as far as its set-up lets tension go. Past that a finger that stops the
 //! string slides to the nearest fret and pulling does the rest; an open string stays where pulling ends.
@@ -39,6 +39,8 @@ pub(crate) struct Bend {
     due: Option<u64>,
     /// Earliest sample for it.
     ready: u64,
+    /// When a note began that nobody heard a string bent for before.
+    unheard: Option<u64>,
 }
 
 impl Bend {
@@ -56,6 +58,20 @@ impl Bend {
             self.slid = 0;
             self.glided = 0.0;
             self.followed = f64::NAN;
+        }
+    }
+
+    /// The note begins on a string at rest: what bends it then has done so before it sounds.
+    pub(crate) fn begin_at_rest(&mut self, time: u64) {
+        self.unheard = Some(time);
+        self.ready = time;
+        self.due = self.due.map(|_| time);
+    }
+
+    /// The note is over, and with it its tuning.
+    pub(crate) fn loosen(&mut self, time: u64) {
+        if self.tuning != 0.0 {
+            self.tune(time, 0.0);
         }
     }
 
@@ -101,7 +117,11 @@ impl Bend {
         self.ready = at.after(BEND_INTERVAL);
         let asked = self.wheel + self.tuning;
         let most = 6.0 * libm::log2(fingers.geometry().highest_ratio);
+        let unheard = self.unheard.take() == Some(at.time);
         let duration = |change: f64| (change.abs() / BEND_SPEED).max(BEND_RAMP);
+        // Within a sample, since labels divide by durations. A finger that slides takes its time even so: it is heard.
+        let sample = 1.0 / at.sample_rate;
+        let pulling = |change| if unheard { sample } else { duration(change) };
         let mut swing = 0.0;
         if self.vibrato > 0.0 {
             let (rate, depth) = VIBRATO;
@@ -112,7 +132,7 @@ impl Bend {
         self.followed = asked;
         let mut pulled = self.arm;
         let (reached, moved);
-        let mut taken = BEND_RAMP;
+        let mut taken: f64 = 0.0;
         if fingers.glides() {
             let goal = fingers.can_glide(asked + swing);
             taken = duration(goal - self.glided);
@@ -134,13 +154,13 @@ impl Bend {
         if change != 0.0 {
             self.sent = pulled;
             let tension_ratio = fingers.tension_ratio(pulled);
-            at.does(Gesture::Bend { tension_ratio, duration: duration(change) });
+            at.does(Gesture::Bend { tension_ratio, duration: pulling(change) });
         }
         // The grid of the string bears no more.
         let semitones = moved + pulled.min(most);
         if semitones != self.told {
             self.told = semitones;
-            at.tells(Annotation::Bent { semitones, duration: taken.max(duration(change)) });
+            at.tells(Annotation::Bent { semitones, duration: taken.max(pulling(change)) });
         }
         (asked - reached).abs() > OUT_OF_TUNE
     }

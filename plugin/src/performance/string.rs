@@ -111,6 +111,7 @@ impl StringPlayer {
     pub(crate) fn start(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
         self.strike_in_time(&mut self.moment(time, out));
         let stills = self.wants_stilling(start.fret);
+        let at_rest = self.note.is_none() && self.ending.is_none() && !self.touched;
         self.take_presses(&mut start);
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
@@ -125,6 +126,9 @@ impl StringPlayer {
         let stilling = (stills && !taps && stop != Stop::Harmonic).then(|| self.stilling(stroke, start.fret));
         start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
         self.begin(time, &start, strength);
+        if at_rest {
+            self.bend.begin_at_rest(time);
+        }
         let mut at = self.moment(time, out);
         at.tells(self.new_note(&start));
         self.fingers.press(start.manner.pressure, &mut at);
@@ -299,6 +303,9 @@ impl StringPlayer {
             let mut at = self.moment(first, out);
             if let Some((_, step)) = ending.filter(|&(time, _)| time == first) {
                 self.end_by(step, at);
+                if step == Ending::Gone {
+                    self.bend.loosen(first);
+                }
             } else if bend == Some(first) {
                 let short = self.bend.send(&mut self.fingers, &mut at);
                 if let Some(note) = self.note.as_mut().filter(|note| short && !note.bent_short) {

@@ -48,9 +48,10 @@ impl StringPlayer {
     fn take_in_hand(&mut self, time: u64) {
         self.ending = None;
         self.touched = true;
-        // The ending would have stopped the hand of a note that is over.
+        // The ending would have stopped the hand of a note that is over, and let go of its tuning.
         if self.note.is_none() {
             self.bend.set_vibrato(time, 0.0);
+            self.bend.loosen(time);
         }
     }
 
