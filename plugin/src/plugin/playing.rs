@@ -51,9 +51,10 @@ impl Playing {
         let (engine, order) = match wanted.build(&shelf, Engine::new) {
             Ok(engine) => (engine, wanted),
             Err(problem) => {
-                nice_error!("{problem}: the set-up is played as it comes");
                 meters.refuse();
-                (wanted.untouched().build(&shelf, Engine::new)?, wanted.untouched())
+                let engine = wanted.untouched().build(&shelf, Engine::new)?;
+                shelf.tell_also(format!("{problem}; the set-up is played as it comes"));
+                (engine, wanted.untouched())
             }
         };
         let workshop = Workshop::open(shelf).map_err(|error| format!("cannot start a thread: {error}"))?;

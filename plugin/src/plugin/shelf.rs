@@ -74,7 +74,7 @@ impl Shelf {
         }))
     }
 
-    /// Why the file that was chosen is not played, in one line, if it is not.
+    /// Why what was chosen is not played, in one line, if it is not.
     pub fn message(&self) -> Option<String> {
         lock(&self.0.message).clone()
     }
@@ -250,6 +250,15 @@ impl Shelf {
             }
             *present = message;
         }
+    }
+
+    /// Remembers something else, beside what has been told of the chosen file.
+    pub(super) fn tell_also(&self, message: String) {
+        let message = match self.message() {
+            Some(present) => format!("{present}; {message}"),
+            None => message,
+        };
+        self.tell(Some(message));
     }
 
     /// A number as hosts show it: with the name of its file, and what is wrong with the one that is chosen.

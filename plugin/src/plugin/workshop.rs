@@ -114,6 +114,9 @@ fn work(counter: &Counter, shelf: &Shelf) {
         match counter.orders.pop() {
             Some(order) => {
                 let result = order.build(shelf, Replacement::new).map(Box::new);
+                if let Err(problem) = &result {
+                    shelf.tell_also(format!("{problem}; what was there before plays on"));
+                }
                 // What nobody has collected is outdated by now.
                 counter.finished.force_push(Finished { order, result });
             }

@@ -59,8 +59,9 @@ impl Playing {
 
     /// Orders what is wanted, unless it is played, on its way, or was refused.
     fn ask(&mut self, wanted: Order) {
-        if self.refused.is_some_and(|refused| refused != wanted) {
-            self.refused = None;
+        if self.refused.take_if(|refused| *refused != wanted).is_some() && wanted == self.order {
+            // It plays already. But only who builds it tells that all is well again.
+            self.workshop.order(wanted);
         }
         if wanted != self.asked.or(self.refused).unwrap_or(self.order) {
             if self.asked.is_none() {
@@ -182,6 +183,32 @@ mod tests {
             assert!(playing.order == order() && !playing.is(&impossible()));
         }
         assert_eq!(meters.refusals(), 1);
+    }
+
+    /// Where the editor looks for it.
+    #[test]
+    fn what_cannot_be_built_is_told_until_something_else_is_asked_for() {
+        let (meters, shelf) = (Arc::new(Meters::default()), Shelf::new(Vec::new()));
+        let of = |order| Playing::new(order, true, shelf.clone(), meters.clone()).expect("it can be built");
+        let told = |ending: &str| shelf.message().is_some_and(|message| message.ends_with(ending));
+        let mut as_it_comes = of(impossible());
+        assert!(told("; the set-up is played as it comes"), "{:?}", shelf.message());
+        as_it_comes.exchange(impossible());
+        assert!(told("; the set-up is played as it comes"), "{:?}", shelf.message());
+        as_it_comes.exchange(order());
+        assert_eq!(shelf.message(), None);
+        drop(as_it_comes);
+        let mut before = of(order());
+        before.exchange(impossible());
+        assert!(told("; what was there before plays on"), "{:?}", shelf.message());
+        // What plays already is not exchanged.
+        let begun = Instant::now();
+        while shelf.message().is_some() {
+            assert!(begun.elapsed() < Duration::from_secs(60), "it is told for ever");
+            before.exchange(order());
+            sleep(Duration::from_millis(1));
+        }
+        assert_eq!(meters.exchanges(), 1);
     }
 
     #[test]
