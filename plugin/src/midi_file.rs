@@ -258,6 +258,7 @@ impl Reader {
             warnings.extend((notes > 0).then_some(SongWarning::DrumsSkipped { notes }));
         }
         warnings.extend(messages::not_followed(&events));
+        warnings.extend(messages::tuning_not_followed(&events));
         warnings.extend((count_notes(&events) == 0).then_some(SongWarning::NoNotes));
         Song { events, warnings }
     }

@@ -235,15 +235,17 @@ fn a_track_that_announces_too_much_plays_to_its_end() {
     assert!(matches!(song.warnings[..], [SongWarning::CutOff { .. }]), "{:?}", song.warnings);
 }
 
+/// What is said of a song with some controllers before a note.
+fn told(controllers: &[[u8; 3]]) -> String {
+    let mut events: Vec<(u32, &[u8])> = controllers.iter().map(|event| (0, &event[..])).collect();
+    events.push((0, &[0x90, 60, 100]));
+    let warnings = read(&file(0, 96, &[track(&events)])).warnings;
+    assert!(warnings.len() <= 1, "{warnings:?}");
+    warnings.first().map(ToString::to_string).unwrap_or_default()
+}
+
 #[test]
 fn volume_and_pan_that_ask_for_something_are_told_once() {
-    let told = |controllers: &[[u8; 3]]| {
-        let mut events: Vec<(u32, &[u8])> = controllers.iter().map(|event| (0, &event[..])).collect();
-        events.push((0, &[0x90, 60, 100]));
-        let warnings = read(&file(0, 96, &[track(&events)])).warnings;
-        assert!(warnings.len() <= 1, "{warnings:?}");
-        warnings.first().map(ToString::to_string).unwrap_or_default()
-    };
     assert_eq!(
         told(&[[0xB0, 7, 90], [0xB0, 7, 80]]),
         "controller 7 (volume) is passed over: use 11, or gain in a set-up file"
@@ -256,6 +258,32 @@ fn volume_and_pan_that_ask_for_something_are_told_once() {
     // What General MIDI begins with anyway, and what is said to a channel without notes.
     assert_eq!(told(&[[0xB0, 7, 100], [0xB0, 10, 64]]), "");
     assert_eq!(told(&[[0xB1, 7, 30], [0xB9, 10, 0]]), "");
+}
+
+#[test]
+fn tuning_that_asks_for_something_is_told_once() {
+    let of = |channel: u8, number, values: &[[u8; 2]]| {
+        let select = [[0xB0 | channel, 101, 0], [0xB0 | channel, 100, number]];
+        let values = values.iter().map(|&[number, value]| [0xB0 | channel, number, value]);
+        told(&select.into_iter().chain(values).collect::<Vec<_>>())
+    };
+    let passed_over = "registered parameters 1 and 2 (tuning of a channel) are passed over: use the pitch wheel, or pitches in \
+                       a set-up file";
+    for values in [&[[6, 63], [38, 0], [6, 70]][..], &[[6, 64], [38, 1]], &[[6, 70]]] {
+        assert_eq!(of(0, 1, values), passed_over, "{values:?}");
+    }
+    assert_eq!(of(0, 2, &[[6, 52]]), passed_over);
+    // What asks for nothing: no tuning, the lower half that means nothing, a channel without notes, other parameters.
+    for told in [
+        of(0, 1, &[[6, 64], [38, 0]]),
+        of(0, 2, &[[6, 64], [38, 5]]),
+        of(1, 2, &[[6, 52]]),
+        of(0, 0, &[[6, 12], [38, 50]]),
+        of(0, 2, &[[98, 0], [99, 0], [6, 52]]),
+        of(0, 2, &[[121, 0], [6, 52]]),
+    ] {
+        assert_eq!(told, "");
+    }
 }
 
 #[test]

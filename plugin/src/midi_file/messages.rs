@@ -5,6 +5,9 @@ use std::fmt;
 use super::{LARGEST_FILE, SongEvent};
 use crate::performance::PlayerEvent;
 
+/// A registered parameter that is none: both halves 127.
+const NO_PARAMETER: (u8, u8) = (127, 127);
+
 /// Why bytes are not a song.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum MidiFileError {
@@ -100,6 +103,8 @@ pub enum SongWarning {
         /// Whether controller 10 is, to other than 64.
         pan: bool,
     },
+    /// Channels are tuned by registered parameters 1 or 2, which does nothing.
+    TuningNotFollowed,
     /// A track stops without saying so; perhaps something is missing.
     NoEndOfTrack {
         /// Track, counted from 1.
@@ -143,6 +148,11 @@ impl fmt::Display for SongWarning {
                 };
                 write!(out, "{which} passed over: use {instead}")
             }
+            Self::TuningNotFollowed => write!(
+                out,
+                "registered parameters 1 and 2 (tuning of a channel) are passed over: use the pitch wheel, or pitches in a \
+                 set-up file"
+            ),
             Self::NoEndOfTrack { track } => {
                 write!(out, "track {track} has no end-of-track event: it may be incomplete")
             }
@@ -159,14 +169,43 @@ impl fmt::Display for SongWarning {
     }
 }
 
-/// What volume and pan ask for in vain: on channels that have notes, anything but the values they begin with in General MIDI.
-pub(super) fn not_followed(events: &[SongEvent]) -> Option<SongWarning> {
+/// The channels that have notes.
+fn with_notes(events: &[SongEvent]) -> [bool; 16] {
     let mut has_notes = [false; 16];
     for event in events {
         if let PlayerEvent::NoteOn { channel, .. } = event.event {
             has_notes[usize::from(channel & 15)] = true;
         }
     }
+    has_notes
+}
+
+/// What tuning asks for in vain: on channels that have notes, anything but none, which is 64 in the upper half of both
+/// parameters and 0 in the lower one. (The lower half of parameter 2 means nothing.)
+pub(super) fn tuning_not_followed(events: &[SongEvent]) -> Option<SongWarning> {
+    let has_notes = with_notes(events);
+    let mut parameters = [NO_PARAMETER; 16];
+    let mut asked = false;
+    for event in events {
+        let PlayerEvent::Controller { channel, number, value } = event.event else { continue };
+        let channel = usize::from(channel & 15);
+        let parameter = &mut parameters[channel];
+        let value = (127.0 * value).round() as u8;
+        match (number, *parameter) {
+            (101, _) => parameter.0 = value,
+            (100, _) => parameter.1 = value,
+            (98 | 99 | 121, _) => *parameter = NO_PARAMETER,
+            (6, (0, 1 | 2)) => asked |= has_notes[channel] && value != 64,
+            (38, (0, 1)) => asked |= has_notes[channel] && value != 0,
+            _ => {}
+        }
+    }
+    asked.then_some(SongWarning::TuningNotFollowed)
+}
+
+/// What volume and pan ask for in vain: on channels that have notes, anything but the values they begin with in General MIDI.
+pub(super) fn not_followed(events: &[SongEvent]) -> Option<SongWarning> {
+    let has_notes = with_notes(events);
     let asks = |controller: u8, usual: f32| {
         events.iter().any(|event| match event.event {
             PlayerEvent::Controller { channel, number, value } => {
