@@ -85,6 +85,20 @@ fn the_first_note_under_a_palm_is_as_loud_as_the_others() {
     }
 }
 
+/// So is one that is asked for again when it has waited long enough and gone.
+#[test]
+fn a_palm_that_has_gone_comes_back_when_it_is_asked_for_again() {
+    let keyswitches = [(0.0, cc(27, 1)), (0.0, on(4, 90)), (0.1, off(4)), (4.0, on(4, 90)), (4.1, off(4))];
+    for events in [&[(0.0, cc(20, 80)), (4.0, cc(20, 80))][..], &keyswitches] {
+        let played = Stage::alone("electric", 5).play(events, 4.2);
+        let laid = played.gestures.iter().filter(|timed| match timed.gesture {
+            Gesture::Place { finger, .. } => finger == RIGHT_HAND,
+            _ => false,
+        });
+        assert_eq!(laid.map(|timed| timed.time).collect::<Vec<_>>(), [0, at(4.0) as u64]);
+    }
+}
+
 /// And it goes from strings that nobody plays.
 #[test]
 fn a_palm_does_not_wait_for_ever() {

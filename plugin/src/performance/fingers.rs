@@ -42,6 +42,11 @@ impl Finger {
     fn gives_way(&self) -> Gesture {
         hurried(self.slot, self.touch)
     }
+
+    /// It lets go of a string that is about to sound in a manner of leaving; nobody throws a bar up otherwise than as it goes.
+    fn lets_go(&self, manner: Leaving) -> Gesture {
+        if self.bar { self.gives_way() } else { lifting(self.slot, self.touch, manner) }
+    }
 }
 
 /// A finger that is leaving the string.

@@ -129,11 +129,8 @@ impl RightHand {
     }
 
     /// The palm is to rest so hard on the string, 0 to 1. It is laid on one that is silent, too: pressed in by a soft weight its
-    /// flesh takes some hundredths of a second, longer than any stroke waits.
+    /// flesh takes some hundredths of a second, longer than any stroke waits. One that has gone meanwhile comes back.
     pub(crate) fn set_palm(&mut self, palm: f64, field: &Field, at: &mut Moment<impl GestureSink>) {
-        if palm == self.palm {
-            return;
-        }
         self.palm = palm;
         // A thumb goes first; the palm follows it.
         if self.laid != Laid::Thumb {

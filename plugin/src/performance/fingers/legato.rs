@@ -2,7 +2,7 @@
 
 use low_action_dsp::{FingerSlot, Gesture};
 
-use super::{Finger, Fingers, lifting};
+use super::{Finger, Fingers};
 use crate::performance::articulation::{Stop, Stroke};
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment, Technique};
@@ -95,10 +95,7 @@ impl Fingers {
         let manner = self.letting_go(strength);
         let leaving = [self.fretting.take(), self.anchor.take()];
         for finger in leaving.into_iter().flatten() {
-            at.does(match finger.bar {
-                true => finger.gives_way(),
-                false => lifting(finger.slot, finger.touch, manner),
-            });
+            at.does(finger.lets_go(manner));
         }
         leaving[0].map(|_| RISING + manner.turning - QUICK_LIFT.turning)
     }
@@ -125,10 +122,7 @@ impl Fingers {
         let force = part * strength * self.hands.pluck_force;
         let pluck = Gesture::Pluck { position: self.pressed(&old), force, duration };
         at.does(pluck);
-        at.does(match old.bar {
-            true => old.gives_way(),
-            false => lifting(old.slot, old.touch, self.letting_go(pulling(strength))),
-        });
+        at.does(old.lets_go(self.letting_go(pulling(strength))));
         Some(pluck)
     }
 

@@ -3,7 +3,7 @@
 use low_action_dsp::setup::frequency;
 use low_action_dsp::{FingerSlot, Gesture, Touch};
 
-use super::{Finger, Fingers, lifting};
+use super::{Finger, Fingers};
 use crate::performance::articulation::Stop;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
@@ -40,15 +40,12 @@ impl Fingers {
             }
             Some(old) => {
                 self.stop_behind(fret, old.slot, anchor, at);
-                return at.does(lifting(old.slot, old.touch, self.letting_go(strength)));
+                return at.does(old.lets_go(self.letting_go(strength)));
             }
             None => {}
         }
         for finger in [old, anchor].into_iter().flatten() {
-            at.does(match finger.bar {
-                true => finger.gives_way(),
-                false => lifting(finger.slot, finger.touch, self.letting_go(strength)),
-            });
+            at.does(finger.lets_go(self.letting_go(strength)));
         }
         match stop {
             Stop::Mute => self.mute(fret, at),
