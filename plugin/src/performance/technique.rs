@@ -129,7 +129,10 @@ pub(crate) const RISING: f64 = 0.003;
 /// How much of the landing speed the hand behind it would keep up by its force alone: the finger is thrown,
 /// and held back enough not to bounce.
 pub(crate) const HAMMER_GRIP: f64 = 0.5;
-/// Time in which it comes to press, s.
+/// How much of its force and speed it gathers on its way if that takes a period or more: as little is left at first as has the
+/// string moving within 3 ms.
+pub(crate) const GATHERED: f64 = 0.8;
+/// Time in which it comes to press if it is thrown, s.
 pub(crate) const HAMMER_LANDING: f64 = 0.001;
 /// How fast a finger that is only held down behind another relaxes, and presses again, s: pressed on, it would
 /// stretch the string and raise the note.

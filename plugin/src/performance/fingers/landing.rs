@@ -1,15 +1,33 @@
-//! How a finger sets a string down for a note that is plucked, so that setting it down is not heard.
+//! How a finger sets a string down: for a note that is plucked so that it is not heard, and for one that it sounds itself so that it
+//! is.
 //!
 //! A string that goes down at constant speed is struck twice: where it begins to move, and where the fret stops it. The first sends
 //! a wave along the string that comes back from the saddle after each period of what sounds. Where the second comes just then it
-//! takes up all of that again, whatever partial it is of. So fingers take a whole number of periods.
+//! takes up all of that again, whatever partial it is of. So fingers take a whole number of periods before a pluck.
+//!
+//! Those that are to be heard would be soft at just these speeds. So one that takes so long gathers speed on its way: little is heard
+//! of the string's beginning to move, and the fret stops it at nearly twice its mean speed, which is nearly as loud as both strokes
+//! are together where they help each other most.
 
-use low_action_dsp::Gesture;
 use low_action_dsp::setup::Fretting;
+use low_action_dsp::{Gesture, Touch};
 
 use super::Fingers;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
+
+/// How a finger is thrown.
+pub(super) struct Thrown {
+    pub touch: Touch,
+    /// Height that it comes from, m.
+    pub clearance: f64,
+    /// Speed at which it comes, m/s.
+    pub speed: f64,
+    /// What it presses with from the beginning, N.
+    pub force_at_first: f64,
+    /// Time in which it comes to press as it goes on pressing, s.
+    pub rise: f64,
+}
 
 impl Fingers {
     /// A finger lands behind a fret of a string that is stopped at a lower one (0: none), for a note of some strength (0 to 1), in
@@ -27,8 +45,8 @@ impl Fingers {
         touch.hand_damping *= (softness * softness / (1.0 + HASTE * haste)).min(SOFTEST_LANDING);
         let (way, pull) = self.way_down(fret, stopped);
         let period = self.stopped_period(fret);
-        // The hand's damping is what makes the speed constant; the string takes half of its pull off, on average.
-        let driven = (LANDING_LAG * force - 0.5 * pull).max(0.0);
+        // The hand's damping is what makes the speed constant.
+        let driven = driving(force, pull);
         let damping_in = |time: f64| driven * time / way;
         let [by_itself, longest] = [way * touch.hand_damping / force, MOST_DAMPING / damping_in(1.0)];
         let time = period * (by_itself.min(longest) / period).round().max(1.0);
@@ -40,9 +58,30 @@ impl Fingers {
         at.does(Gesture::Press { finger: slot, force, duration: rise });
     }
 
+    /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, behind a fret of a string that is stopped at a
+    /// lower one (0: none): thrown if it takes less than half a period, slowly at first if it takes more than one, and
+    /// something of both in between.
+    pub(super) fn throw(&self, fret: usize, stopped: usize, speed: f64) -> Thrown {
+        let Fretting { mut touch, hover, .. } = self.hands.fretting;
+        let force = self.force();
+        touch.hand_damping = touch.hand_damping.min(force / (HAMMER_GRIP * speed));
+        let (way, pull) = self.way_down(fret, stopped);
+        let time = way * touch.hand_damping / driving(force, pull);
+        let gathered = (2.0 * time / self.stopped_period(fret) - 1.0).clamp(0.0, GATHERED);
+        let thrown = 1.0 - gathered;
+        // Of a force that grows all the while, the mean of its beginning and its end.
+        touch.hand_damping *= 0.5 * (thrown + 1.0);
+        let (force_at_first, rise) =
+            if gathered > 0.0 { (thrown * force, time) } else { (0.0, HAMMER_LANDING) };
+        Thrown { touch, clearance: thrown * hover, speed: thrown * speed, force_at_first, rise }
+    }
+
     /// How far a finger moves that touches a string stopped at a fret, 0 for none, until that touches a higher fret, m, and what
     /// the string pulls it back with then, N.
     fn way_down(&self, fret: usize, stopped: usize) -> (f64, f64) {
+        if fret <= stopped {
+            return (LEAST_WAY, 0.0);
+        }
         let length = self.string.geometry.length;
         // From where it is stopped the string goes straight to the saddle.
         let slope = |fret| self.string.depth(fret) / (length - self.string.geometry.finger_position(fret));
@@ -52,4 +91,10 @@ impl Fingers {
         let touch = self.hands.fretting.touch;
         (depth + libm::pow(pull / touch.stiffness, 1.0 / touch.exponent), pull)
     }
+}
+
+/// What moves a finger of such a force on its way to where the string pulls it back so hard, on average, N. A string that
+/// pulls harder than the finger stops it before.
+fn driving(force: f64, pull: f64) -> f64 {
+    (LANDING_LAG * force - 0.5 * pull.min(force)).max(f64::MIN_POSITIVE)
 }

@@ -2,6 +2,7 @@
 
 use low_action_dsp::{FingerSlot, Gesture};
 
+use super::landing::Thrown;
 use super::{Finger, Fingers};
 use crate::performance::articulation::{Stop, Stroke};
 use crate::performance::technique::*;
@@ -70,6 +71,7 @@ impl Fingers {
         self.make_way(at);
         self.lay_capo(at);
         let before = self.fretting.take();
+        let stopped = before.map_or(self.capo[1], |old| old.fret);
         // An anchor there was has the slot that the new finger takes.
         self.anchor = None;
         match before {
@@ -77,7 +79,7 @@ impl Fingers {
             Some(old) => at.does(old.gives_way()),
             None => {}
         }
-        self.come_down(fret, HAMMER_SPEED.0 + HAMMER_SPEED.1 * strength, at)
+        self.come_down(fret, stopped, HAMMER_SPEED.0 + HAMMER_SPEED.1 * strength, at)
     }
 
     /// The finger that stops the string leaves, for another to strike it at a fret, how hard, 0 to 1. Gives back in how many
@@ -136,7 +138,7 @@ impl Fingers {
         at: &mut Moment<impl GestureSink>,
     ) {
         let Some(anchor) = anchor else {
-            self.come_down(fret, BEHIND_SPEED, at);
+            self.come_down(fret, fret, BEHIND_SPEED, at);
             return;
         };
         let finger = anchor.slot;
@@ -157,28 +159,35 @@ impl Fingers {
         at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.0 });
     }
 
-    /// Throws a finger at the string behind a fret.
-    fn come_down(&mut self, fret: usize, speed: f64, at: &mut Moment<impl GestureSink>) -> Gesture {
-        self.come_down_at(fret, self.string.geometry.finger_position(fret), speed, at)
+    /// Throws a finger at a string that is stopped at one fret (0: none), behind another.
+    fn come_down(
+        &mut self,
+        fret: usize,
+        stopped: usize,
+        speed: f64,
+        at: &mut Moment<impl GestureSink>,
+    ) -> Gesture {
+        self.come_down_at(fret, stopped, self.string.geometry.finger_position(fret), speed, at)
     }
 
-    /// Throws a finger at the string at a place, m from the nut, where it stops a fret.
+    /// Throws a finger at a string that is stopped at one fret (0: none), at a place, m from the nut, where it stops another.
     pub(super) fn come_down_at(
         &mut self,
         fret: usize,
+        stopped: usize,
         position: f64,
         speed: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> Gesture {
-        let force = self.force();
-        let mut touch = self.hands.fretting.touch;
-        touch.hand_damping = touch.hand_damping.min(force / (HAMMER_GRIP * speed));
+        let Thrown { touch, clearance, speed, force_at_first, rise } = self.throw(fret, stopped, speed);
         (self.home, self.glided) = (fret, 0.0);
         let finger = self.take_slot(fret, touch, false);
-        let clearance = self.hands.fretting.hover;
         let thrown = Gesture::Throw { finger, touch, position, clearance, speed };
         at.does(thrown);
-        at.does(Gesture::Press { finger, force, duration: HAMMER_LANDING });
+        if force_at_first > 0.0 {
+            at.does(Gesture::Press { finger, force: force_at_first, duration: 0.0 });
+        }
+        at.does(Gesture::Press { finger, force: self.force(), duration: rise });
         thrown
     }
 

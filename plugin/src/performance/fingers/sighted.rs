@@ -29,7 +29,7 @@ impl Fingers {
         for old in [self.anchor.take(), self.fretting.take()].into_iter().flatten() {
             at.does(old.gives_way());
         }
-        self.come_down_at(fret, position, HAMMER_SPEED.0 + HAMMER_SPEED.1 * POINTED, at);
+        self.come_down_at(fret, self.capo[1], position, HAMMER_SPEED.0 + HAMMER_SPEED.1 * POINTED, at);
         if let Some(finger) = &mut self.fretting {
             finger.free = Some(position);
         }
