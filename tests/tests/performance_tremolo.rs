@@ -68,3 +68,29 @@ fn only_what_is_pressed_is_tapped() {
         assert_eq!(plucks, 1, "left hand {stop}");
     }
 }
+
+/// Members of an MPE zone have tremolos of their own. A note that takes over another one's string has its own, and the other has
+/// none again when it comes back.
+#[test]
+fn a_connected_note_has_the_tremolo_of_its_channel() {
+    let to = |channel, event: PlayerEvent| match event {
+        PlayerEvent::NoteOn { key, velocity, .. } => PlayerEvent::NoteOn { channel, key, velocity },
+        PlayerEvent::NoteOff { key, .. } => PlayerEvent::NoteOff { channel, key },
+        PlayerEvent::Controller { number, value, .. } => PlayerEvent::Controller { channel, number, value },
+        other => other,
+    };
+    let mpe = [101, 100].map(|number| (0.0, cc(number, if number == 100 { 6 } else { 0 })));
+    let events = [
+        &mpe[..],
+        &[(0.0, cc(6, 15)), (0.0, cc(68, 127)), (0.0, to(2, cc(25, 127)))],
+        &[(0.0, to(1, on(57, 90))), (0.5, to(2, on(60, 90))), (1.0, to(2, off(60)))],
+    ]
+    .concat();
+    let plucks = plucks(2, &events, 1.5);
+    let before = plucks.iter().filter(|&&time| time > 0.1 && time < 0.5).count();
+    let during = plucks.iter().filter(|&&time| (0.5..1.0).contains(&time)).count();
+    // The pull-off is a pluck, too.
+    let after = plucks.iter().filter(|&&time| time > 1.0 + 1.0 / 20.0).count();
+    assert_eq!((before, after), (0, 0), "{plucks:?}");
+    assert!((8..=10).contains(&during), "{plucks:?}");
+}

@@ -172,7 +172,7 @@ impl Performance {
                     string.set_touch(time, &articulation, out);
                 }
             }
-            self.welcome_back(index);
+            self.welcome_back(index, out);
         }
         if matches!(request, Request::Touch) {
             self.lay_palm(number, out);
@@ -198,11 +198,13 @@ impl Performance {
         }
     }
 
-    /// The wheel of its channel bends a note that has come back to a string.
-    pub(super) fn welcome_back(&mut self, index: usize) {
+    /// A note that has come back to a string has the wheel, the palm and the tremolo of its own channel.
+    pub(super) fn welcome_back(&mut self, index: usize, out: &mut impl GestureSink) {
         let Some(channel) = self.strings[index].take_gone_back() else { return };
         let (time, bend) = (self.now, self.bend(channel));
+        let articulation = self.channels[usize::from(channel)].articulation;
         self.strings[index].bend(time, channel, bend);
+        self.strings[index].set_touch(time, &articulation, out);
     }
 
     /// A capo goes to a fret of all strings, 0 for none, as soon as each is played.

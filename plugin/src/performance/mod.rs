@@ -329,7 +329,7 @@ impl Performance {
         self.release_switch(channel, key);
         for index in 0..self.strings.len() {
             if self.strings[index].cut(self.now, channel, key, out) {
-                self.welcome_back(index);
+                self.welcome_back(index, out);
             }
         }
         // A note that has yet to come is heard nevertheless.
@@ -348,7 +348,7 @@ impl Performance {
         let pedal = self.pedal(channel);
         for index in 0..self.strings.len() {
             if self.strings[index].release(self.now, channel, key, pedal, out) {
-                return self.welcome_back(index);
+                return self.welcome_back(index, out);
             }
         }
         // A note that has yet to come is heard nevertheless.

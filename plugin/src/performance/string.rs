@@ -160,8 +160,8 @@ impl StringPlayer {
         self.follow(time, &start.manner);
     }
 
-    /// Writes down that a note begins.
-    fn begin(&mut self, time: u64, start: &Start, strength: f64) {
+    /// Writes down that a note begins. Gives back how many strokes a second a tremolo had so far.
+    fn begin(&mut self, time: u64, start: &Start, strength: f64) -> f64 {
         let Articulation { slide, slide_time, stop, tremolo, .. } = start.articulation;
         self.note = Some(Note {
             channel: start.channel,
@@ -180,11 +180,11 @@ impl StringPlayer {
             slide: (slide || stop == Stop::Bar).then_some(slide_time),
             bent_short: false,
         });
-        self.set_tremolo(tremolo);
         self.bend.begin(start.channel);
         self.plucked_at = Some(time);
         self.ending = None;
         self.touched = false;
+        self.set_tremolo(tremolo)
     }
 
     /// Bends the string as its new note has it.
@@ -247,11 +247,7 @@ impl StringPlayer {
         self.set_palm(time, articulation.palm, out);
         let at = self.moment(time, out);
         let before = self.set_tremolo(articulation.tremolo);
-        if let Some(note) = self.note.filter(|_| before == 0.0 && self.tremolo > 0.0) {
-            let beside = self.towards_antinode();
-            let struck = Struck { stroke: Stroke::Down, strength: note.strength, beside, moved: 0.0 };
-            self.deeds.plan(at.after(1.0 / self.tremolo), Deed::Tremolo(struck));
-        }
+        self.begin_tremolo(before, &at);
     }
 
     /// The palm is to rest so hard, 0 to 1, at the next stroke.

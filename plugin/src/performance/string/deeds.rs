@@ -50,9 +50,11 @@ pub(super) enum Deed {
 pub(super) struct Deeds([Option<(u64, Deed)>; 6]);
 
 impl Deeds {
-    /// Adds one; where there is no room left it is left out.
+    /// Adds one; where there is no room left, which no note comes near, it is left out.
     pub(super) fn plan(&mut self, time: u64, deed: Deed) {
-        if let Some(free) = self.0.iter_mut().find(|deed| deed.is_none()) {
+        let free = self.0.iter_mut().find(|deed| deed.is_none());
+        debug_assert!(free.is_some(), "no room for {deed:?}");
+        if let Some(free) = free {
             *free = Some((time, deed));
         }
     }
@@ -186,6 +188,15 @@ impl StringPlayer {
             self.deeds.forget_tremolo();
         }
         std::mem::replace(&mut self.tremolo, rate)
+    }
+
+    /// The note that sounds, whose string had so many strokes a second before, has a tremolo from now on if it is to have one.
+    pub(super) fn begin_tremolo(&mut self, before: f64, at: &Moment<impl GestureSink>) {
+        if let Some(note) = self.note.filter(|_| before == 0.0 && self.tremolo > 0.0) {
+            let beside = self.towards_antinode();
+            let struck = Struck { stroke: Stroke::Down, strength: note.strength, beside, moved: 0.0 };
+            self.deeds.plan(at.after(1.0 / self.tremolo), Deed::Tremolo(struck));
+        }
     }
 
     /// A finger strikes the string behind a fret, how hard, 0 to 1.

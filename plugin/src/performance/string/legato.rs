@@ -27,7 +27,7 @@ impl StringPlayer {
                 *free = Some(before);
             }
         }
-        self.begin(time, &start, strength);
+        let tremolo = self.begin(time, &start, strength);
         self.deeds.forget_tap();
         let (slide, bar) = self.note.map_or((None, false), |note| (note.slide, note.bar));
         let mut at = self.moment(time, out);
@@ -35,6 +35,7 @@ impl StringPlayer {
         at.tells(self.new_note(&start));
         let (technique, gesture) = self.fingers.change(start.fret, slide, bar, strength, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
+        self.begin_tremolo(tremolo, &at);
         self.follow(time, &start.manner);
     }
 
