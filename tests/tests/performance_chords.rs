@@ -14,6 +14,9 @@ use proptest::prelude::*;
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 
+/// With few strings, on which a capo leaves many keys no string in their own octave.
+static BASSES: LazyLock<[Neck; 2]> = LazyLock::new(|| ["bass", "ukulele"].map(Neck::of));
+
 fn player() -> Performance {
     GUITAR.player(EXACT)
 }
@@ -234,6 +237,30 @@ proptest! {
         }
         let late = last_of(keys.len());
         performance.advance(late + 1, &mut gestures);
+        prop_assert!(!performance.is_behind());
+        prop_assert_eq!(plucks(&gestures).len(), keys.len());
+        prop_assert_eq!(performance.compromises().left_out, 0);
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(200))]
+
+    /// Nor does a capo that comes while notes wait keep any of them from sounding, as long as their keys may be down.
+    #[test]
+    fn no_note_waits_for_ever_for_what_a_capo_has_made_impossible(
+        setup in 0..BASSES.len(),
+        keys in prop::collection::hash_set(20..70_u8, 1..=20),
+        capo in 1..=12_u8,
+        when in 0..12_000_u64,
+    ) {
+        let mut performance = BASSES[setup].player(EXACT);
+        let mut gestures = Vec::new();
+        for &key in &keys {
+            performance.event(0, on(key, 90), &mut gestures);
+        }
+        performance.event(when, cc(26, capo), &mut gestures);
+        performance.advance(when + last_of(keys.len()) + 1, &mut gestures);
         prop_assert!(!performance.is_behind());
         prop_assert_eq!(plucks(&gestures).len(), keys.len());
         prop_assert_eq!(performance.compromises().left_out, 0);

@@ -235,11 +235,14 @@ impl Performance {
                 self.uses[placement.string] = Use::Untouchable;
                 self.placements[index] = Some(placement);
                 self.count_move(before, self.chord[index].wanted.is_moved());
-            } else if self.late.len() < LARGEST_CHORD && self.can_come(&struck.wanted) {
+            } else if self.late.len() < LARGEST_CHORD
+                && let Some(wanted) = self.to_come(&struck.wanted)
+            {
                 late += 1;
                 let time = self.now + (f64::from(late) * ARPEGGIO * self.sample_rate).round() as u64;
+                self.count_move(before, wanted.is_moved());
                 self.compromises.arpeggiated += u64::from(!struck.waited);
-                let struck = Struck { waited: true, ..struck };
+                let struck = Struck { wanted, waited: true, ..struck };
                 self.late.push(Late { time, struck, releases: 0, cut: false });
             } else {
                 self.count_move(before, false);
@@ -248,12 +251,13 @@ impl Performance {
         }
     }
 
-    /// Whether any string gives a note in some octave; the instrument may have changed since it was asked for.
-    fn can_come(&self, wanted: &Wanted) -> bool {
-        octaves(wanted.pitch).any(|pitch| {
-            let moved = Wanted { pitch, ..*wanted };
-            (0..self.strings.len()).any(|string| self.hand.fret(&moved, string).is_some())
-        })
+    /// A note in the nearest octave that any string gives, free or not: a capo, or the instrument, may have changed since it was
+    /// asked for, and one that no string gives would wait for ever.
+    fn to_come(&self, wanted: &Wanted) -> Option<Wanted> {
+        let moved = octaves(wanted.pitch).map(|pitch| Wanted { pitch, ..*wanted });
+        let given =
+            |moved: &Wanted| (0..self.strings.len()).any(|string| self.hand.fret(moved, string).is_some());
+        moved.into_iter().find(given)
     }
 
     /// The nearest octave of a note that a free string gives, on the one nearest to the hand.
