@@ -29,6 +29,41 @@ fn notes(open: u8, frets: &[u8], velocity: u8, rest: f64) -> (Vec<(f64, PlayerEv
     (events, NEXT * (frets.len() - 1) as f64)
 }
 
+/// From 0.4 to 0.9 s after a note its finger lets the string up; before that it holds it down, after that it is gone. What comes in
+/// between is no louder and no softer than what comes before and after by more than other rests make out, 3 dB. (Where the next
+/// finger took the string to be down: up to 12 dB softer. Where one that was up was set down behind it: up to 5 dB louder.)
+#[test]
+fn a_note_sounds_as_well_while_the_finger_before_it_eases_off() {
+    let steps = [
+        ("electric", 5, 40, [12, 13]),
+        ("electric", 4, 45, [12, 13]),
+        ("steel", 3, 50, [7, 7]),
+        ("electric", 5, 40, [12, 10]),
+        ("bass", 3, 28, [12, 10]),
+    ];
+    for (setup, string, open, [before, fret]) in steps {
+        let mut stage = Stage::alone(setup, string);
+        let mut heard = |rest: f64| {
+            let start = 0.5 + rest;
+            let events =
+                [(0.0, on(open + before, 90)), (0.5, off(open + before)), (start, on(open + fret, 90))];
+            let sound = &stage.play(&events, start + 0.16).strings[0];
+            level(part(sound, start + 0.02, start + 0.15))
+        };
+        let held = [0.3, 0.45].map(&mut heard);
+        let gone = [1.0, 1.6].map(&mut heard);
+        let least = held.into_iter().chain(gone).fold(f64::INFINITY, f64::min) - 3.0;
+        let most = held.into_iter().chain(gone).fold(f64::NEG_INFINITY, f64::max) + 3.0;
+        for rest in [0.55, 0.65, 0.7, 0.75, 0.8, 0.85, 0.89] {
+            let level = heard(rest);
+            assert!(
+                (least..=most).contains(&level),
+                "{setup} {string}, fret {fret} after {before} and {rest} s: {level} dB, not {least} to {most}"
+            );
+        }
+    }
+}
+
 /// (How pluck, landing finger and what still moves fall together differs from one note to the next, and is some decibels of
 /// soft notes. A string that comes up at once is 10 to 18 of them.)
 #[test]

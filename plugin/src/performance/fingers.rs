@@ -4,6 +4,7 @@
 //! held down behind it (`anchor`), so that a pull-off finds it there, or touch the string lightly.
 
 mod excitation;
+mod held;
 mod landing;
 mod leaving;
 mod legato;
@@ -18,6 +19,7 @@ use super::articulation::Stroke;
 use super::right_hand::{Field, RightHand};
 use super::technique::*;
 use super::{GestureSink, Moment, PlayedString};
+use held::Grip;
 use leaving::hurried;
 pub(super) use leaving::{QUIET_LIFT, lift_force, lifting};
 
@@ -27,8 +29,8 @@ struct Finger {
     slot: FingerSlot,
     fret: usize,
     touch: Touch,
-    /// Whether its force has been eased off.
-    eased: bool,
+    /// What it does with the string.
+    grip: Grip,
     /// Whether it is a bar.
     bar: bool,
     /// When it is where a slide to its note's fret takes it.
@@ -155,7 +157,7 @@ impl Fingers {
     }
 
     fn press_on(&mut self, at: &mut Moment<impl GestureSink>) {
-        if let Some(finger) = self.fretting.filter(|finger| !finger.eased && !finger.bar) {
+        if let Some(finger) = self.fretting.filter(|finger| finger.grip == Grip::Presses && !finger.bar) {
             let force = self.force();
             at.does(Gesture::Press { finger: finger.slot, force, duration: PRESSURE_RAMP });
         }

@@ -13,8 +13,9 @@ use low_action_dsp::setup::Fretting;
 use low_action_dsp::{Gesture, Touch};
 
 use super::Fingers;
+use super::held::Down;
 use crate::performance::technique::*;
-use crate::performance::{GestureSink, Moment};
+use crate::performance::{GestureSink, Moment, PlayedString};
 
 /// How a finger is thrown.
 pub(super) struct Thrown {
@@ -30,12 +31,12 @@ pub(super) struct Thrown {
 }
 
 impl Fingers {
-    /// A finger lands behind a fret of a string that is stopped at a lower one (0: none), for a note of some strength (0 to 1), in
-    /// haste or not (1 to 0).
+    /// A finger lands behind a fret of a string that is held down somewhere, for a note of some strength (0 to 1), in haste or
+    /// not (1 to 0).
     pub(super) fn land(
         &mut self,
         fret: usize,
-        stopped: usize,
+        stopped: Down,
         [strength, haste]: [f64; 2],
         at: &mut Moment<impl GestureSink>,
     ) {
@@ -58,10 +59,10 @@ impl Fingers {
         at.does(Gesture::Press { finger: slot, force, duration: rise });
     }
 
-    /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, behind a fret of a string that is stopped at a
-    /// lower one (0: none): thrown if it takes less than half a period, slowly at first if it takes more than one, and
+    /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, behind a fret of a string that is held down
+    /// somewhere: thrown if it takes less than half a period, slowly at first if it takes more than one, and
     /// something of both in between.
-    pub(super) fn throw(&self, fret: usize, stopped: usize, speed: f64) -> Thrown {
+    pub(super) fn throw(&self, fret: usize, stopped: Down, speed: f64) -> Thrown {
         let Fretting { mut touch, hover, .. } = self.hands.fretting;
         let force = self.force();
         touch.hand_damping = touch.hand_damping.min(force / (HAMMER_GRIP * speed));
@@ -76,20 +77,32 @@ impl Fingers {
         Thrown { touch, clearance: thrown * hover, speed: thrown * speed, force_at_first, rise }
     }
 
-    /// How far a finger moves that touches a string stopped at a fret, 0 for none, until that touches a higher fret, m, and what
-    /// the string pulls it back with then, N.
-    fn way_down(&self, fret: usize, stopped: usize) -> (f64, f64) {
-        if fret <= stopped {
+    /// How far a finger moves that touches a string held down somewhere until that touches a fret, m, and what the string pulls
+    /// it back with then, N.
+    fn way_down(&self, fret: usize, down: Down) -> (f64, f64) {
+        let beyond = self.string.geometry.length - self.string.geometry.finger_position(fret);
+        let depth = (beyond * (self.slope(Down::on(fret)) - self.slope(down))).max(LEAST_WAY);
+        // A finger that lets the string up supports it no more.
+        let support = if down.part < 1.0 { self.capo[1] } else { down.fret };
+        if fret <= support {
             return (LEAST_WAY, 0.0);
         }
-        let length = self.string.geometry.length;
-        // From where it is stopped the string goes straight to the saddle.
-        let slope = |fret| self.string.depth(fret) / (length - self.string.geometry.finger_position(fret));
-        let beyond = length - self.string.geometry.finger_position(fret);
-        let depth = (beyond * (slope(fret) - slope(stopped))).max(LEAST_WAY);
-        let pull = self.string.pull(depth, stopped, fret);
+        let pull = self.string.pull(depth, support, fret);
         let touch = self.hands.fretting.touch;
         (depth + libm::pow(pull / touch.stiffness, 1.0 / touch.exponent), pull)
+    }
+
+    /// How steeply the string goes from where it is held down straight to the saddle.
+    fn slope(&self, down: Down) -> f64 {
+        let PlayedString { geometry, .. } = &self.string;
+        let on = |fret| self.string.depth(fret) / (geometry.length - geometry.finger_position(fret));
+        let without = on(self.capo[1]);
+        without + down.part * (on(down.fret) - without)
+    }
+
+    /// Whether a string that is held down somewhere has some way to go to a fret.
+    pub(super) fn is_over(&self, fret: usize, down: Down) -> bool {
+        self.slope(Down::on(fret)) > self.slope(down)
     }
 }
 

@@ -4,6 +4,7 @@ use low_action_dsp::setup::Damper;
 use low_action_dsp::{FINGERS_PER_STRING, FingerSlot, Gesture, Touch};
 
 use super::Fingers;
+use super::held::Grip;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
@@ -23,7 +24,7 @@ impl Fingers {
         }
         let holding = HOLDING * self.fretting.map_or(0.0, |finger| self.string.leaving_force(finger.fret));
         if holding < self.hands.fretting.force && self.fretting.is_some_and(|finger| !finger.bar) {
-            self.ease(holding, parting.relaxing, at);
+            self.ease(Grip::Holds, holding, parting.relaxing, at);
         }
         self.relax_capo(parting.relaxing, at);
     }
@@ -52,7 +53,8 @@ impl Fingers {
         self.ease_capo(easing, at);
         // It is not lifted yet: the next note may want it back.
         if let Some(finger) = self.fretting {
-            self.ease(-lift_force(finger.touch, easing), easing.turning, at);
+            let eases = Grip::Eases { since: at.time, manner: easing };
+            self.ease(eases, -lift_force(finger.touch, easing), easing.turning, at);
         }
     }
 
@@ -76,10 +78,10 @@ impl Fingers {
         self.resting = [false; FINGERS_PER_STRING];
     }
 
-    /// Brings the fretting finger's force to another value, N.
-    fn ease(&mut self, force: f64, duration: f64, at: &mut Moment<impl GestureSink>) {
+    /// Brings the fretting finger's force to another value, N, which is one of another grip.
+    fn ease(&mut self, grip: Grip, force: f64, duration: f64, at: &mut Moment<impl GestureSink>) {
         if let Some(finger) = &mut self.fretting {
-            finger.eased = true;
+            finger.grip = grip;
             at.does(Gesture::Press { finger: finger.slot, force, duration });
         }
     }

@@ -2,6 +2,7 @@
 
 use low_action_dsp::{FingerSlot, Gesture};
 
+use super::held::{Down, Grip};
 use super::landing::Thrown;
 use super::{Finger, Fingers};
 use crate::performance::articulation::{Stop, Stroke};
@@ -71,7 +72,7 @@ impl Fingers {
         self.make_way(at);
         self.lay_capo(at);
         let before = self.fretting.take();
-        let stopped = before.map_or(self.capo[1], |old| old.fret);
+        let stopped = self.down(before.as_ref(), at);
         // An anchor there was has the slot that the new finger takes.
         self.anchor = None;
         match before {
@@ -138,7 +139,7 @@ impl Fingers {
         at: &mut Moment<impl GestureSink>,
     ) {
         let Some(anchor) = anchor else {
-            self.come_down(fret, fret, BEHIND_SPEED, at);
+            self.come_down(fret, Down::on(fret), BEHIND_SPEED, at);
             return;
         };
         let finger = anchor.slot;
@@ -146,7 +147,7 @@ impl Fingers {
             let position = self.string.geometry.finger_position(fret);
             at.does(Gesture::Slide { finger, position, duration: BEHIND_SLIDE });
         }
-        self.fretting = Some(Finger { fret, free: None, eased: false, ..anchor });
+        self.fretting = Some(Finger { fret, free: None, grip: Grip::Presses, ..anchor });
         self.next_slot = leaving;
         let force = self.force();
         at.does(Gesture::Press { finger, force, duration: ANCHOR_RAMP.1 });
@@ -154,27 +155,27 @@ impl Fingers {
 
     /// A finger that stopped the string stays down behind the one that does, just hard enough.
     pub(super) fn hold_behind(&mut self, anchor: Finger, at: &mut Moment<impl GestureSink>) {
-        self.anchor = Some(Finger { eased: false, ..anchor });
+        self.anchor = Some(Finger { grip: Grip::Presses, ..anchor });
         let force = (HOLDING * self.string.leaving_force(anchor.fret)).min(self.force());
         at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.0 });
     }
 
-    /// Throws a finger at a string that is stopped at one fret (0: none), behind another.
+    /// Throws a finger at a string that is held down somewhere, behind a fret.
     fn come_down(
         &mut self,
         fret: usize,
-        stopped: usize,
+        stopped: Down,
         speed: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> Gesture {
         self.come_down_at(fret, stopped, self.string.geometry.finger_position(fret), speed, at)
     }
 
-    /// Throws a finger at a string that is stopped at one fret (0: none), at a place, m from the nut, where it stops another.
+    /// Throws a finger at a string that is held down somewhere, at a place, m from the nut, where it stops a fret.
     pub(super) fn come_down_at(
         &mut self,
         fret: usize,
-        stopped: usize,
+        stopped: Down,
         position: f64,
         speed: f64,
         at: &mut Moment<impl GestureSink>,
@@ -262,7 +263,7 @@ impl Fingers {
     }
 
     fn slidable(&self) -> Option<Finger> {
-        self.fretting.filter(|finger| !finger.eased)
+        self.fretting.filter(|finger| finger.grip == Grip::Presses)
     }
 
     /// Whether nothing keeps the finger on frets, so that it is moved where others pull the string.

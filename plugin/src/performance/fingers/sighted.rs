@@ -2,7 +2,8 @@
 
 use low_action_dsp::Gesture;
 
-use super::Fingers;
+use super::held::{Down, Grip};
+use super::{Finger, Fingers};
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
@@ -11,7 +12,7 @@ impl Fingers {
     pub(crate) fn let_ring(&mut self, at: &mut Moment<impl GestureSink>) {
         self.make_way(at);
         self.lay_capo(at);
-        if let Some(old) = self.fretting.take_if(|finger| finger.eased) {
+        if let Some(old) = self.fretting.take_if(|finger| finger.grip != Grip::Presses) {
             at.does(old.gives_way());
         }
     }
@@ -20,7 +21,9 @@ impl Fingers {
     /// slides there.
     pub(crate) fn press_at(&mut self, position: f64, at: &mut Moment<impl GestureSink>) {
         let fret = self.stopped_at(position);
-        if let Some(finger) = self.fretting.as_mut().filter(|finger| finger.free.is_some() && !finger.eased) {
+        let presses = |finger: &&mut Finger| finger.free.is_some() && finger.grip == Grip::Presses;
+        if let Some(finger) = self.fretting.as_mut().filter(presses) {
+            (self.home, self.glided) = (fret, 0.0);
             (finger.fret, finger.free) = (fret, Some(position));
             return at.does(Gesture::Slide { finger: finger.slot, position, duration: POINTING });
         }
@@ -29,7 +32,13 @@ impl Fingers {
         for old in [self.anchor.take(), self.fretting.take()].into_iter().flatten() {
             at.does(old.gives_way());
         }
-        self.come_down_at(fret, self.capo[1], position, HAMMER_SPEED.0 + HAMMER_SPEED.1 * POINTED, at);
+        self.come_down_at(
+            fret,
+            Down::on(self.capo[1]),
+            position,
+            HAMMER_SPEED.0 + HAMMER_SPEED.1 * POINTED,
+            at,
+        );
         if let Some(finger) = &mut self.fretting {
             finger.free = Some(position);
         }

@@ -3,6 +3,7 @@
 use low_action_dsp::setup::frequency;
 use low_action_dsp::{FingerSlot, Gesture, Touch};
 
+use super::held::{Down, Grip, STILL_DOWN};
 use super::{Finger, Fingers};
 use crate::performance::articulation::Stop;
 use crate::performance::technique::*;
@@ -25,7 +26,11 @@ impl Fingers {
         self.home = fret;
         let bar = stop == Stop::Bar;
         let stays = |finger: &Finger| {
-            finger.fret == fret && finger.bar == bar && finger.free.is_none() && stop != Stop::Mute
+            finger.fret == fret
+                && finger.bar == bar
+                && finger.free.is_none()
+                && stop != Stop::Mute
+                && (bar || self.down(Some(finger), at).part > STILL_DOWN)
         };
         if self.fretting.is_some_and(|finger| stays(&finger)) {
             return self.press_again(at);
@@ -33,10 +38,15 @@ impl Fingers {
         self.glided = 0.0;
         let (old, anchor) = (self.fretting.take(), self.anchor.take().or(called_back));
         let presses = matches!(stop, Stop::Press | Stop::Harmonic) && fret > self.capo[1];
+        let down = self.down(old.as_ref(), at);
         match old.filter(|old| presses && !old.bar && old.free.is_none()) {
             Some(old) if old.fret < fret => {
-                self.land(fret, old.fret, [strength, haste], at);
+                self.land(fret, down, [strength, haste], at);
                 return self.depart_from(old, BEHIND_LIFT, at);
+            }
+            Some(old) if self.is_over(fret, down) => {
+                self.land(fret, down, [strength, haste], at);
+                return at.does(old.lets_go(self.letting_go(strength)));
             }
             Some(old) => {
                 self.stop_behind(fret, old.slot, anchor, at);
@@ -51,7 +61,7 @@ impl Fingers {
             Stop::Mute => self.mute(fret, at),
             _ if fret <= self.capo[1] => {}
             Stop::Bar => self.lay_bar(fret, at),
-            Stop::Press | Stop::Harmonic => self.land(fret, self.capo[1], [strength, haste], at),
+            Stop::Press | Stop::Harmonic => self.land(fret, Down::on(self.capo[1]), [strength, haste], at),
         }
     }
 
@@ -72,7 +82,7 @@ impl Fingers {
         let (usual, landing) = (self.force(), self.hands.fretting.landing);
         let bar = self.fretting.map_or(0.0, |finger| self.bar_force(finger.fret));
         let Some(finger) = &mut self.fretting else { return };
-        if std::mem::take(&mut finger.eased) {
+        if std::mem::replace(&mut finger.grip, Grip::Presses) != Grip::Presses {
             let force = if finger.bar { bar } else { usual };
             at.does(Gesture::Press { finger: finger.slot, force, duration: landing });
         }
@@ -82,7 +92,7 @@ impl Fingers {
     pub(super) fn take_slot(&mut self, fret: usize, touch: Touch, bar: bool) -> FingerSlot {
         let slot = self.next_slot;
         self.next_slot = (slot + 1) % FRETTING_SLOTS;
-        self.fretting = Some(Finger { slot, fret, touch, eased: false, bar, arrives: 0, free: None });
+        self.fretting = Some(Finger { slot, fret, touch, grip: Grip::Presses, bar, arrives: 0, free: None });
         slot
     }
 }
