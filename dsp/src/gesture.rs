@@ -43,8 +43,8 @@ impl Touch {
 pub type FingerSlot = usize;
 
 /// How many fingers may be near one string of an instrument at the same time: two that stop it, two parts
-/// of the hand that silences it, one of the hand that plucks it, and a capo.
-pub const FINGERS_PER_STRING: usize = 6;
+/// of the hand that silences it, two of the hand that plucks it, and a capo.
+pub const FINGERS_PER_STRING: usize = 7;
 
 /// The largest force of a hand either way, N: as in scenes, and far below where differences of forces overflow.
 pub const MOST_FORCE: f64 = 1e6;

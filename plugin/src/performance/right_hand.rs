@@ -79,11 +79,11 @@ impl Field<'_> {
         (touch, if matched.is_finite() { times * matched } else { times * force })
     }
 
-    /// Where the palm rests, pressed so hard (0 to 1), m from the nut.
+    /// How far the palm reaches, pressed so hard (0 to 1), m from the saddle.
     fn palm(&self, pressure: f64) -> f64 {
         let part = PALM_PLACE.0 + (PALM_PLACE.1 - PALM_PLACE.0) * pressure;
         let before_pluck = PALM_BEFORE_PLUCK * self.hands.pluck_position;
-        self.geometry.length - (part * self.geometry.length).min(before_pluck)
+        (part * self.geometry.length).min(before_pluck)
     }
 
     /// Where the thumb of a slap falls, m from the nut: just past the last fret, or where it would be.
@@ -148,7 +148,7 @@ impl RightHand {
         let lingers = self.palm <= 0.0 && (self.laid != Laid::Nothing || at.time < self.clear);
         self.clear = 0;
         if self.laid == Laid::Thumb || lingers {
-            at.does(lifting(RIGHT_HAND, field.hands.damper.touch, QUICK_LIFT));
+            self.lift(QUICK_LIFT, field, at);
             self.laid = Laid::Nothing;
         }
         self.lay(field, PALM_LANDING, at);
@@ -160,18 +160,24 @@ impl RightHand {
         if wanted == self.laid && self.pressed <= at.after(duration) {
             return;
         }
-        let finger = RIGHT_HAND;
         let Laid::Palm(pressure) = wanted else {
             return self.leave(field, at);
         };
         let (touch, light) = field.matched(1.0);
         let force = light * PALM_FORCE.0 * libm::pow(PALM_FORCE.1 / PALM_FORCE.0, pressure);
-        let position = field.palm(pressure);
-        match self.laid {
-            Laid::Nothing => at.does(Gesture::Place { finger, touch, position, clearance: 0.0 }),
-            Laid::Palm(_) | Laid::Thumb => at.does(Gesture::Slide { finger, position, duration }),
+        let reach = field.palm(pressure);
+        for (finger, place, share) in PALM {
+            let position = field.geometry.length - place * reach;
+            match self.laid {
+                Laid::Palm(_) => at.does(Gesture::Slide { finger, position, duration }),
+                // The thumb becomes the part of the palm that has its slot.
+                Laid::Thumb if finger == RIGHT_HAND => at.does(Gesture::Slide { finger, position, duration }),
+                Laid::Nothing | Laid::Thumb => {
+                    at.does(Gesture::Place { finger, touch, position, clearance: 0.0 });
+                }
+            }
+            at.does(Gesture::Press { finger, force: share * force, duration });
         }
-        at.does(Gesture::Press { finger, force, duration });
         self.laid = wanted;
         self.pressed = at.after(duration);
     }
@@ -185,6 +191,7 @@ impl RightHand {
     ) -> Gesture {
         let finger = RIGHT_HAND;
         let position = field.slapped();
+        self.make_room(field, at);
         let speed = SLAP_SPEED.0 + SLAP_SPEED.1 * strength;
         let thrown = Gesture::Throw { finger, touch: THUMB, position, clearance: SLAP_CLEARANCE, speed };
         at.does(thrown);
@@ -205,9 +212,19 @@ impl RightHand {
     pub(crate) fn graze(&mut self, partial: u32, field: &Field, at: &mut Moment<impl GestureSink>) {
         let finger = RIGHT_HAND;
         let (touch, force) = field.matched(GRAZE);
+        self.make_room(field, at);
         at.does(Gesture::Place { finger, touch, position: field.pinched(partial), clearance: 0.0 });
         at.does(Gesture::Press { finger, force, duration: PALM_LANDING });
         self.laid = Laid::Thumb;
+    }
+
+    /// The thumb takes the slot of one part of a palm; the others leave with it.
+    fn make_room(&self, field: &Field, at: &mut Moment<impl GestureSink>) {
+        if self.rests() {
+            for (finger, ..) in PALM.into_iter().filter(|&(finger, ..)| finger != RIGHT_HAND) {
+                at.does(lifting(finger, field.hands.damper.touch, QUICK_LIFT));
+            }
+        }
     }
 
     /// The thumb that grazes the string leaves it, or gives way to the palm, which is as soft.
@@ -224,10 +241,19 @@ impl RightHand {
         }
     }
 
+    /// Thumb or palm goes in a manner of leaving.
+    fn lift(&self, manner: Leaving, field: &Field, at: &mut Moment<impl GestureSink>) {
+        let parts = if self.laid == Laid::Thumb { 1 } else { PALM.len() };
+        for (finger, ..) in PALM.into_iter().take(parts) {
+            at.does(lifting(finger, field.hands.damper.touch, manner));
+        }
+    }
+
     /// Whatever is on the string leaves it.
     pub(crate) fn leave(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
-        if std::mem::take(&mut self.laid) != Laid::Nothing {
-            at.does(lifting(RIGHT_HAND, field.hands.damper.touch, QUIET_LIFT));
+        if self.laid != Laid::Nothing {
+            self.lift(QUIET_LIFT, field, at);
+            self.laid = Laid::Nothing;
             self.clear = at.after(LINGERING * QUIET_LIFT.turning);
         }
     }

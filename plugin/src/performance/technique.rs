@@ -15,6 +15,11 @@ pub(crate) const LIGHT: FingerSlot = DAMPERS[1].0;
 pub(crate) const RIGHT_HAND: FingerSlot = 4;
 /// Slot of a capo.
 pub(crate) const CAPO: FingerSlot = 5;
+/// Slots of the parts of a palm, how far from the saddle each rests as a part of how far the palm reaches, and its part of the palm's
+/// force. One part alone would leave the partials ringing that have a node there, high ones and for seconds: there the second is
+/// three fifths of a half wave from the saddle, or as far from a node. Both together brake the lowest partials as one with all
+/// of the force would: 0.735 · (1² + 0.6²) = 1.
+pub(crate) const PALM: [(FingerSlot, f64, f64); 2] = [(RIGHT_HAND, 1.0, 0.735), (6, 0.6, 0.735)];
 /// Where another damper rests behind a fretting finger, as a part of the way from the nut: what rings
 /// there is hardly heard until the finger leaves and lets it out.
 pub(crate) const BEHIND_FINGER: f64 = 0.62;
