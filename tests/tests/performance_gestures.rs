@@ -234,6 +234,31 @@ fn the_wheel_bends_by_tension_and_no_farther_than_the_string_allows() {
     assert!(goals.len() < 100, "{}", goals.len());
 }
 
+/// A finger goes over the frets no oftener than a bend needs: those it passes are heard.
+#[test]
+fn a_wheel_near_the_limit_does_not_clatter_over_the_frets() {
+    let slides = |range: f64, turns: &[f64]| {
+        let mut performance = GUITAR.player(Style { variation: 0.0, seed: 0, bend_range: range });
+        let wheel = |(n, &semitones): (usize, &f64)| {
+            (WHILE + n as u64 * 960, PlayerEvent::PitchBend { channel: 0, value: (semitones / range) as f32 })
+        };
+        let events: Vec<_> = std::iter::once((0, on(65))).chain(turns.iter().enumerate().map(wheel)).collect();
+        let gestures = play_by(&mut performance, &events);
+        gestures.iter().filter(|timed| matches!(timed.gesture, Gesture::Slide { .. })).count()
+    };
+    let most = GUITAR.setup.max_bend;
+    // A wheel turned to a limit may be an 8191st of its way beyond.
+    assert_eq!(slides(12.0, &[most * (1.0 + 1.0 / 8191.0)]), 0);
+    assert_eq!(slides(12.0, &[most + 0.05]), 1);
+    let vibrato: Vec<f64> = (0..80).map(|n| most - 0.2 + 0.4 * (0.6 * f64::from(n)).sin()).collect();
+    assert_eq!(slides(12.0, &vibrato), 1);
+    // And comes back.
+    assert_eq!(slides(12.0, &[&vibrato[..], &[0.0]].concat()), 2);
+    // Between two frets beyond the limit it stays on one.
+    let vibrato: Vec<f64> = (0..80).map(|n| most + 1.5 + 0.2 * (0.6 * f64::from(n)).sin()).collect();
+    assert_eq!(slides(12.0, &vibrato), 1);
+}
+
 #[test]
 fn a_note_that_cannot_be_bent_as_far_as_asked_is_counted_once() {
     let short = |key: u8, turns: &[f32], neck: &Neck| {

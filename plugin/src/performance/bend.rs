@@ -9,7 +9,9 @@ use std::f64::consts::TAU;
 use low_action_dsp::Gesture;
 
 use super::fingers::Fingers;
-use super::technique::{BEND_INTERVAL, BEND_RAMP, BEND_SPEED, OUT_OF_TUNE, VIBRATO, VIBRATO_STEP};
+use super::technique::{
+    BEND_INTERVAL, BEND_RAMP, BEND_SPEED, OUT_OF_TUNE, SLID_STAYS, VIBRATO, VIBRATO_STEP,
+};
 use super::{Annotation, GestureSink, Moment};
 
 /// What is asked of a string and what has been done about it.
@@ -140,7 +142,7 @@ impl Bend {
             reached = moved - swing;
             self.glided = goal;
         } else {
-            let wanted = fingers.can_slide(if asked.abs() > most { asked.round() as i32 } else { 0 });
+            let wanted = fingers.can_slide(self.frets_to_slide(asked, most));
             if wanted != self.slid {
                 taken = duration(f64::from(wanted - self.slid));
                 self.slid = fingers.slide(wanted, taken, at).0;
@@ -163,6 +165,20 @@ impl Bend {
             at.tells(Annotation::Bent { semitones, duration: taken.max(pulling(change)) });
         }
         (asked - reached).abs() > OUT_OF_TUNE
+    }
+
+    /// By how many frets the finger slides for wheel and tuning that ask for so much, where pulling reaches so far, semitones. What
+    /// is past that by less than anybody hears is pulled, and a finger that has slid stays for a while: a wheel that swings
+    /// across a limit would have it go back and forth over the frets, which clatter.
+    fn frets_to_slide(&self, asked: f64, most: f64) -> i32 {
+        let from_there = (asked - f64::from(self.slid)).abs();
+        if self.slid != 0 && from_there <= SLID_STAYS.min(most) {
+            self.slid
+        } else if asked.abs() > most + OUT_OF_TUNE {
+            asked.round() as i32
+        } else {
+            0
+        }
     }
 
     /// Sees to it that a change is sent.
