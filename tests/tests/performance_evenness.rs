@@ -4,7 +4,7 @@
 use low_action::performance::PlayerEvent;
 use low_action_tests::numbers::largest;
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{Stage, hertz, level, off, on};
+use low_action_tests::stage::{Stage, cc, hertz, level, off, on};
 
 const RATE: f64 = 48_000.0;
 /// When the second note begins, s.
@@ -60,6 +60,24 @@ fn a_note_sounds_as_well_while_the_finger_before_it_eases_off() {
                 (least..=most).contains(&level),
                 "{setup} {string}, fret {fret} after {before} and {rest} s: {level} dB, not {least} to {most}"
             );
+        }
+    }
+}
+
+/// A capo comes with the first note, and is set down as fingers are. (As slowly as its hand's damping had it: 4 to 6 dB softer.)
+#[test]
+fn the_first_note_under_a_capo_is_as_loud_as_the_next() {
+    for (setup, string, open) in
+        [("electric", 0, 64), ("steel", 0, 64), ("ukulele", 1, 64), ("classical", 4, 45)]
+    {
+        let mut stage = Stage::alone(setup, string);
+        for capo in [2, 5, 7] {
+            let note = |start: f64| [(start, on(open + capo, 90)), (start + 0.4, off(open + capo))];
+            let events = [&[(0.0, cc(26, capo))][..], &note(0.1), &note(0.6)].concat();
+            let sound = &stage.play(&events, 0.8).strings[0];
+            let [first, next] = [0.1, 0.6].map(|start| level(part(sound, start + 0.02, start + 0.15)));
+            let louder = first - next;
+            assert!(louder.abs() < 2.5, "{setup} {string}, capo {capo}: the first is {louder} dB louder");
         }
     }
 }

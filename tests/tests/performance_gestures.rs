@@ -242,7 +242,8 @@ fn a_wheel_near_the_limit_does_not_clatter_over_the_frets() {
         let wheel = |(n, &semitones): (usize, &f64)| {
             (WHILE + n as u64 * 960, PlayerEvent::PitchBend { channel: 0, value: (semitones / range) as f32 })
         };
-        let events: Vec<_> = std::iter::once((0, on(65))).chain(turns.iter().enumerate().map(wheel)).collect();
+        let events: Vec<_> =
+            std::iter::once((0, on(65))).chain(turns.iter().enumerate().map(wheel)).collect();
         let gestures = play_by(&mut performance, &events);
         gestures.iter().filter(|timed| matches!(timed.gesture, Gesture::Slide { .. })).count()
     };

@@ -89,11 +89,14 @@ pub(crate) struct Fingers {
     pressure: f64,
     /// Fret of the capo on notes to come, 0 for none, and of the one on the string.
     capo: [usize; 2],
+    /// What kind of finger that on the string is.
+    capo_touch: Touch,
 }
 
 impl Fingers {
     /// No finger near the string.
     pub(crate) fn new(string: PlayedString, hands: Player) -> Self {
+        let capo_touch = hands.fretting.touch;
         Self {
             string,
             hands,
@@ -109,6 +112,7 @@ impl Fingers {
             glided: 0.0,
             pressure: 1.0,
             capo: [0, 0],
+            capo_touch,
         }
     }
 
@@ -131,7 +135,7 @@ impl Fingers {
         (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
         self.right.take_over(&old.right);
         (self.home, self.glided, self.pressure) = (old.home, old.glided, old.pressure);
-        self.capo = old.capo;
+        (self.capo, self.capo_touch) = (old.capo, old.capo_touch);
     }
 
     /// The hands of a string nobody has touched yet act so.

@@ -74,6 +74,8 @@ pub(crate) const SETTLING: f64 = 0.03;
 /// the square, for its landing would drown the pluck. How slowly at most, as a multiple of what the hand's own damping gives.
 pub(crate) const SOFT_LANDING: f64 = 0.21;
 pub(crate) const SOFTEST_LANDING: f64 = 2.0;
+/// Strength of the note and haste of a finger that lands as fast as it can.
+pub(crate) const AT_ONCE: [f64; 2] = [1.0, 1.0];
 /// By how much a finger is to be slower than the way to the fret asks for: the string hardly moves before the finger's pad has been
 /// pressed in. Fitted: from 1.08 to 1.17 would be best on frets 3 to 12 of seven strings of four instruments.
 pub(crate) const LANDING_LAG: f64 = 1.13;

@@ -40,8 +40,22 @@ impl Fingers {
         [strength, haste]: [f64; 2],
         at: &mut Moment<impl GestureSink>,
     ) {
-        let Fretting { mut touch, hover, landing, .. } = self.hands.fretting;
-        let force = self.force();
+        let (touch, rise) = self.set_down(fret, stopped, [strength, haste], self.force());
+        let slot = self.take_slot(fret, touch, false);
+        let position = self.string.geometry.finger_position(fret);
+        at.does(Gesture::Place { finger: slot, touch, position, clearance: self.hands.fretting.hover });
+        at.does(Gesture::Press { finger: slot, force: self.force(), duration: rise });
+    }
+
+    /// How the string is set down behind a fret with a force, N: by what finger, and in what time that comes to press, s.
+    pub(super) fn set_down(
+        &self,
+        fret: usize,
+        stopped: Down,
+        [strength, haste]: [f64; 2],
+        force: f64,
+    ) -> (Touch, f64) {
+        let Fretting { mut touch, landing, .. } = self.hands.fretting;
         let softness = (SOFT_LANDING / strength.max(f64::MIN_POSITIVE)).max(1.0);
         touch.hand_damping *= (softness * softness / (1.0 + HASTE * haste)).min(SOFTEST_LANDING);
         let (way, pull) = self.way_down(fret, stopped);
@@ -52,11 +66,7 @@ impl Fingers {
         let [by_itself, longest] = [way * touch.hand_damping / force, MOST_DAMPING / damping_in(1.0)];
         let time = period * (by_itself.min(longest) / period).round().max(1.0);
         touch.hand_damping = damping_in(time).min(MOST_DAMPING);
-        let slot = self.take_slot(fret, touch, false);
-        let position = self.string.geometry.finger_position(fret);
-        let rise = landing.min(LANDING_RISE * period);
-        at.does(Gesture::Place { finger: slot, touch, position, clearance: hover });
-        at.does(Gesture::Press { finger: slot, force, duration: rise });
+        (touch, landing.min(LANDING_RISE * period))
     }
 
     /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, behind a fret of a string that is held down

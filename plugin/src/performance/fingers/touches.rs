@@ -2,7 +2,9 @@
 //! a capo, the thumb.
 
 use low_action_dsp::Gesture;
+use low_action_dsp::setup::Fretting;
 
+use super::held::Down;
 use super::{Fingers, lift_force, lifting};
 use crate::performance::right_hand::Field;
 use crate::performance::technique::*;
@@ -84,19 +86,19 @@ impl Fingers {
     pub(super) fn lay_capo(&mut self, at: &mut Moment<impl GestureSink>) {
         let [wanted, there] = self.capo;
         self.capo[1] = wanted;
-        let touch = self.hands.fretting.touch;
         if wanted == 0 {
             if there > 0 {
-                at.does(lifting(CAPO, touch, QUICK_LIFT));
+                at.does(lifting(CAPO, self.capo_touch, QUICK_LIFT));
             }
             return;
         }
+        let Fretting { force, hover, mut landing, .. } = self.hands.fretting;
         if wanted != there {
+            (self.capo_touch, landing) = self.set_down(wanted, Down::on(0), AT_ONCE, force);
             let position = self.string.geometry.finger_position(wanted);
-            at.does(Gesture::Place { finger: CAPO, touch, position, clearance: self.hands.fretting.hover });
+            at.does(Gesture::Place { finger: CAPO, touch: self.capo_touch, position, clearance: hover });
         }
-        let force = self.hands.fretting.force;
-        at.does(Gesture::Press { finger: CAPO, force, duration: self.hands.fretting.landing });
+        at.does(Gesture::Press { finger: CAPO, force, duration: landing });
     }
 
     /// The capo of a string that is being damped holds it just so. (It goes with the fingers when the string has come to rest:
@@ -111,7 +113,7 @@ impl Fingers {
     /// It eases off until the string is free of it.
     pub(super) fn ease_capo(&mut self, manner: Leaving, at: &mut Moment<impl GestureSink>) {
         if self.capo[1] > 0 {
-            let force = -lift_force(self.hands.fretting.touch, manner);
+            let force = -lift_force(self.capo_touch, manner);
             at.does(Gesture::Press { finger: CAPO, force, duration: manner.turning });
         }
     }
@@ -119,7 +121,7 @@ impl Fingers {
     /// And goes.
     pub(super) fn lift_capo(&mut self, manner: Leaving, at: &mut Moment<impl GestureSink>) {
         if std::mem::take(&mut self.capo[1]) > 0 {
-            self.depart(CAPO, self.hands.fretting.touch, manner, at);
+            self.depart(CAPO, self.capo_touch, manner, at);
         }
     }
 
