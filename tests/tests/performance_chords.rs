@@ -224,6 +224,17 @@ fn a_note_that_moves_or_waits_twice_is_one() {
     assert!(compromises.left_out > 0 && compromises.moved_by_octaves <= played, "{played}, {compromises:?}");
 }
 
+/// A key struck twice at one moment sounds once, which is counted; on two channels it is two notes.
+#[test]
+fn doubled_notes_are_counted() {
+    for (channel, expected) in [(0, (1, 1)), (1, (2, 0))] {
+        let mut player = player();
+        let again = PlayerEvent::NoteOn { channel, key: 64, velocity: 0.5 };
+        let gestures = play(&mut player, &[(0, on(64, 90)), (0, again)]);
+        assert_eq!((plucks(&gestures).len(), player.compromises().doubled), expected, "channel {channel}");
+    }
+}
+
 proptest! {
     #![proptest_config(cases(200))]
 

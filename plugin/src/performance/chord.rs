@@ -45,6 +45,7 @@ impl Performance {
         if let Some(twin) = twin {
             twin.velocity = twin.velocity.max(velocity);
             twin.presses = twin.presses.saturating_add(presses);
+            self.compromises.doubled += 1;
             return;
         }
         match self.wanted(channel, key) {

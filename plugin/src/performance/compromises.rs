@@ -13,6 +13,8 @@ pub struct Compromises {
     pub left_out: u64,
     /// Notes left out because no string gives them in any octave, or their channel has no string.
     pub without_string: u64,
+    /// Notes that are one with another of their channel and key that begins at the same sample.
+    pub doubled: u64,
     /// Notes bent less far than asked, for their strings can be pulled, or their fingers slid, no farther.
     pub bent_short: u64,
 }
