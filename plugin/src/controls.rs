@@ -69,7 +69,7 @@ impl Luthier {
         neck.fret_height = (neck.fret_height * self.fret_height).clamp(0.0, 0.02);
         let scale = neck.scale_length;
         if let Pickup::Magnetic { position, aperture, .. } = &mut setup.pickup {
-            let [nearest, farthest] = coil_places(*aperture, scale);
+            let [nearest, farthest] = coil_places(*position, *aperture, scale);
             *position = (*position + self.pickup_position).min(farthest).max(nearest);
         }
         setup.blend = setup.blend.max(self.pickup_blend);
@@ -92,10 +92,10 @@ impl Luthier {
 }
 
 /// The nearest and the farthest place of a coil of such an aperture on strings of such a scale, m from the saddle: half its
-/// field must stay on the string.
-pub fn coil_places(aperture: f64, scale: f64) -> [f64; 2] {
+/// field must stay on the string, with a little to spare, but what a set-up itself has is left to it.
+pub fn coil_places(own: f64, aperture: f64, scale: f64) -> [f64; 2] {
     let nearest = 0.51 * aperture + 1e-3;
-    [nearest, scale - nearest]
+    [nearest.min(own), (scale - nearest).max(own)]
 }
 
 /// The nearest and the farthest place of a pluck, m from the saddle, on strings of such a scale. Fingers have a width, but what
@@ -193,5 +193,47 @@ impl Touching {
 impl Default for Touching {
     fn default() -> Self {
         Self::new(EngineOptions::VARIATION, EngineOptions::BEND_RANGE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use low_action_dsp::setup::Pickup;
+
+    use super::*;
+
+    /// What the plugin plays of a set-up is what `low-action render` plays of it, however tight the coil is in its place.
+    #[test]
+    fn who_changes_nothing_leaves_the_setup_as_it_is() {
+        let tight = |position: f64, aperture: f64| {
+            let text =
+                format!("based_on = \"electric\"\n[pickup]\nposition = {position}\naperture = {aperture}\n");
+            Setup::from_toml(&text).expect("the coil is on the string")
+        };
+        let shipped = Setup::BUILTIN.into_iter().chain(Setup::PRESETS);
+        let mut setups: Vec<_> =
+            shipped.map(|name| Setup::shipped(name).expect("it comes with the program")).collect();
+        // Beside the saddle, beside the nut, and all along the string of 0.6477 m.
+        setups.extend([tight(0.0104, 0.02), tight(0.637, 0.02), tight(0.3238, 0.645), tight(5e-4, 0.0)]);
+        for setup in setups {
+            let mut same = setup.clone();
+            Luthier::default().work_on(&mut same);
+            assert_eq!(same, setup);
+        }
+    }
+
+    /// From wherever a coil is, it goes no farther than to where it can be.
+    #[test]
+    fn a_coil_stays_where_a_setup_may_have_it() {
+        for (own, aperture) in [(0.162, 0.02), (0.0104, 0.02), (0.637, 0.02), (0.3238, 0.645), (5e-4, 0.0)] {
+            let mut setup = Setup::builtin("electric").expect("it is built in");
+            for offset in [-1.0, -0.01, -1e-4, 0.0, 1e-4, 0.01, 1.0] {
+                if let Pickup::Magnetic { position, aperture: width, .. } = &mut setup.pickup {
+                    (*position, *width) = (own, aperture);
+                }
+                Luthier { pickup_position: offset, ..Luthier::default() }.work_on(&mut setup);
+                assert_eq!(setup.check(), Ok(()), "{own} m, {aperture} m, by {offset} m");
+            }
+        }
     }
 }

@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, given: &Given, sight: &Sight, setup: &Setup) {
         show_mark(ui, given, sight, &handle, &mark(PLUCK, theme::PLUCK, x, pickup));
     }
     if let (Some(x), Pickup::Magnetic { position, aperture, .. }) = (pickup, &own.pickup) {
-        let reach = from(*position, coil_places(*aperture, scale));
+        let reach = from(*position, coil_places(*position, *aperture, scale));
         let handle = Handle { param: &params.setup.pickup_position, growth, reach };
         show_mark(ui, given, sight, &handle, &mark(PICKUP, theme::STEEL, x, pluck));
     }
