@@ -203,3 +203,8 @@ pub(crate) fn within(name: &str, value: f64, low: f64, high: f64, unit: &str) ->
         Err(Error::range(name, plain(value), accepted))
     }
 }
+
+/// The same for a range that is used elsewhere too.
+pub(crate) fn ranged(name: &str, value: f64, [low, high]: [f64; 2], unit: &str) -> Result<f64, Error> {
+    within(name, value, low, high, unit)
+}

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::ContactLaw;
 use crate::curve::Curve;
 use crate::digits::{at_most, plain};
-use crate::error::{Error, within};
+use crate::error::{Error, ranged, within};
 use crate::model::Barrier;
 use crate::scene::FretPlacement;
 
@@ -50,8 +50,9 @@ const LEAST_CLEARANCE: f64 = 1e-5;
 /// The most relief there is, m, however high the strings are.
 const MOST_RELIEF: f64 = 0.01;
 
-/// The highest action, m.
-const HIGHEST_ACTION: f64 = 0.05;
+/// What the numbers may be that a luthier can change on a neck that is made, m.
+const NUT_CLEARANCE: [f64; 2] = [LEAST_CLEARANCE, 0.02];
+const FRET_HEIGHT: [f64; 2] = [0.0, 0.02];
 
 /// How far the board goes on beyond the last fret, m.
 const OVERHANG: f64 = 0.008;
@@ -61,18 +62,32 @@ const OVERHANG: f64 = 0.008;
 const PIECES: usize = 64;
 
 impl Neck {
+    /// The highest action, m.
+    pub const HIGHEST_ACTION: f64 = 0.05;
+
+    /// Brings heights and relief, which a luthier can change on a neck that is made, back to what a set-up may have.
+    pub(crate) fn limit(&mut self) {
+        let [low, high] = NUT_CLEARANCE;
+        self.nut_clearance = self.nut_clearance.clamp(low, high);
+        // (Not by `clamp`, which panics where a limit is no number.)
+        self.action = self.action.max(self.nut_clearance).min(Self::HIGHEST_ACTION);
+        self.relief = self.relief.clamp(0.0, self.most_relief());
+        let [low, high] = FRET_HEIGHT;
+        self.fret_height = self.fret_height.clamp(low, high);
+    }
+
     /// Refuses values outside their range.
     pub(crate) fn check(&self) -> Result<(), Error> {
         within("neck.scale_length", self.scale_length, 0.1, 5.0, "m")?;
         within("neck.frets", self.frets as f64, 0.0, 36.0, "")?;
-        within("neck.nut_clearance", self.nut_clearance, LEAST_CLEARANCE, 0.02, "m")?;
-        if !(self.nut_clearance..=HIGHEST_ACTION).contains(&self.action) {
+        ranged("neck.nut_clearance", self.nut_clearance, NUT_CLEARANCE, "m")?;
+        if !(self.nut_clearance..=Self::HIGHEST_ACTION).contains(&self.action) {
             // Either may be what is wrong.
-            let (least, most) = (plain(self.nut_clearance), plain(HIGHEST_ACTION));
+            let (least, most) = (plain(self.nut_clearance), plain(Self::HIGHEST_ACTION));
             let accepted = format!("it must lie between neck.nut_clearance, {least}, and {most} m");
             return Err(Error::range("neck.action", plain(self.action), accepted));
         }
-        within("neck.fret_height", self.fret_height, 0.0, 0.02, "m")?;
+        ranged("neck.fret_height", self.fret_height, FRET_HEIGHT, "m")?;
         for (fret, wear) in &self.worn {
             within("neck.worn, fret", *fret as f64, 1.0, self.frets as f64, "")?;
             within("neck.worn, depth", *wear, 0.0, 0.02, "m")?;

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::choice::choice;
 use crate::curve::Curve;
 use crate::digits::{at_most, plain};
-use crate::error::{Error, within};
+use crate::error::{Error, ranged, within};
 use crate::intonation::Behind;
 use crate::model::Barrier;
 use crate::neck::Neck;
@@ -161,6 +161,14 @@ const ABYSS: f64 = -0.05;
 /// The most strings an instrument may have.
 const MOST_STRINGS: usize = 32;
 
+/// What the numbers may be that a luthier can change on an instrument that is made: semitones, a part, a MIDI note number,
+/// 1/s and m²/s.
+const TUNING: [f64; 2] = [-12.0, 12.0];
+const BLEND: [f64; 2] = [0.0, 1.0];
+const PITCH: [f64; 2] = [0.0, 127.0];
+const LOSS_0: [f64; 2] = [0.0, 1e4];
+const LOSS_1: [f64; 2] = [0.0, 1e2];
+
 impl Setup {
     /// Names of the built-in set-ups; the first is the default.
     pub const BUILTIN: [&'static str; 4] = [FILES[0].0, FILES[1].0, FILES[2].0, FILES[3].0];
@@ -199,6 +207,19 @@ impl Setup {
         toml::to_string(self).map_err(|error| Error::Syntax(error.to_string()))
     }
 
+    /// Brings what a luthier can change on an instrument that is made (heights and relief of the neck, losses, tuning, and
+    /// what is heard of the other pickup), but for the place of the coil, back to what a set-up may have.
+    pub fn limit(&mut self) {
+        self.neck.limit();
+        let alike = [(&mut self.tuning, TUNING), (&mut self.blend, BLEND)];
+        let of_strings = self.string.iter_mut().flat_map(|SetupString { pitch, loss_0, loss_1, .. }| {
+            [(pitch, PITCH), (loss_0, LOSS_0), (loss_1, LOSS_1)]
+        });
+        for (value, [low, high]) in alike.into_iter().chain(of_strings) {
+            *value = value.clamp(low, high);
+        }
+    }
+
     /// Refuses every value outside its range, naming it as in the file.
     pub fn check(&self) -> Result<(), Error> {
         if self.name.trim().is_empty() {
@@ -206,8 +227,8 @@ impl Setup {
         }
         within("max_bend", self.max_bend, 0.0, 12.0, "semitones")?;
         within("gain", self.gain, 1e-9, 1e9, "")?;
-        within("tuning", self.tuning, -12.0, 12.0, "semitones")?;
-        within("blend", self.blend, 0.0, 1.0, "")?;
+        ranged("tuning", self.tuning, TUNING, "semitones")?;
+        ranged("blend", self.blend, BLEND, "")?;
         self.neck.check()?;
         if let Some(Bridge { length, radius }) = self.bridge {
             let (least, room) = (1e-4, self.neck.scale_length - self.neck.board_end());
@@ -293,12 +314,12 @@ pub fn frequency(pitch: f64) -> f64 {
 
 impl SetupString {
     fn check(&self, name: &str) -> Result<(), Error> {
-        within(&format!("{name}.pitch"), self.pitch, 0.0, 127.0, "as a MIDI note number")?;
+        ranged(&format!("{name}.pitch"), self.pitch, PITCH, "as a MIDI note number")?;
         within(&format!("{name}.linear_density"), self.linear_density, 1e-7, 1e2, "kg/m")?;
         within(&format!("{name}.youngs_modulus"), self.youngs_modulus, 0.0, 1e13, "Pa")?;
         within(&format!("{name}.core_radius"), self.core_radius, 0.0, 0.1, "m")?;
-        within(&format!("{name}.loss_0"), self.loss_0, 0.0, 1e4, "1/s")?;
-        within(&format!("{name}.loss_1"), self.loss_1, 0.0, 1e2, "m²/s")?;
+        ranged(&format!("{name}.loss_0"), self.loss_0, LOSS_0, "1/s")?;
+        ranged(&format!("{name}.loss_1"), self.loss_1, LOSS_1, "m²/s")?;
         within(&format!("{name}.level"), self.level, 0.0, 100.0, "")?;
         within(&format!("{name}.pan"), self.pan, -1.0, 1.0, "").map(drop)
     }

@@ -7,9 +7,6 @@ use low_action_dsp::setup::{Pickup, Player};
 use crate::engine::{EngineOptions, Quality};
 use crate::performance::NEAREST_PLUCK;
 
-/// The highest that strings are over fret 12, m.
-pub const HIGHEST_ACTION: f64 = 0.05;
-
 /// What cannot be changed without compiling the strings anew. All values are relative to a set-up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Luthier {
@@ -63,10 +60,10 @@ impl Luthier {
     /// file goes as far as it can.
     pub fn work_on(&self, setup: &mut Setup) {
         let neck = &mut setup.neck;
-        neck.nut_clearance = (neck.nut_clearance * self.action).clamp(1e-5, 0.02);
-        neck.action = (neck.action * self.action).clamp(neck.nut_clearance, HIGHEST_ACTION);
-        neck.relief = (neck.relief + self.relief).clamp(0.0, neck.most_relief());
-        neck.fret_height = (neck.fret_height * self.fret_height).clamp(0.0, 0.02);
+        neck.nut_clearance *= self.action;
+        neck.action *= self.action;
+        neck.relief += self.relief;
+        neck.fret_height *= self.fret_height;
         let scale = neck.scale_length;
         if let Pickup::Magnetic { position, aperture, .. } = &mut setup.pickup {
             let [nearest, farthest] = coil_places(*position, *aperture, scale);
@@ -74,13 +71,13 @@ impl Luthier {
         }
         setup.blend = setup.blend.max(self.pickup_blend);
         setup.tension_modulation &= self.tension_modulation;
-        setup.tuning = (setup.tuning + self.tuning).clamp(-12.0, 12.0);
+        setup.tuning += self.tuning;
         for (index, string) in setup.string.iter_mut().enumerate() {
-            string.loss_0 = (string.loss_0 * self.loss_0).min(1e4);
-            string.loss_1 = (string.loss_1 * self.loss_1).min(1e2);
-            let raised = self.strings.get(index).copied().unwrap_or(0.0);
-            string.pitch = (string.pitch + raised).clamp(0.0, 127.0);
+            string.loss_0 *= self.loss_0;
+            string.loss_1 *= self.loss_1;
+            string.pitch += self.strings.get(index).copied().unwrap_or(0.0);
         }
+        setup.limit();
     }
 
     /// What an engine is built from.

@@ -313,3 +313,35 @@ fn nothing_stands_above_the_strings() {
         }
     }
 }
+
+/// However far a luthier goes: what is limited is what is accepted, and what is accepted is left as it is.
+#[test]
+fn what_is_limited_is_accepted() {
+    type Number = fn(&mut Setup) -> &mut f64;
+    let numbers: [Number; 9] = [
+        |setup| &mut setup.neck.nut_clearance,
+        |setup| &mut setup.neck.action,
+        |setup| &mut setup.neck.relief,
+        |setup| &mut setup.neck.fret_height,
+        |setup| &mut setup.tuning,
+        |setup| &mut setup.blend,
+        |setup| &mut setup.string[0].pitch,
+        |setup| &mut setup.string[1].loss_0,
+        |setup| &mut setup.string[2].loss_1,
+    ];
+    for name in Setup::BUILTIN.into_iter().chain(Setup::PRESETS) {
+        let shipped = Setup::shipped(name).unwrap();
+        let mut same = shipped.clone();
+        same.limit();
+        assert_eq!(same, shipped, "{name}");
+        for number in numbers {
+            for end in [f64::NEG_INFINITY, f64::INFINITY] {
+                let mut setup = shipped.clone();
+                *number(&mut setup) = end;
+                assert!(setup.check().is_err(), "{name}");
+                setup.limit();
+                assert_eq!(setup.check(), Ok(()), "{name}");
+            }
+        }
+    }
+}

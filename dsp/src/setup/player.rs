@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::on_scale;
-use crate::error::{Error, within};
+use crate::error::{Error, ranged, within};
 use crate::gesture::Touch;
 
 /// How the hands act.
@@ -76,7 +76,6 @@ impl Player {
     }
 
     pub(super) fn check(&self, scale: f64) -> Result<(), Error> {
-        let ranged = |name, value, [low, high]: [f64; 2], unit| within(name, value, low, high, unit);
         on_scale("player.pluck_position", self.pluck_position, scale)?;
         ranged("player.pluck_duration", self.pluck_duration, PLUCK_DURATION, "s")?;
         ranged("player.pluck_force", self.pluck_force, PLUCK_FORCE, "N")?;

@@ -2,12 +2,12 @@
 
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 use low_action_dsp::Setup;
+use low_action_dsp::neck::Neck;
 
 use super::Given;
 use super::control::Handle;
 use super::shapes::{band, fit_text};
 use super::theme::{self, GAP, LEFT, NEAR, RIGHT, TIGHT};
-use crate::controls::HIGHEST_ACTION;
 use crate::display::{POINTS, StringSeen};
 
 /// The highest and the lowest that is seen, m over the string at rest.
@@ -144,7 +144,7 @@ fn show_handles(ui: &mut Ui, given: &Given, profile: &Profile, setup: &Setup) {
     let own = &given.plan.own().unwrap_or(setup).neck;
     let height = own.action.max(1e-5);
     let growth = vec2(0.0, metres / height as f32);
-    let handle = Handle { param: action, growth, reach: [0.0, HIGHEST_ACTION / height] };
+    let handle = Handle { param: action, growth, reach: [0.0, Neck::HIGHEST_ACTION / height] };
     let text = format!("action {:.2} mm", 1e3 * neck.action);
     show_handle(ui, given, profile, setup, &handle, neck.equal_place(12.0), text);
     let reach = [0.0, neck.most_relief()].map(|end| 1e3 * (end - own.relief));

@@ -166,10 +166,10 @@ mod tests {
         assert_eq!(meters.exchanges(), 1);
     }
 
-    /// Nothing can be built from it.
+    /// Nothing can be built from it: no string is as heavy as the lowest and bears the tension of the highest key.
     fn impossible() -> Order {
         let mut order = order();
-        order.luthier.loss_0 = -1.0;
+        order.luthier.strings[5] = 127.0;
         (order.luthier.quality, order.luthier.iterations) = (Quality::Reference, 150);
         order
     }
