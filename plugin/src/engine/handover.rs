@@ -33,8 +33,8 @@ impl Engine {
     /// meant for it: they are struck again. Nothing is allocated or given back.
     ///
     /// # Errors
-    /// When the replacement is built for another sample rate, and while what the engine was before is still fading or has not been fetched; the replacement comes back
-    /// unused.
+    /// When the replacement is built for another sample rate, and while what the engine was before is still fading or has
+    /// not been fetched; the replacement comes back unused.
     pub fn replace(&mut self, mut replacement: Box<Replacement>, asked: u64) -> Result<(), Box<Replacement>> {
         if self.outgoing.is_some() {
             return Err(replacement);

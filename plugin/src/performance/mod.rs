@@ -5,8 +5,9 @@
 //! from one another (`chord`), what fingers and plucks a note takes from its start to its silence (`string`),
 //! how hands are told to play (`articulation`, `switches`), what pedals and wheels say (`channel`) and do to
 //! it (`control`, `bend`), and how one pluck differs from the next (`variation`). Beside the gestures it tells what
-//! becomes of the notes ([`Annotation`]), for labels. There are no host types here, nothing is allocated after construction, and the result depends only on the events and their times,
-//! not on how the time between them is cut into blocks.
+//! becomes of the notes ([`Annotation`]), for labels. There are no host types here, nothing is allocated after
+//! construction, and the result depends only on the events and their times, not on how the time between them is cut
+//! into blocks.
 
 mod annotation;
 mod announced;
