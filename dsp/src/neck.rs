@@ -89,6 +89,10 @@ impl Neck {
         }
         ranged("neck.fret_height", self.fret_height, FRET_HEIGHT, "m")?;
         for (fret, wear) in &self.worn {
+            if self.frets == 0 {
+                let accepted = "there are no frets, neck.frets is 0";
+                return Err(Error::range("neck.worn, fret", fret, accepted));
+            }
             within("neck.worn, fret", *fret as f64, 1.0, self.frets as f64, "")?;
             within("neck.worn, depth", *wear, 0.0, 0.02, "m")?;
         }
