@@ -40,8 +40,8 @@ impl Quality {
         }
     }
 
-    /// What it gives and takes, in a few words for those who choose: bounds on what is measured in
-    /// `docs/trade.md` for a host's rate of 48 kHz.
+    /// What it gives and takes, in a few words for those who choose: work beside `live` in whole numbers, and bounds on what
+    /// is off, from what is measured in `docs/trade.md` for a host's rate of 48 kHz. Whoever shows more words shows these too.
     pub fn summary(self) -> &'static str {
         match self {
             Self::Draft => "least work, buzz within 50 %",

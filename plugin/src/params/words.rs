@@ -74,25 +74,24 @@ pub fn heard(id: &str) -> Option<&'static str> {
     HEARD.iter().find(|(known, _)| *known == id).map(|(_, heard)| *heard)
 }
 
-/// What a musician hears of a quality, and what it costs: `docs/trade.md` in a few words, for a host's rate of 48 kHz.
+/// What a musician hears of a quality: `docs/trade.md` in a few words, for a host's rate of 48 kHz. It stands under the
+/// quality's [summary](Quality::summary), which has the numbers.
 pub fn heard_of(quality: Quality) -> &'static str {
     match quality {
         Quality::Draft => {
             "A little less work than Live, for many tracks at once. All is as good but for the thinnest string, which \
-             rings too short at the highest frets and, plucked hard, buzzes by up to a half more or less than it \
-             should."
+             rings too short at the highest frets and, plucked hard, buzzes more or less than it should."
         }
         Quality::Live => {
-            "To play with. Every open string and every stopped note is within a cent. Buzz is about as hard and as \
-             long as it should be: within a quarter."
+            "To play with. Every open string and every stopped note is in tune, and buzz is about as hard and as \
+             long as it should be."
         }
         Quality::Studio => {
-            "Three and a half times the work of Live, for the bounce. Buzz is within an eighth, the highest frets are \
-             within a cent."
+            "For the bounce. Buzz is nearer to the truth, and the highest frets are within a cent."
         }
         Quality::Reference => {
-            "Twelve times the work of Live: the fastest computers just have time for it when six strings ring. There to \
-             compare with; one cannot hear what it adds."
+            "The fastest computers just have time for it when six strings ring. There to compare with; one cannot hear \
+             what it adds."
         }
     }
 }
