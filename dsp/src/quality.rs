@@ -77,6 +77,19 @@ impl FromStr for Quality {
         Self::ALL
             .into_iter()
             .find(|quality| quality.name() == name)
-            .ok_or_else(|| format!("unknown quality {name:?}: must be draft, live, studio or reference"))
+            // (Who asks for one says which was asked for.)
+            .ok_or_else(|| "must be draft, live, studio or reference".into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_and_others_are_told_what_there_is() {
+        assert!(Quality::ALL.into_iter().all(|quality| quality.name().parse() == Ok(quality)));
+        // What was wrong stands before it on the command line.
+        assert_eq!("best".parse::<Quality>(), Err("must be draft, live, studio or reference".to_owned()));
     }
 }
