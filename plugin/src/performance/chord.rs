@@ -20,7 +20,7 @@ use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
 use super::string::{Manner, Start};
 use super::technique::*;
 use super::{CHANNELS, GestureSink, InputMode, Performance};
-pub(super) use waiting::{Late, OwnPluck, Struck};
+pub(super) use waiting::{Late, OwnPluck, Unplaced};
 
 /// The way of the right hand over the strings of a chord.
 struct Strum {
@@ -53,7 +53,7 @@ impl Performance {
                 self.count_move(false, wanted.is_moved());
                 let (manner, articulation) =
                     (self.manner(channel), self.channels[usize::from(channel)].articulation);
-                self.chord.push(Struck {
+                self.chord.push(Unplaced {
                     wanted,
                     velocity,
                     asked: self.now,
@@ -108,7 +108,7 @@ impl Performance {
     /// Whether notes that begin now have to be placed before this key goes up: it is one of them, or the one that they take
     /// over from.
     pub(super) fn chord_needs(&self, channel: u8, key: u8) -> bool {
-        self.chord.iter().any(|Struck { wanted, articulation, .. }| {
+        self.chord.iter().any(|Unplaced { wanted, articulation, .. }| {
             // Where each string has a channel, only its own key can be the one before.
             let before = !self.is_by_strings() || wanted.channel == channel;
             let connected = before && (articulation.legato || self.touching.legato);
@@ -123,7 +123,7 @@ impl Performance {
         let of_all = channel == MANAGER && (self.is_mpe() || number == Some(controller::DATA_ENTRY));
         let of_hand =
             number.is_some_and(|number| number == controller::CAPO || number == controller::SWITCHES);
-        of_all || of_hand || self.chord.iter().any(|struck| struck.wanted.channel == channel)
+        of_all || of_hand || self.chord.iter().any(|note| note.wanted.channel == channel)
     }
 
     /// Places and plays the notes that began together at `now`.
@@ -136,7 +136,7 @@ impl Performance {
         self.uses.clear();
         self.uses.extend(self.strings.iter().map(|string| string.usage(time)));
         self.wanted.clear();
-        self.wanted.extend(self.chord.iter().map(|struck| struck.wanted));
+        self.wanted.extend(self.chord.iter().map(|note| note.wanted));
         self.placements.clear();
         self.placements.resize(self.wanted.len(), None);
         self.hand.place(&self.wanted, &self.uses, &mut self.placements);
@@ -151,7 +151,7 @@ impl Performance {
             self.strings[string].start(time, start, out);
             self.strings[string].bend(time, channel, bend);
         }
-        if self.chord.iter().any(|struck| struck.articulation.stroke == Stroke::Alternate) {
+        if self.chord.iter().any(|note| note.articulation.stroke == Stroke::Alternate) {
             self.upward = !self.upward;
         }
         self.chord.clear();
@@ -166,7 +166,7 @@ impl Performance {
 
     /// What a string is told of the note of the chord that is placed there.
     fn start(&mut self, index: usize, placement: Placement, strum: Option<&Strum>) -> Start {
-        let Struck { wanted, velocity, asked, presses, manner, own, .. } = self.chord[index];
+        let Unplaced { wanted, velocity, asked, presses, manner, own, .. } = self.chord[index];
         let mut articulation = self.articulation(index);
         if articulation.stroke == Stroke::Alternate {
             articulation.stroke = if self.upward { Stroke::Up } else { Stroke::Down };
@@ -206,11 +206,11 @@ impl Performance {
         };
         let told = self.chord[index].articulation;
         let back = way(&told);
-        let together = |struck: &Struck| {
-            let Struck { articulation, .. } = struck;
+        let together = |note: &Unplaced| {
+            let Unplaced { articulation, .. } = note;
             articulation.strum == told.strum && way(articulation) == back
         };
-        let strummed = self.chord.iter().zip(&self.placements).filter(|(struck, _)| together(struck));
+        let strummed = self.chord.iter().zip(&self.placements).filter(|(note, _)| together(note));
         let strings = strummed.filter_map(|(_, placement)| placement.map(|placement| placement.string));
         let (high, low) = (strings.clone().min()?, strings.max()?);
         if told.strum <= 0.0 || high == low {
@@ -230,21 +230,21 @@ impl Performance {
             if self.placements[index].is_some() {
                 continue;
             }
-            let struck = self.chord[index];
-            let before = struck.wanted.is_moved();
+            let note = self.chord[index];
+            let before = note.wanted.is_moved();
             if let Some(placement) = self.revoiced(index) {
                 self.uses[placement.string] = Use::Untouchable;
                 self.placements[index] = Some(placement);
                 self.count_move(before, self.chord[index].wanted.is_moved());
             } else if self.late.len() < LARGEST_CHORD
-                && let Some(wanted) = self.to_come(&struck.wanted)
+                && let Some(wanted) = self.to_come(&note.wanted)
             {
                 late += 1;
                 let time = self.now + (f64::from(late) * ARPEGGIO * self.sample_rate).round() as u64;
                 self.count_move(before, wanted.is_moved());
-                self.compromises.arpeggiated += u64::from(!struck.waited);
-                let struck = Struck { wanted, waited: true, ..struck };
-                self.late.push(Late { time, struck, releases: 0, cut: false });
+                self.compromises.arpeggiated += u64::from(!note.waited);
+                let note = Unplaced { wanted, waited: true, ..note };
+                self.late.push(Late { time, note, releases: 0, cut: false });
             } else {
                 self.count_move(before, false);
                 self.compromises.left_out += 1;

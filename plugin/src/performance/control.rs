@@ -1,7 +1,7 @@
 //! What channels mean, and what controllers and note expressions do to the strings.
 
 use super::channel::{Channel, Request, pressure_factor};
-use super::chord::Struck;
+use super::chord::Unplaced;
 use super::string::{Manner, Own};
 use super::technique::BRIGHTNESS_REACH;
 use super::{CHANNELS, Expression, GestureSink, Performance, PlayerEvent, seven_bits};
@@ -116,7 +116,7 @@ impl Performance {
                 for own in &mut self.channels {
                     own.forced = own.forced.filter(|&(_, by)| by != number && !acts_on_all);
                 }
-                self.late.retain(|late| late.struck.wanted.channel != number && !acts_on_all);
+                self.late.retain(|late| late.note.wanted.channel != number && !acts_on_all);
             }
             _ => {}
         }
@@ -231,8 +231,8 @@ impl Performance {
     /// The keys of each channel that notes have which sound, begin or are yet to come, a bit for each.
     fn keys(&self) -> [u128; CHANNELS] {
         let mut keys = [0; CHANNELS];
-        let struck = self.chord.iter().chain(self.late.iter().map(|late| &late.struck));
-        let waiting = struck.map(|struck| (struck.wanted.channel, struck.wanted.key));
+        let waiting = self.chord.iter().chain(self.late.iter().map(|late| &late.note));
+        let waiting = waiting.map(|note| (note.wanted.channel, note.wanted.key));
         for (channel, key) in self.strings.iter().flat_map(|string| string.keys()).chain(waiting) {
             if let Some(keys) = keys.get_mut(usize::from(channel)) {
                 *keys |= 1u128.checked_shl(u32::from(key)).unwrap_or(0);
@@ -251,13 +251,13 @@ impl Performance {
     ) {
         let value = |value: f32| if value.is_finite() { f64::from(value) } else { 0.0 };
         // The latest note of the key: one that begins now, or waits for a string, before any that sounds.
-        let late = self.late.iter_mut().filter(|late| late.key_down()).map(|late| &mut late.struck);
-        let struck = self
+        let late = self.late.iter_mut().filter(|late| late.key_down()).map(|late| &mut late.note);
+        let note = self
             .chord
             .iter_mut()
             .chain(late)
             .find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
-        if let Some(Struck { manner, own, .. }) = struck {
+        if let Some(Unplaced { manner, own, .. }) = note {
             match expression {
                 Expression::Tuning(semitones) => manner.tuning = value(semitones).clamp(-WIDEST, WIDEST),
                 Expression::Pressure(pressure) => manner.pressure = pressure_factor(pressure),

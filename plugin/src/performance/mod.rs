@@ -35,7 +35,7 @@ pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedA
 pub use announced::Announced;
 use articulation::Stop;
 use channel::Channel;
-use chord::{Late, Struck};
+use chord::{Late, Unplaced};
 pub use compromises::Compromises;
 pub use control::InputMode;
 pub(crate) use control::announces_mpe;
@@ -82,7 +82,7 @@ pub struct Performance {
     touching: Touching,
     compromises: Compromises,
     /// Notes that began at `now` and are not placed yet.
-    chord: Vec<Struck>,
+    chord: Vec<Unplaced>,
     /// Notes of a chord that wait until its strings are free.
     late: Vec<Late>,
     /// Whether the next stroke back and forth goes back.
@@ -335,7 +335,7 @@ impl Performance {
         }
         // A note that has yet to come is heard nevertheless.
         for late in self.late.iter_mut().filter(|late| late.is(channel, key)) {
-            (late.releases, late.cut) = (late.struck.presses, true);
+            (late.releases, late.cut) = (late.note.presses, true);
         }
     }
 

@@ -29,8 +29,8 @@ impl Performance {
                 None => _ = own.articulation.switch(number),
             }
         }
-        for struck in &mut self.chord {
-            struck.articulation = self.channels[usize::from(struck.wanted.channel)].articulation;
+        for note in &mut self.chord {
+            note.articulation = self.channels[usize::from(note.wanted.channel)].articulation;
         }
         self.want_again();
         true

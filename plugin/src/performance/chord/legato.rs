@@ -2,7 +2,7 @@
 //! string, if it is there and near enough. Where each string has a channel, it is alone that begins alone on its
 //! string: several are hammered, pulled or slid at once as one is.
 
-use super::{Articulation, HAMMER_REACH, Placement, SLIDE_REACH, Stop, Struck};
+use super::{Articulation, HAMMER_REACH, Placement, SLIDE_REACH, Stop, Unplaced};
 use crate::performance::{GestureSink, InputMode, Performance};
 
 impl Performance {
@@ -26,7 +26,7 @@ impl Performance {
     /// Whether no other note begins with one of the chord: none on its string, where each has a channel.
     fn begins_alone(&self, index: usize) -> bool {
         let channel = self.chord[index].wanted.channel;
-        let beside = |other: &&Struck| !self.is_by_strings() || other.wanted.channel == channel;
+        let beside = |other: &&Unplaced| !self.is_by_strings() || other.wanted.channel == channel;
         self.chord.iter().filter(beside).count() == 1
     }
 

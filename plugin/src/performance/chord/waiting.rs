@@ -3,9 +3,9 @@
 use super::{Articulation, Manner, Wanted};
 use crate::performance::{GestureSink, Performance};
 
-/// A note-on waiting for the rest of its chord.
+/// A note that has no string yet: one of a chord that is not complete, or one that waits for its string.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::performance) struct Struck {
+pub(in crate::performance) struct Unplaced {
     pub wanted: Wanted,
     pub velocity: f64,
     /// Sample at which its key went down.
@@ -47,7 +47,7 @@ impl OwnPluck {
 #[derive(Debug, Clone, Copy)]
 pub(in crate::performance) struct Late {
     pub time: u64,
-    pub struck: Struck,
+    pub note: Unplaced,
     /// How often its key has gone up already.
     pub releases: u32,
     /// Whether it is to end at once, whatever the pedals say.
@@ -57,12 +57,12 @@ pub(in crate::performance) struct Late {
 impl Late {
     /// Whether its key is down.
     pub fn key_down(&self) -> bool {
-        self.releases < self.struck.presses
+        self.releases < self.note.presses
     }
 
     /// Whether it is the note of a key of a channel.
     pub fn is(&self, channel: u8, key: u8) -> bool {
-        (self.struck.wanted.channel, self.struck.wanted.key) == (channel, key)
+        (self.note.wanted.channel, self.note.wanted.key) == (channel, key)
     }
 }
 
@@ -73,7 +73,7 @@ impl Performance {
         for note in old.strings.iter().filter_map(|string| string.note_since(since)) {
             let count = self.chord.len();
             self.ask_for(note.channel, note.key, note.velocity, note.presses);
-            if let Some(Struck { manner, .. }) = self.chord.get_mut(count) {
+            if let Some(Unplaced { manner, .. }) = self.chord.get_mut(count) {
                 (manner.tuning, manner.pressure, manner.vibrato) = (note.tuning, note.pressure, note.vibrato);
             }
         }
@@ -86,10 +86,10 @@ impl Performance {
             let Some((index, &late)) = due.min_by_key(|(_, late)| late.time) else { return };
             self.late.remove(index);
             self.advance_strings(late.time.max(self.now), out);
-            let Wanted { channel, key, .. } = late.struck.wanted;
+            let Wanted { channel, key, .. } = late.note.wanted;
             // A key that was struck again since is another note, which goes on.
             let alone = !self.sounds(channel, key) && !self.awaits(channel, key);
-            self.chord.push(late.struck);
+            self.chord.push(late.note);
             self.begin_chord(out);
             if late.cut && alone {
                 self.cut(channel, key, out);
