@@ -3,7 +3,7 @@
 mod files;
 mod labels;
 mod options;
-mod playing;
+mod rendering;
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -29,7 +29,7 @@ use files::{Files, stem_paths};
 use labels::Source;
 pub use options::Tail;
 pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
-use playing::{Playing, Rendered};
+use rendering::{Rendered, Rendering};
 
 /// Renders a song.
 pub(super) fn run(arguments: &RenderArgs) -> Outcome {
@@ -60,7 +60,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
 
     let source = Source { arguments, setup: &options.setup };
     let started = Instant::now();
-    let rendered = Playing { engine, song: &song, source, files }.play()?;
+    let rendered = Rendering { engine, song: &song, source, files }.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
 }
 

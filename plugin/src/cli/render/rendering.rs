@@ -33,14 +33,14 @@ pub(super) struct Rendered {
 }
 
 /// A song on its way through the engine.
-pub(super) struct Playing<'a> {
+pub(super) struct Rendering<'a> {
     pub engine: Engine,
     pub song: &'a Song,
     pub source: Source<'a>,
     pub files: Files,
 }
 
-impl Playing<'_> {
+impl Rendering<'_> {
     /// Plays it to its end and its tail, and lets the files appear.
     pub(super) fn play(mut self) -> Result<Rendered> {
         if self.files.labels.is_some() {
