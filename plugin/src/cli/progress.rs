@@ -23,7 +23,7 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// Of a song or a scene that is so called, and has so many samples.
+    /// Of a song or a scene that is so called, and has so many samples, or as many at most.
     pub fn new(name: String, total: u64) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let style = ProgressStyle::with_template(TEMPLATE);
@@ -42,7 +42,7 @@ impl Progress {
         let elapsed = self.started.elapsed();
         if elapsed >= self.next_line {
             self.next_line += BETWEEN_LINES;
-            say("progress", &line(&self.name, done as f64 / self.total as f64, elapsed.as_secs_f64()));
+            say("progress", &line(&self.name, done, self.total, elapsed.as_secs_f64()));
         }
     }
 
@@ -54,8 +54,10 @@ impl Progress {
     }
 }
 
-/// What is done, as a part of 1, after so many seconds, and how long the rest will take.
-fn line(name: &str, part: f64, elapsed: f64) -> String {
+/// How many of so many samples are done after so many seconds, and how long the rest will take.
+fn line(name: &str, done: u64, total: u64, elapsed: f64) -> String {
+    // There may be a few more than was thought: notes that wait for strings.
+    let part = done.max(1) as f64 / total.max(done).max(1) as f64;
     let left = elapsed * (1.0 - part) / part;
     let minutes = (left / 60.0).ceil();
     format!("{name}: {:.0} %, about {minutes:.0} min to go", 100.0 * part)
@@ -72,7 +74,12 @@ mod tests {
 
     #[test]
     fn a_line_says_of_what_how_far_and_how_long() {
-        assert_eq!(line("song.mid", 0.25, 60.0), "song.mid: 25 %, about 3 min to go");
-        assert_eq!(line("song.mid", 0.99, 600.0), "song.mid: 99 %, about 1 min to go");
+        assert_eq!(line("song.mid", 250, 1000, 60.0), "song.mid: 25 %, about 3 min to go");
+        assert_eq!(line("song.mid", 990, 1000, 600.0), "song.mid: 99 %, about 1 min to go");
+        for (done, total) in [(1000, 1000), (1001, 1000), (0, 0), (512, 0)] {
+            assert_eq!(line("song.mid", done, total, 60.0), "song.mid: 100 %, about 0 min to go");
+        }
+        // That takes long, but it is a number.
+        assert_eq!(line("song.mid", 0, 1000, 60.0), "song.mid: 0 %, about 999 min to go");
     }
 }

@@ -47,13 +47,16 @@ impl Rendering<'_> {
             self.engine.record();
         }
         let rate = self.source.arguments.sample_rate;
-        let samples = (self.song.duration() * f64::from(rate)) as u64;
-        let mut progress = Progress::new(song_name(self.source.arguments), samples);
+        let samples = |seconds: f64| (seconds * f64::from(rate)).round() as u64;
+        let last = self.song.events.last().map_or(0, |event| event.time.sample(rate));
+        let tail = self.source.arguments.tail;
+        let longest = samples(tail.longest());
+        // (How long a tail by itself is nobody knows before.)
+        let mut progress = Progress::new(song_name(self.source.arguments), last + longest);
         let mut buffers = Buffers::new(self.files.stems.len(), Engine::LATENCY as usize);
         let mut peak = 0.0_f64;
         let mut events =
             self.song.events.iter().map(|event| (event.time.sample(rate), event.event)).peekable();
-        let last = self.song.events.last().map_or(0, |event| event.time.sample(rate));
         loop {
             let left = last - self.engine.now();
             let frames = self.hand_over(&mut events, left.min(BLOCK as u64));
@@ -63,10 +66,9 @@ impl Rendering<'_> {
             peak = peak.max(self.block(&mut buffers, frames as usize)?);
             progress.reach(self.engine.now());
         }
-        let samples = |seconds: f64| (seconds * f64::from(rate)).round() as u64;
-        let tail = self.source.arguments.tail;
         let mut end = self.engine.now();
         loop {
+            progress.reach(self.engine.now());
             peak = peak.max(self.engine.level());
             if self.engine.is_behind() {
                 // Notes of the last chord that wait for strings belong to the song, not to its tail.
@@ -76,7 +78,7 @@ impl Rendering<'_> {
             }
             let since = self.engine.now() - end;
             let quiet = self.engine.level() <= (QUIET * peak).max(INAUDIBLE);
-            let left = samples(tail.longest()) - since;
+            let left = longest - since;
             if left == 0 || (tail == Tail::Auto && since >= samples(SHORTEST_TAIL) && quiet) {
                 break;
             }
