@@ -15,14 +15,14 @@ pub(super) fn row_height(area: Rect, rows: usize) -> f32 {
     (area.height() / rows.max(1) as f32).min(HIGHEST)
 }
 
-/// A bar that is full to a part of it, 0 to 1, and its number to the right.
+/// A bar that is full to a part of it, 0 to 1 (more is full), and its number to the right.
 pub(super) fn paint(ui: &Ui, area: Rect, part: f32, number: &str, colour: Color32) {
     let painter = ui.painter();
     let middle = area.center().y.round();
     let right = (area.right() - NUMBER).max(area.left());
     let bar = Rect::from_min_max(pos2(area.left(), middle - 2.0), pos2(right, middle + 2.0));
     painter.rect_filled(bar, 2.0, theme::RAISED);
-    let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 };
+    let part = if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) };
     painter.rect_filled(bar.with_max_x(bar.left() + part * bar.width()), 2.0, colour);
     if area.height() >= theme::SMALL.size {
         painter.text(pos2(area.right(), middle), Align2::RIGHT_CENTER, number, theme::SMALL, theme::TEXT);

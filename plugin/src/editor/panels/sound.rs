@@ -34,11 +34,16 @@ pub fn show(ui: &mut Ui, given: &Given) {
     }
 }
 
-/// Time in which a partial of an open string falls by 60 dB, s.
+/// Time in which a partial of an open string falls by 60 dB, s: infinite where it loses nothing.
 fn ringing_time(setup: &Setup, string: usize, partial: u32) -> f64 {
     let wavenumber = PI * f64::from(partial) / setup.neck.scale_length;
     let string = &setup.string[string];
     1000_f64.ln() / (string.loss_0 + string.loss_1 * wavenumber * wavenumber)
+}
+
+/// A time as it is written beside its bar.
+fn in_words(seconds: f64) -> String {
+    if seconds.is_finite() { format!("{seconds:.1} s") } else { "endless".into() }
 }
 
 /// A row for each string: its first and its tenth partial.
@@ -55,7 +60,7 @@ fn show_times(ui: &mut Ui, area: Rect, setup: &Setup) {
             let time = ringing_time(setup, index, partial);
             let left = area.left() + bar::LEFT + column as f32 * (width + GAP);
             let place = Rect::from_min_size(pos2(left, middle - 0.5 * row), vec2(width, row));
-            bar::paint(ui, place, (time / LONGEST).sqrt() as f32, &format!("{time:.1} s"), theme::CALM);
+            bar::paint(ui, place, (time / LONGEST).sqrt() as f32, &in_words(time), theme::CALM);
         }
     }
     for (column, partial) in PARTIALS.into_iter().enumerate() {
@@ -63,5 +68,20 @@ fn show_times(ui: &mut Ui, area: Rect, setup: &Setup) {
         let text = if partial == 1 { "fundamental".to_owned() } else { format!("partial {partial}") };
         let place = pos2(left + width, area.top() - theme::TIGHT);
         ui.painter().text(place, Align2::RIGHT_BOTTOM, text, theme::SMALL, theme::SOFT_TEXT);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_loses_nothing_rings_endlessly() {
+        let mut setup = Setup::builtin("electric").expect("it is built in");
+        assert_eq!(in_words(ringing_time(&setup, 0, 1)), "8.8 s");
+        (setup.string[0].loss_0, setup.string[0].loss_1) = (0.0, 0.0);
+        assert_eq!(in_words(ringing_time(&setup, 0, 10)), "endless");
+        // As long as a time that fills its bar, or longer.
+        assert_eq!(ringing_time(&setup, 0, 1) / LONGEST, f64::INFINITY);
     }
 }
