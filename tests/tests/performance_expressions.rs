@@ -125,6 +125,35 @@ fn what_is_said_of_a_pluck_counts_at_its_sample_after_its_note_on() {
     assert_eq!(before, plain);
 }
 
+/// A host may say anything: a factor that is no number is not 0, which would silence the note.
+#[test]
+fn what_is_no_number_says_nothing() {
+    type Said = fn(f32) -> Expression;
+    let all: [Said; 7] = [
+        Expression::Tuning,
+        Expression::Pressure,
+        Expression::Brightness,
+        Expression::Vibrato,
+        Expression::PluckPlace,
+        Expression::PluckForce,
+        Expression::FingerForce,
+    ];
+    // On a stopped note: something before, at its sample, while it sounds, and on the one that is hammered over it.
+    let hammer =
+        [(0, cc(68, 127)), (0, on(57, 90)), (24_000, on(59, 90)), (48_000, off(59)), (96_000, off(57))];
+    let plain = play(&hammer);
+    for (index, said) in all.into_iter().enumerate() {
+        for amount in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            for (time, key) in [(0, 57), (12_000, 57), (24_000, 59), (36_000, 57), (36_000, 59)] {
+                let mut events = hammer.to_vec();
+                let after = events.iter().take_while(|event| event.0 <= time).count();
+                events.insert(after, (time, has(key, said(amount))));
+                assert_eq!(play(&events), plain, "expression {index} of {amount} at {time} for key {key}");
+            }
+        }
+    }
+}
+
 /// Its own share comes on top of what its channel's controllers say, in whatever order they come.
 #[test]
 fn what_is_said_of_a_pluck_adds_to_what_its_channel_says() {

@@ -249,7 +249,9 @@ impl Performance {
         expression: Expression,
         out: &mut impl GestureSink,
     ) {
-        let value = |value: f32| if value.is_finite() { f64::from(value) } else { 0.0 };
+        if !expression.amount().is_finite() {
+            return;
+        }
         // The latest note of the key: one that begins now, or waits for a string, before any that sounds.
         let late = self.late.iter_mut().filter(|late| late.key_down()).map(|late| &mut late.note);
         let note = self
@@ -259,23 +261,23 @@ impl Performance {
             .find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
         if let Some(Unplaced { manner, own, .. }) = note {
             match expression {
-                Expression::Tuning(semitones) => manner.tuning = value(semitones).clamp(-WIDEST, WIDEST),
+                Expression::Tuning(semitones) => manner.tuning = f64::from(semitones).clamp(-WIDEST, WIDEST),
                 Expression::Pressure(pressure) => manner.pressure = pressure_factor(pressure),
                 Expression::Brightness(part) => {
-                    own.brightness = (1.0 - 2.0 * value(part).clamp(0.0, 1.0)) * BRIGHTNESS_REACH;
+                    own.brightness = (1.0 - 2.0 * f64::from(part).clamp(0.0, 1.0)) * BRIGHTNESS_REACH;
                 }
-                Expression::Vibrato(depth) => manner.vibrato = value(depth).clamp(0.0, 1.0),
-                Expression::PluckPlace(metres) => own.place = value(metres),
-                Expression::PluckForce(factor) => own.force = value(factor).clamp(0.0, 100.0),
-                Expression::FingerForce(factor) => manner.pressure = value(factor).clamp(0.0, 100.0),
+                Expression::Vibrato(depth) => manner.vibrato = f64::from(depth).clamp(0.0, 1.0),
+                Expression::PluckPlace(metres) => own.place = f64::from(metres),
+                Expression::PluckForce(factor) => own.force = f64::from(factor).clamp(0.0, 100.0),
+                Expression::FingerForce(factor) => manner.pressure = f64::from(factor).clamp(0.0, 100.0),
             }
             return;
         }
         let own = match expression {
-            Expression::Tuning(semitones) => Own::Tuning(value(semitones).clamp(-WIDEST, WIDEST)),
+            Expression::Tuning(semitones) => Own::Tuning(f64::from(semitones).clamp(-WIDEST, WIDEST)),
             Expression::Pressure(pressure) => Own::Pressure(pressure_factor(pressure)),
-            Expression::FingerForce(factor) => Own::Pressure(value(factor).clamp(0.0, 100.0)),
-            Expression::Vibrato(depth) => Own::Vibrato(value(depth).clamp(0.0, 1.0)),
+            Expression::FingerForce(factor) => Own::Pressure(f64::from(factor).clamp(0.0, 100.0)),
+            Expression::Vibrato(depth) => Own::Vibrato(f64::from(depth).clamp(0.0, 1.0)),
             // It has been plucked already.
             Expression::Brightness(_) | Expression::PluckPlace(_) | Expression::PluckForce(_) => return,
         };

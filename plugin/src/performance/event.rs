@@ -123,7 +123,8 @@ pub enum StringDeed {
 
 /// What a note can have for itself. What concerns its pluck counts if it comes after its note-on and before its pluck: at the
 /// note's own sample, or while it waits for a string. What comes before the note-on, at its own sample, too, is for an earlier note
-/// of its key. A note that sounds no more, but whose key is down under another one, has it when it comes back.
+/// of its key. A note that sounds no more, but whose key is down under another one, has it when it comes back. What is no
+/// finite number says nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Expression {
     /// Its tuning, semitones.
@@ -140,4 +141,19 @@ pub enum Expression {
     PluckForce(f32),
     /// Factor of its finger's force.
     FingerForce(f32),
+}
+
+impl Expression {
+    /// How much, in its own unit.
+    pub(super) fn amount(self) -> f32 {
+        match self {
+            Self::Tuning(amount)
+            | Self::Pressure(amount)
+            | Self::Brightness(amount)
+            | Self::Vibrato(amount)
+            | Self::PluckPlace(amount)
+            | Self::PluckForce(amount)
+            | Self::FingerForce(amount) => amount,
+        }
+    }
 }
