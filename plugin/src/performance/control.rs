@@ -1,10 +1,8 @@
-//! What channels mean, and what controllers and note expressions do to the strings.
+//! What channels mean, and what controllers do to the strings.
 
-use super::channel::{Channel, Request, pressure_factor};
-use super::chord::Unplaced;
-use super::string::{Manner, Own};
-use super::technique::BRIGHTNESS_REACH;
-use super::{CHANNELS, Expression, GestureSink, Performance, PlayerEvent, seven_bits};
+use super::channel::{Channel, Request};
+use super::string::Manner;
+use super::{CHANNELS, GestureSink, Performance, PlayerEvent, seven_bits};
 
 /// What the channels of notes mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -28,8 +26,6 @@ pub enum InputMode {
 /// Semitones of a full turn of the wheel in MPE, while no other range is announced: of a note's own
 /// channel, and of the one that bends all.
 const MPE_RANGES: (f64, f64) = (48.0, 2.0);
-/// The widest tuning of a note that is taken at its word, semitones: what CLAP's hosts may ask for.
-const WIDEST: f64 = 120.0;
 /// The channel that acts on all in MPE.
 pub(super) const MANAGER: u8 = 0;
 
@@ -43,6 +39,22 @@ pub(crate) fn announces_mpe(mut events: impl Iterator<Item = PlayerEvent>) -> bo
         }
         _ => false,
     })
+}
+
+/// Of whose notes something is asked.
+#[derive(Debug, Clone, Copy)]
+struct Whose {
+    /// Those of this channel,
+    channel: u8,
+    /// or of all.
+    all: bool,
+}
+
+impl Whose {
+    /// Whether those of a channel are meant.
+    fn is(self, channel: u8) -> bool {
+        self.all || channel == self.channel
+    }
 }
 
 impl Performance {
@@ -90,93 +102,118 @@ impl Performance {
         change: impl Fn(&mut Channel) -> Request,
         out: &mut impl GestureSink,
     ) {
+        let Some((request, whose)) = self.change_channels(number, change) else { return };
+        match request {
+            Request::Capo(fret) => return self.set_capo(usize::from(fret)),
+            Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),
+            Request::ReleaseKeys | Request::Silence => self.forget_keys(whose),
+            Request::Press | Request::Swing => self.tell_keys_under(request, whose),
+            Request::LetFall => self.let_fall_under(whose),
+            Request::Reset => {
+                self.tell_keys_under(request, whose);
+                self.let_fall_under(whose);
+            }
+            _ => {}
+        }
+        for index in 0..self.strings.len() {
+            self.carry_out(request, whose, index, out);
+        }
+        if request == Request::Touch {
+            self.lay_palm(number, out);
+        }
+    }
+
+    /// Changes the state of a channel, and of those that it speaks for in MPE. Gives back what that asks of the strings, and of
+    /// whose; nothing if there is no such channel.
+    fn change_channels(
+        &mut self,
+        number: u8,
+        change: impl Fn(&mut Channel) -> Request,
+    ) -> Option<(Request, Whose)> {
         let was_mpe = self.is_mpe();
-        let Some(channel) = self.channels.get_mut(usize::from(number)) else { return };
+        let channel = self.channels.get_mut(usize::from(number))?;
         let before = channel.announced_reach();
         let request = change(channel);
         let reach = channel.announced_reach();
-        let (time, mpe) = (self.now, self.is_mpe());
+        let mpe = self.is_mpe();
         let announces = mpe && number != MANAGER && reach != before;
-        let acts_on_all = (mpe && number == MANAGER) || announces;
+        let all = (mpe && number == MANAGER) || announces;
         if announces {
             // The reach of the wheel that one member announces is that of all.
             self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.take_reach(reach));
-        } else if acts_on_all {
+        } else if all {
             // Most messages say nothing of hands: what other channels have been told stays.
             self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.hear(&change));
         }
         if mpe && !was_mpe {
             self.begin_mpe();
         }
+        Some((request, Whose { channel: number, all }))
+    }
+
+    /// All keys go up: also keyswitches, those of notes that come late, and those under the ones that sound.
+    fn forget_keys(&mut self, whose: Whose) {
+        for own in &mut self.channels {
+            own.forced = own.forced.filter(|&(_, by)| !whose.is(by));
+        }
+        self.late.retain(|late| !whose.is(late.note.wanted.channel));
+        let channel = (!whose.all).then_some(whose.channel);
+        self.strings.iter_mut().for_each(|string| string.forget_under(channel));
+    }
+
+    /// Notes whose keys are down under the ones that sound hear how they are to be played when they come back.
+    fn tell_keys_under(&mut self, request: Request, whose: Whose) {
+        let manners: [Manner; CHANNELS] = std::array::from_fn(|channel| self.manner(channel as u8));
+        let said = |own: u8| whose.is(own).then(|| manners[usize::from(own)]);
+        self.strings.iter_mut().for_each(|string| string.hear(request, said));
+    }
+
+    /// What a sostenuto pedal no longer holds of them comes back held by its key alone.
+    fn let_fall_under(&mut self, whose: Whose) {
+        let caught: [bool; CHANNELS] = std::array::from_fn(|channel| self.sostenuto(channel as u8));
+        let fallen = |own: u8| whose.is(own) && !caught[usize::from(own)];
+        self.strings.iter_mut().for_each(|string| string.let_fall_under(fallen));
+    }
+
+    /// Does to a string what is asked, if its last note is one of those that are meant.
+    fn carry_out(&mut self, request: Request, whose: Whose, index: usize, out: &mut impl GestureSink) {
+        let Some(channel) = self.strings[index].channel().filter(|&own| whose.is(own)) else { return };
+        let time = self.now;
+        let (pedal, bend, manner) = (self.pedal(channel), self.bend(channel), self.manner(channel));
+        let (articulation, caught) =
+            (self.channels[usize::from(channel)].articulation, self.sostenuto(channel));
+        let string = &mut self.strings[index];
         match request {
-            Request::Capo(fret) => return self.set_capo(usize::from(fret)),
-            Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),
-            Request::ReleaseKeys | Request::Silence => {
-                // A keyswitch is a key, too.
-                for own in &mut self.channels {
-                    own.forced = own.forced.filter(|&(_, by)| by != number && !acts_on_all);
+            Request::None | Request::Capo(_) | Request::Switches(_) => {}
+            Request::Touch => string.set_touch(time, &articulation, out),
+            Request::PedalUp if pedal => {}
+            Request::PedalUp => string.pedal_up(time, channel, out),
+            Request::Catch => string.catch(channel),
+            Request::LetFall if caught => {}
+            Request::LetFall => string.let_fall(time, channel, pedal, out),
+            Request::Bend => string.bend(time, channel, bend),
+            Request::Press => string.press(time, manner.pressure, out),
+            Request::Swing => string.swing(time, manner.vibrato),
+            Request::ReleaseKeys => string.release_channel(time, channel, pedal, out),
+            Request::Silence => string.silence(time, Some(channel)),
+            Request::Reset => {
+                // In MPE the pedals of the first channel go on holding when another one is reset.
+                if !caught {
+                    string.let_fall(time, channel, pedal, out);
                 }
-                self.late.retain(|late| late.note.wanted.channel != number && !acts_on_all);
-            }
-            _ => {}
-        }
-        if matches!(request, Request::Press | Request::Swing | Request::Reset) {
-            let manners: [Manner; CHANNELS] = std::array::from_fn(|channel| self.manner(channel as u8));
-            let said = |own: u8| (own == number || acts_on_all).then(|| manners[usize::from(own)]);
-            self.strings.iter_mut().for_each(|string| string.hear(request, said));
-        }
-        if matches!(request, Request::LetFall | Request::Reset) {
-            let caught: [bool; CHANNELS] = std::array::from_fn(|channel| self.sostenuto(channel as u8));
-            let fallen = |own: u8| (own == number || acts_on_all) && !caught[usize::from(own)];
-            self.strings.iter_mut().for_each(|string| string.let_fall_under(fallen));
-        }
-        for index in 0..self.strings.len() {
-            if matches!(request, Request::ReleaseKeys | Request::Silence) {
-                self.strings[index].forget_under((!acts_on_all).then_some(number));
-            }
-            let Some(channel) = self.strings[index].channel().filter(|&own| own == number || acts_on_all)
-            else {
-                continue;
-            };
-            let (pedal, bend, manner) = (self.pedal(channel), self.bend(channel), self.manner(channel));
-            let (articulation, caught) =
-                (self.channels[usize::from(channel)].articulation, self.sostenuto(channel));
-            let string = &mut self.strings[index];
-            match request {
-                Request::None | Request::Capo(_) | Request::Switches(_) => {}
-                Request::Touch => string.set_touch(time, &articulation, out),
-                Request::PedalUp if pedal => {}
-                Request::PedalUp => string.pedal_up(time, channel, out),
-                Request::Catch => string.catch(channel),
-                Request::LetFall if caught => {}
-                Request::LetFall => string.let_fall(time, channel, pedal, out),
-                Request::Bend => string.bend(time, channel, bend),
-                Request::Press => string.press(time, manner.pressure, out),
-                Request::Swing => string.swing(time, manner.vibrato),
-                Request::ReleaseKeys => string.release_channel(time, channel, pedal, out),
-                Request::Silence => string.silence(time, Some(channel)),
-                Request::Reset => {
-                    // In MPE the pedals of the first channel go on holding when another one is reset.
-                    if !caught {
-                        string.let_fall(time, channel, pedal, out);
-                    }
-                    if !pedal {
-                        string.pedal_up(time, channel, out);
-                    }
-                    string.bend(time, channel, bend);
-                    // A note of another channel that has come back is as that has it.
-                    if string.channel() == Some(channel) {
-                        string.press(time, manner.pressure, out);
-                        string.swing(time, manner.vibrato);
-                    }
-                    string.set_touch(time, &articulation, out);
+                if !pedal {
+                    string.pedal_up(time, channel, out);
                 }
+                string.bend(time, channel, bend);
+                // A note of another channel that has come back is as that has it.
+                if string.channel() == Some(channel) {
+                    string.press(time, manner.pressure, out);
+                    string.swing(time, manner.vibrato);
+                }
+                string.set_touch(time, &articulation, out);
             }
-            self.welcome_back(index, out);
         }
-        if matches!(request, Request::Touch) {
-            self.lay_palm(number, out);
-        }
+        self.welcome_back(index, out);
     }
 
     /// The palm of a channel waits for notes on strings where nobody plays: those of its last notes, and those that have had none.
@@ -212,80 +249,5 @@ impl Performance {
         self.hand.set_capo(fret);
         let fret = self.hand.capo();
         self.strings.iter_mut().for_each(|string| string.set_capo(fret));
-    }
-
-    /// Something changes about all notes of a channel and a key (`None`: of any).
-    pub(super) fn express_all(
-        &mut self,
-        (channel, key): (Option<u8>, Option<u8>),
-        expression: Expression,
-        out: &mut impl GestureSink,
-    ) {
-        let meant = |one: Option<u8>, own: u8| one.is_none_or(|one| one == own);
-        for (own, keys) in (0..).zip(self.keys()).filter(|&(own, _)| meant(channel, own)) {
-            let known = (0..128).filter(|&own| keys >> own & 1 == 1 && meant(key, own));
-            known.for_each(|key| self.express(own, key, expression, out));
-        }
-    }
-
-    /// The keys of each channel that notes have which sound, begin or are yet to come, a bit for each.
-    fn keys(&self) -> [u128; CHANNELS] {
-        let mut keys = [0; CHANNELS];
-        let waiting = self.chord.iter().chain(self.late.iter().map(|late| &late.note));
-        let waiting = waiting.map(|note| (note.wanted.channel, note.wanted.key));
-        for (channel, key) in self.strings.iter().flat_map(|string| string.keys()).chain(waiting) {
-            if let Some(keys) = keys.get_mut(usize::from(channel)) {
-                *keys |= 1u128.checked_shl(u32::from(key)).unwrap_or(0);
-            }
-        }
-        keys
-    }
-
-    /// Something changes about one note.
-    pub(super) fn express(
-        &mut self,
-        channel: u8,
-        key: u8,
-        expression: Expression,
-        out: &mut impl GestureSink,
-    ) {
-        if !expression.amount().is_finite() {
-            return;
-        }
-        // The latest note of the key: one that begins now, or waits for a string, before any that sounds.
-        let late = self.late.iter_mut().filter(|late| late.key_down()).map(|late| &mut late.note);
-        let note = self
-            .chord
-            .iter_mut()
-            .chain(late)
-            .find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
-        if let Some(Unplaced { manner, own, .. }) = note {
-            match expression {
-                Expression::Tuning(semitones) => manner.tuning = f64::from(semitones).clamp(-WIDEST, WIDEST),
-                Expression::Pressure(pressure) => manner.pressure = pressure_factor(pressure),
-                Expression::Brightness(part) => {
-                    own.brightness = (1.0 - 2.0 * f64::from(part).clamp(0.0, 1.0)) * BRIGHTNESS_REACH;
-                }
-                Expression::Vibrato(depth) => manner.vibrato = f64::from(depth).clamp(0.0, 1.0),
-                Expression::PluckPlace(metres) => own.place = f64::from(metres),
-                Expression::PluckForce(factor) => own.force = f64::from(factor).clamp(0.0, 100.0),
-                Expression::FingerForce(factor) => manner.pressure = f64::from(factor).clamp(0.0, 100.0),
-            }
-            return;
-        }
-        let own = match expression {
-            Expression::Tuning(semitones) => Own::Tuning(f64::from(semitones).clamp(-WIDEST, WIDEST)),
-            Expression::Pressure(pressure) => Own::Pressure(pressure_factor(pressure)),
-            Expression::FingerForce(factor) => Own::Pressure(f64::from(factor).clamp(0.0, 100.0)),
-            Expression::Vibrato(depth) => Own::Vibrato(f64::from(depth).clamp(0.0, 1.0)),
-            // It has been plucked already.
-            Expression::Brightness(_) | Expression::PluckPlace(_) | Expression::PluckForce(_) => return,
-        };
-        // Rather where the key's note sounds than where it is down under another.
-        let sounding = self.strings.iter().position(|string| string.is_of(channel, key));
-        let under = || self.strings.iter().position(|string| string.sounds(channel, key));
-        if let Some(string) = sounding.or_else(under) {
-            self.strings[string].express(self.now, (channel, key), own, out);
-        }
     }
 }

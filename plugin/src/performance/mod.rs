@@ -4,8 +4,8 @@
 //! [`low_action_dsp::TimedGesture`]s: which string and fret (`hand`), notes that begin together or take over
 //! from one another (`chord`), what fingers and plucks a note takes from its start to its silence (`string`),
 //! how hands are told to play (`articulation`, `switches`), what pedals and wheels say (`channel`) and do to
-//! it (`control`, `bend`), and how one pluck differs from the next (`variation`). Beside the gestures it tells what
-//! becomes of the notes ([`Annotation`]), for labels. There are no host types here, nothing is allocated after
+//! it (`control`, `expressions`, `bend`), and how one pluck differs from the next (`variation`). Beside the gestures it
+//! tells what becomes of the notes ([`Annotation`]), for labels. There are no host types here, nothing is allocated after
 //! construction, and the result depends only on the events and their times, not on how the time between them is cut
 //! into blocks.
 
@@ -18,6 +18,7 @@ mod chord;
 mod compromises;
 mod control;
 mod event;
+mod expressions;
 mod fingers;
 mod hand;
 mod moment;

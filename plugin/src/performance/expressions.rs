@@ -1,0 +1,87 @@
+//! What note expressions do: to notes that sound, begin or are yet to come.
+
+use super::channel::pressure_factor;
+use super::chord::Unplaced;
+use super::string::Own;
+use super::technique::BRIGHTNESS_REACH;
+use super::{CHANNELS, Expression, GestureSink, Performance};
+
+/// The widest tuning of a note that is taken at its word, semitones: what CLAP's hosts may ask for.
+const WIDEST: f64 = 120.0;
+
+impl Performance {
+    /// Something changes about all notes of a channel and a key (`None`: of any).
+    pub(super) fn express_all(
+        &mut self,
+        (channel, key): (Option<u8>, Option<u8>),
+        expression: Expression,
+        out: &mut impl GestureSink,
+    ) {
+        let meant = |one: Option<u8>, own: u8| one.is_none_or(|one| one == own);
+        for (own, keys) in (0..).zip(self.keys()).filter(|&(own, _)| meant(channel, own)) {
+            let known = (0..128).filter(|&own| keys >> own & 1 == 1 && meant(key, own));
+            known.for_each(|key| self.express(own, key, expression, out));
+        }
+    }
+
+    /// The keys of each channel that notes have which sound, begin or are yet to come, a bit for each.
+    fn keys(&self) -> [u128; CHANNELS] {
+        let mut keys = [0; CHANNELS];
+        let waiting = self.chord.iter().chain(self.late.iter().map(|late| &late.note));
+        let waiting = waiting.map(|note| (note.wanted.channel, note.wanted.key));
+        for (channel, key) in self.strings.iter().flat_map(|string| string.keys()).chain(waiting) {
+            if let Some(keys) = keys.get_mut(usize::from(channel)) {
+                *keys |= 1u128.checked_shl(u32::from(key)).unwrap_or(0);
+            }
+        }
+        keys
+    }
+
+    /// Something changes about one note.
+    pub(super) fn express(
+        &mut self,
+        channel: u8,
+        key: u8,
+        expression: Expression,
+        out: &mut impl GestureSink,
+    ) {
+        if !expression.amount().is_finite() {
+            return;
+        }
+        // The latest note of the key: one that begins now, or waits for a string, before any that sounds.
+        let late = self.late.iter_mut().filter(|late| late.key_down()).map(|late| &mut late.note);
+        let note = self
+            .chord
+            .iter_mut()
+            .chain(late)
+            .find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
+        if let Some(Unplaced { manner, own, .. }) = note {
+            match expression {
+                Expression::Tuning(semitones) => manner.tuning = f64::from(semitones).clamp(-WIDEST, WIDEST),
+                Expression::Pressure(pressure) => manner.pressure = pressure_factor(pressure),
+                Expression::Brightness(part) => {
+                    own.brightness = (1.0 - 2.0 * f64::from(part).clamp(0.0, 1.0)) * BRIGHTNESS_REACH;
+                }
+                Expression::Vibrato(depth) => manner.vibrato = f64::from(depth).clamp(0.0, 1.0),
+                Expression::PluckPlace(metres) => own.place = f64::from(metres),
+                Expression::PluckForce(factor) => own.force = f64::from(factor).clamp(0.0, 100.0),
+                Expression::FingerForce(factor) => manner.pressure = f64::from(factor).clamp(0.0, 100.0),
+            }
+            return;
+        }
+        let own = match expression {
+            Expression::Tuning(semitones) => Own::Tuning(f64::from(semitones).clamp(-WIDEST, WIDEST)),
+            Expression::Pressure(pressure) => Own::Pressure(pressure_factor(pressure)),
+            Expression::FingerForce(factor) => Own::Pressure(f64::from(factor).clamp(0.0, 100.0)),
+            Expression::Vibrato(depth) => Own::Vibrato(f64::from(depth).clamp(0.0, 1.0)),
+            // It has been plucked already.
+            Expression::Brightness(_) | Expression::PluckPlace(_) | Expression::PluckForce(_) => return,
+        };
+        // Rather where the key's note sounds than where it is down under another.
+        let sounding = self.strings.iter().position(|string| string.is_of(channel, key));
+        let under = || self.strings.iter().position(|string| string.sounds(channel, key));
+        if let Some(string) = sounding.or_else(under) {
+            self.strings[string].express(self.now, (channel, key), own, out);
+        }
+    }
+}
