@@ -1,4 +1,9 @@
-//! Files that are kept for the user.
+//! Files that are kept for the user, such as set-ups.
+//!
+//! They are short texts, written at once into a folder that may have to be made, and must outlive a power failure. What
+//! commands compute is another matter (`cli/output`): it is written as it comes, goes to standard output and devices too,
+//! can be computed again, and must vanish when the command is stopped. Both begin beside their place, by [`beside`] and
+//! [`behind_links`].
 
 use std::fs::{self, File, Permissions};
 use std::io::{self, Write};
@@ -13,19 +18,19 @@ use tempfile::NamedTempFile;
 /// # Errors
 /// When the folder cannot be made or the file not be written; what was there is left.
 pub(crate) fn put(target: &Path, text: &str) -> Result<()> {
-    Draft::write(target, text)?.appear()
+    TextDraft::write(target, text)?.appear()
 }
 
 /// A text that is on the disk beside its place, so that nobody ever reads half of it; gone when dropped.
 #[derive(Debug)]
-pub(crate) struct Draft {
+pub(crate) struct TextDraft {
     file: NamedTempFile,
     /// Where it goes, and what that is called in messages.
     place: PathBuf,
     target: PathBuf,
 }
 
-impl Draft {
+impl TextDraft {
     /// Writes a text that is to appear at a place, as [`put`] does.
     ///
     /// # Errors

@@ -124,13 +124,13 @@ impl Checked {
 pub fn install(files: &[Checked], folder: &Path) -> Result<Vec<SetupFile>> {
     let draft = |Checked { name, text }: &Checked| -> Result<_> {
         let file = SetupFile { name: name.clone(), path: place(name, folder) };
-        Ok((files::Draft::write(&file.path, text)?, file))
+        Ok((files::TextDraft::write(&file.path, text)?, file))
     };
     appear(files.iter().map(draft).collect::<Result<_>>()?)
 }
 
 /// Lets drafts appear, one after the other.
-fn appear(drafts: Vec<(files::Draft, SetupFile)>) -> Result<Vec<SetupFile>> {
+fn appear(drafts: Vec<(files::TextDraft, SetupFile)>) -> Result<Vec<SetupFile>> {
     let mut installed: Vec<SetupFile> = Vec::with_capacity(drafts.len());
     for (draft, file) in drafts {
         draft.appear().with_context(|| match installed.as_slice() {
@@ -186,7 +186,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("there is room");
         let draft = |name: &str| {
             let file = SetupFile { name: name.into(), path: place(name, folder.path()) };
-            (files::Draft::write(&file.path, "text").expect("there is room"), file)
+            (files::TextDraft::write(&file.path, "text").expect("there is room"), file)
         };
         let drafts = ["one", "two", "three", "four"].map(draft);
         // Somebody else is quicker.

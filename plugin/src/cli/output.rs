@@ -1,4 +1,5 @@
-//! Files that appear whole or not at all.
+//! Results of commands, which appear whole or not at all. (Why texts that are kept for the user have a way of their own is
+//! said in `files`.)
 
 use std::fs::{self, File};
 use std::io::{self, Seek};
