@@ -218,3 +218,19 @@ fn the_tuning_of_a_note_goes_with_it() {
     let [_, (9_700.., ratio, _)] = found[..] else { panic!("{found:?}") };
     assert!(found[1].0 < 12_000 && (ratio - 1.0).abs() < 1e-12, "{found:?}");
 }
+
+/// A wheel bends strings, and leaves them to whom it has bent them for: what the mouse plucks has no channel of its own.
+#[test]
+fn the_wheel_of_its_last_note_bends_what_is_plucked_without_a_key() {
+    let pluck =
+        |string| PlayerEvent::Touched { string, deed: StringDeed::Pluck { position: 0.5, force: 1.0 } };
+    let wheel = |channel| (100_000, PlayerEvent::PitchBend { channel, value: 0.5 });
+    // Key 64 is the first string's.
+    let bends = |channel| {
+        let note = [(0, on(64, 90)), (9_600, off(64)), (96_000, pluck(0))];
+        bent(&play(&[&note[..], &[wheel(channel)]].concat())).len()
+    };
+    assert_eq!([bends(0), bends(1)], [1, 0]);
+    // One that has had no note is bent by none.
+    assert_eq!(bent(&play(&[(0, pluck(5)), wheel(0)])), []);
+}

@@ -72,7 +72,8 @@ pub enum PlayerEvent {
         /// What.
         expression: Expression,
     },
-    /// Somebody who sees a string does something to it, without a key: no channel's pedals or wheel count.
+    /// Somebody who sees a string does something to it, without a key: no pedal holds that, and no note-off ends it. The string
+    /// stays bent by the wheel of its last note's channel, and one that has had no note by none.
     Touched {
         /// Which string, 0 for the first of the set-up; others are ignored.
         string: u8,
