@@ -119,7 +119,8 @@ impl StringPlayer {
         let Articulation { mut stroke, stop, .. } = start.articulation;
         // A finger that presses no fret has nothing to strike the string against.
         let taps = stroke == Stroke::Tap && stop == Stop::Press && start.fret > self.fingers.capo();
-        if stroke == Stroke::Tap {
+        // And a thumb beside the plectrum would take up the partial that another finger lets through.
+        if stroke == Stroke::Tap || (stroke == Stroke::Pinch && stop == Stop::Harmonic) {
             stroke = Stroke::Down;
         }
         // A light finger at a node takes up what it is to take up.
