@@ -177,9 +177,10 @@ impl Trial {
             }
             let entry = entry.expect("the ledger is open");
             balance.see(&simulation, &entry);
+            // (What is not a number leaves these as they are, and is a fault.)
             record.created = record.created.max(balance.created);
             record.open = record.open.max(balance.open);
-            if let Some(fault) = balance.fault(&simulation, &entry) {
+            if let Some(fault) = balance.fault(entry.energies.total(), simulation.output()) {
                 record.fault = Some(fault);
                 break;
             }
@@ -192,36 +193,54 @@ impl Trial {
 }
 
 /// The balance of a whole trial as it goes on.
+#[derive(Debug, Clone, Copy, Default)]
 struct Balance {
     time_step: f64,
     /// All that was put in, what was taken out again not counted off, J.
     put_in: f64,
     /// What the solver took, J.
     solver: f64,
+    /// How far energy stands above what was put in, as a part of that; below nothing where some was lost.
     created: f64,
     open: f64,
     rounding: f64,
 }
 
+/// The larger of two numbers, and not a number if either is none: `f64::max` would leave that one out.
+fn larger(one: f64, other: f64) -> f64 {
+    if one.is_nan() || one > other { one } else { other }
+}
+
 impl Balance {
     fn new(simulation: &Simulation) -> Balance {
         let put_in = simulation.ledgers().iter().map(|ledger| ledger.initial).sum();
-        let time_step = 1.0 / simulation.sample_rate();
-        Balance { time_step, put_in, solver: 0.0, created: 0.0, open: 0.0, rounding: 0.0 }
+        Balance { time_step: 1.0 / simulation.sample_rate(), put_in, ..Balance::default() }
     }
 
     fn see(&mut self, simulation: &Simulation, entry: &Entry) {
-        self.put_in += (self.time_step * entry.power_in).max(0.0);
-        self.solver += self.time_step * entry.power_solver;
+        self.flow(entry);
         let sum = |part: fn(&Ledger) -> f64| simulation.ledgers().iter().map(part).sum::<f64>();
-        let all = self.put_in.max(f64::MIN_POSITIVE);
-        self.created = (sum(|ledger| ledger.energies().total() - ledger.put_in) / all).max(0.0);
-        self.open = sum(|ledger| ledger.residual_sum).abs() / all;
-        self.rounding = sum(|ledger| ledger.rounding) / all;
+        let above = sum(|ledger| ledger.energies().total() - ledger.put_in);
+        self.weigh(above, sum(|ledger| ledger.residual_sum), sum(|ledger| ledger.rounding));
     }
 
-    fn fault(&self, simulation: &Simulation, entry: &Entry) -> Option<Fault> {
-        if !(entry.energies.total().is_finite() && simulation.output().is_finite()) {
+    /// What flows in a sample.
+    fn flow(&mut self, entry: &Entry) {
+        self.put_in += larger(self.time_step * entry.power_in, 0.0);
+        self.solver += self.time_step * entry.power_solver;
+    }
+
+    /// Compares with all that was put in: the energy above that, what the balance does not explain, and what its last digits
+    /// are worth, J.
+    fn weigh(&mut self, above: f64, residual: f64, rounding: f64) {
+        let all = larger(self.put_in, f64::MIN_POSITIVE);
+        self.created = above / all;
+        self.open = residual.abs() / all;
+        self.rounding = rounding / all;
+    }
+
+    fn fault(&self, total: f64, output: f64) -> Option<Fault> {
+        if !(total.is_finite() && output.is_finite() && self.put_in.is_finite()) {
             return Some(Fault::NotFinite);
         }
         let allowed = TOLERANCE + self.rounding;
@@ -232,5 +251,55 @@ impl Balance {
             (true, false) => Some(Fault::Open(self.open)),
             (true, true) => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A balance into which a joule has flown, and then a sample of so many watts.
+    fn balance(power_in: f64) -> Balance {
+        let mut balance = Balance { time_step: 1e-4, put_in: 1.0, ..Balance::default() };
+        balance.flow(&Entry { power_in, ..Entry::default() });
+        balance
+    }
+
+    #[test]
+    fn what_is_taken_out_is_not_counted_off() {
+        assert_eq!(balance(100.0).put_in, 1.01);
+        assert_eq!(balance(-100.0).put_in, 1.0);
+    }
+
+    #[test]
+    fn energy_above_what_was_put_in_and_an_open_balance_are_faults() {
+        let fault = |above, residual, rounding| {
+            let mut balance = balance(0.0);
+            balance.weigh(above, residual, rounding);
+            balance.fault(1.0, 0.0)
+        };
+        assert_eq!(fault(-0.5, 0.0, 0.0), None);
+        assert_eq!(fault(0.9e-9, -0.9e-9, 0.0), None);
+        assert_eq!(fault(2e-9, 0.0, 0.0), Some(Fault::Created(2e-9)));
+        assert_eq!(fault(-0.5, -2e-9, 0.0), Some(Fault::Open(2e-9)));
+        assert_eq!(fault(2e-9, -2e-9, 2e-9), None);
+    }
+
+    /// Wherever it comes from.
+    #[test]
+    fn what_is_not_a_number_is_a_fault() {
+        for (power, above, residual, rounding) in [
+            (f64::NAN, 0.0, 0.0, 0.0),
+            (f64::INFINITY, 0.0, 0.0, 0.0),
+            (0.0, f64::NAN, 0.0, 0.0),
+            (0.0, 0.0, f64::NAN, 0.0),
+            (0.0, 0.0, 0.0, f64::NAN),
+        ] {
+            let mut balance = balance(power);
+            balance.weigh(above, residual, rounding);
+            assert!(balance.fault(1.0, 0.0).is_some(), "{power} W, {above} J, {residual} J, {rounding} J");
+        }
+        assert_eq!(balance(0.0).fault(f64::NAN, 0.0), Some(Fault::NotFinite));
+        assert_eq!(balance(0.0).fault(1.0, f64::NAN), Some(Fault::NotFinite));
     }
 }
