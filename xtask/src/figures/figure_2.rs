@@ -13,7 +13,7 @@ use super::running::{Repository, ground, listen, run, shortened};
 /// The scene.
 pub const SCENE: &str = "scenes/paper/figure_2.toml";
 
-/// Moments shown, ms after the string is let go: one period of 12.2 ms, closer together where it hits.
+/// Moments shown, ms after the string is let go: a period of the scene's string, closer together where it hits.
 const MOMENTS: [f64; 8] = [0.0, 2.0, 4.0, 5.0, 6.0, 7.0, 9.0, 12.0];
 
 /// What a run came to.
@@ -26,7 +26,7 @@ struct Outcome {
     /// Frets that were hit, from 1, and the hardest blow, N.
     frets: Vec<usize>,
     hardest: f64,
-    /// Highest |u| anywhere in each period of 12.2 ms, mm.
+    /// Highest |u| anywhere in each period, mm.
     swings: Vec<f64>,
 }
 
@@ -217,10 +217,12 @@ fn section(scene: &Scene, weak: &Outcome, strong: &Outcome) -> Result<Section> {
         .claims(claims)
         .text(&format!(
             "**Nearest set-up at which dispersion lowers the swing**: a string let go from rest. In the triangle in which \
-             1 N would hold it, all partials start at their largest, so nothing later can be higher under the pluck; \
-             periods 11 to 20 reach {} % of the first. A pluck of 5 ms lets go of a moving string, whose partials \
+             {} N would hold it, all partials start at their largest, so nothing later can be higher under the pluck; \
+             periods 11 to 20 reach {} % of the first. A pluck of {} ms lets go of a moving string, whose partials \
              dispersion may also bring together.",
-            significant(100.0 * fall(&pulled), 3)
+            significant(force, 3),
+            significant(100.0 * fall(&pulled), 3),
+            1e3 * scene.pluck[0].duration,
         )))
 }
 

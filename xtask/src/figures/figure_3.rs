@@ -12,7 +12,7 @@ use low_action_figures::{Axis, Course, Layer, Panel, Sheet, Stroke};
 use super::Made;
 use super::figure_2::SCENE;
 use super::page::{Claim, Section};
-use super::running::{Repository, listen, run, shortened};
+use super::running::{Repository, ground, listen, run, shortened};
 
 /// Length of the runs, s: 8820 steps. The deepest contacts come in the first periods.
 const DURATION: f64 = 0.1;
@@ -95,18 +95,23 @@ fn observe(scene: &Scene, stiffness: f64, exponent: f64) -> Result<Outcome> {
 /// Draws it, and measures what the paper says about it.
 pub fn make(repository: &Repository) -> Result<Made> {
     let scene = repository.scene(SCENE)?;
-    let exponent = scene.fretboard.as_ref().context("the scene needs a fretboard")?.exponent;
+    let exponent = exponent(&scene)?;
     let outcomes: Vec<_> = STIFFNESSES
         .map(|power| observe(&scene, libm::exp10(f64::from(power)), exponent))
         .collect::<Result<_>>()?;
-    let picture = draw(&scene, &outcomes)?;
+    let picture = draw(&scene, exponent, &outcomes)?;
     let mut soft = with_law(&scene, 1e9, exponent)?;
     soft.duration = scene.duration;
     let sounds = vec![listen("paper_figure_3_soft_frets", &soft)?];
     Ok(Made { picture, section: Some(section(&scene, &outcomes)?), sounds })
 }
 
-fn draw(scene: &Scene, outcomes: &[Outcome]) -> Result<String> {
+/// The exponent of the scene's frets.
+fn exponent(scene: &Scene) -> Result<f64> {
+    Ok(scene.fretboard.as_ref().context("the scene needs a fretboard")?.exponent)
+}
+
+fn draw(scene: &Scene, exponent: f64, outcomes: &[Outcome]) -> Result<String> {
     let step = 1e3 / scene.sample_rate;
     let time = || Axis::linear("time, ms", 0.0..1e3 * DURATION);
     let mut courses = Panel::new(
@@ -123,7 +128,8 @@ fn draw(scene: &Scene, outcomes: &[Outcome]) -> Result<String> {
     }
     let said = Stroke::new(colour::VERMILION).dashed();
     courses = courses.with(Layer::line("the paper’s limit", said, vec![(0.0, SAID), (1e3 * DURATION, SAID)]));
-    let stiffness = || Axis::log("stiffness K, N/m^2.3", 4e8..2.5e20).ticks(12);
+    let stiffness =
+        || Axis::log(format!("stiffness K, N/m^{}", significant(exponent, 3)), 4e8..2.5e20).ticks(12);
     let points = |of: &dyn Fn(&Outcome) -> f64| outcomes.iter().map(|o| (o.stiffness, of(o))).collect();
     let depth = |outcome: &Outcome| outcome.depth.largest();
     let deepest =
@@ -203,12 +209,19 @@ fn section(scene: &Scene, outcomes: &[Outcome]) -> Result<Section> {
     ];
     let grid = low_action_dsp::Simulation::new(scene)?.string(0).model.grid;
     let mass = scene.string[0].linear_density * grid.spacing;
+    let depth_of_crowns = -ground(scene)?.crowns.first().context("the scene needs frets")?.1;
+    // Of the energy, K η^(α+1)/(α+1).
+    let exponent = exponent(scene)?;
+    let power = exponent + 1.0;
+    let [alpha, beyond] = [exponent, power].map(|number| significant(number, 3));
     let (linear, faster) =
         (observe(scene, 1e15, 1.0)?, Scene { sample_rate: 4.0 * scene.sample_rate, ..scene.clone() });
     let finer = observe(&faster, 1e15, 1.0)?;
     let steepest = linear.law.stiffness();
-    let table: Vec<_> =
-        [2.3, 2.0, 1.5, 1.3, 1.0].into_iter().map(|exponent| row(scene, exponent)).collect::<Result<_>>()?;
+    let table: Vec<_> = [exponent, 2.0, 1.5, 1.3, 1.0]
+        .into_iter()
+        .map(|exponent| row(scene, exponent))
+        .collect::<Result<_>>()?;
     Ok(Section::new("Figure 3: spurious penetration")
         .text(&format!(
             "Scene: [`figure_2.toml`](../{SCENE}) with `stiffness` from 1e9 to 1e20, the first {} s.",
@@ -217,12 +230,13 @@ fn section(scene: &Scene, outcomes: &[Outcome]) -> Result<Section> {
         .picture("Penetration over time for four stiffnesses, the deepest over stiffness, and iterations over stiffness")
         .claims(claims)
         .text(&format!(
-            "What is measured is {} % of the 1.2 mm between string and crowns, and nothing that could be seen or heard. \
+            "What is measured is {} % of the {} mm between string and crowns, and nothing that could be seen or heard. \
              But **10⁻⁹ m it cannot be**: a grid point of the string, mass ρh = {} mg, that comes at 1 m/s and is \
-             stopped by a spring of K = 10¹⁵ and α = 2.3 sinks in until ½ρhv² = Kη^3.3/3.3, which is at η = {} m.",
-            significant(100.0 * said.depth.largest() / 1.2e-3, 1),
+             stopped by a spring of K = 10¹⁵ and α = {alpha} sinks in until ½ρhv² = Kη^{beyond}/{beyond}, which is at η = {} m.",
+            significant(1e5 * said.depth.largest() / depth_of_crowns, 1),
+            significant(depth_of_crowns, 3),
             significant(1e6 * mass, 2),
-            significant(libm::pow(0.5 * mass * 3.3 / said.stiffness, 1.0 / 3.3), 2)
+            significant(libm::pow(0.5 * mass * power / said.stiffness, 1.0 / power), 2)
         ))
         .text(&format!(
             "**Nearest set-up at which it holds.** No wall of the engine grows steeper than doubles can tell \

@@ -61,22 +61,21 @@ fn observe(scene: &Scene, cap: usize) -> Result<Run> {
 
 /// Draws it, and measures what the paper says about it.
 pub fn make(repository: &Repository) -> Result<Made> {
+    let scenes: Vec<_> = SCENES.iter().map(|(_, path, ..)| repository.scene(path)).collect::<Result<_>>()?;
     let (mut runs, mut coarse) = (Vec::new(), Vec::new());
-    for (_, path, duration, _) in SCENES {
-        let mut scene = shortened(&repository.scene(path)?, duration);
-        let tolerance = std::mem::replace(&mut scene.solver.tolerance, COARSE);
-        coarse.push(observe(&scene, CAPS[CAPS.len() - 1])?.mean);
-        scene.solver.tolerance = tolerance;
+    for (scene, (_, _, duration, _)) in scenes.iter().zip(SCENES) {
+        let mut scene = shortened(scene, duration);
         runs.push(CAPS.iter().map(|cap| observe(&scene, *cap)).collect::<Result<Vec<_>>>()?);
+        scene.solver.tolerance = COARSE;
+        coarse.push(observe(&scene, CAPS[CAPS.len() - 1])?.mean);
     }
-    let slide = repository.scene(SCENES[2].1)?;
-    let mut capped = slide.clone();
+    let mut capped = scenes[2].clone();
     capped.solver.max_iterations = 4;
     let sounds = vec![listen("paper_iterations_cap_4", &capped)?];
-    Ok(Made { picture: draw(&slide, &runs)?, section: Some(section(&runs, &coarse)), sounds })
+    Ok(Made { picture: draw(&scenes, &runs)?, section: Some(section(&scenes, &runs, &coarse)), sounds })
 }
 
-fn draw(scene: &Scene, runs: &[Vec<Run>]) -> Result<String> {
+fn draw(scenes: &[Scene], runs: &[Vec<Run>]) -> Result<String> {
     // One place for each cap: they are not evenly apart.
     let caps = || Axis::linear("cap on the iterations", -0.3..CAPS.len() as f64 - 0.7).named(names());
     let mut fallback =
@@ -96,10 +95,11 @@ fn draw(scene: &Scene, runs: &[Vec<Run>]) -> Result<String> {
         taken = taken.with(Layer::line(name, stroke, part.clone())).with(Layer::dots("", stroke, part));
     }
     let caption = format!(
-        "The scenes of Figures 2 (1 N, {} s), 4 ({} s) and 6 with other caps. Of the last: {}",
+        "The scenes of Figures 2 ({} N, {} s), 4 ({} s) and 6 with other caps. Of the last: {}",
+        significant(scenes[0].pluck[0].force, 3),
         SCENES[0].2,
         SCENES[1].2,
-        describe(scene)
+        describe(&scenes[2])
     );
     Sheet::new("What iterations buy", caption).row(1300, vec![fallback, taken]).draw()
 }
@@ -108,7 +108,7 @@ fn names() -> Vec<String> {
     CAPS.iter().map(usize::to_string).collect()
 }
 
-fn section(runs: &[Vec<Run>], coarse: &[f64]) -> Section {
+fn section(scenes: &[Scene], runs: &[Vec<Run>], coarse: &[f64]) -> Section {
     let full = || runs.iter().filter_map(|runs| runs.last());
     let most = full().map(|run| run.most).max().unwrap_or(0);
     let (fallbacks, contacts) = full().fold((0, 0), |sum, run| (sum.0 + run.fallbacks, sum.1 + run.contacts));
@@ -118,6 +118,8 @@ fn section(runs: &[Vec<Run>], coarse: &[f64]) -> Section {
         each.map(of).collect::<Vec<_>>().join(", ")
     };
     let at_20 = runs.iter().filter_map(|runs| runs.iter().find(|run| run.cap == 20));
+    let mut fine: Vec<_> = scenes.iter().map(|scene| significant(scene.solver.tolerance, 1)).collect();
+    fine.dedup();
     let same = at_20.zip(full()).all(|(one, other)| one.taken == other.taken);
     let claims = vec![
         Claim::ours(
@@ -153,7 +155,7 @@ fn section(runs: &[Vec<Run>], coarse: &[f64]) -> Section {
             listed(&|run| significant(100.0 * run.taken, 2), 8),
             listed(&|run| significant(100.0 * run.taken, 2), 4),
             significant(COARSE, 1),
-            significant(1e-15, 1),
+            fine.join(", "),
             coarse.iter().map(|mean| significant(*mean, 2)).collect::<Vec<_>>().join(", "),
             listed(&|run| significant(run.mean, 2), 50)
         ));

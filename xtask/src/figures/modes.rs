@@ -16,7 +16,7 @@ pub struct Partial {
     pub t60: f64,
 }
 
-/// Lets one string of a scene go in the sum of the shapes of its partials 1 to `count`, for so many samples,
+/// Lets one string of a scene go in the sum of the shapes of its partials of these numbers, for so many samples,
 /// and reads every one of them by its own shape: on the grid as between the ends the partials are sines, and
 /// they do not mix while nothing touches the string and it is not stretched.
 pub fn partials(scene: &Scene, string: usize, numbers: &[usize], samples: usize) -> Result<Vec<Partial>> {
