@@ -105,15 +105,15 @@ pub fn cc(number: u8, value: u8) -> PlayerEvent {
 }
 
 /// Amplitude of one frequency (Hz) in a sound under a Hann window: 1 for a sine of amplitude 1.
-pub fn amplitude(sound: &[f32], rate: f64, frequency: f64) -> f64 {
+pub fn amplitude<T: Copy + Into<f64>>(sound: &[T], rate: f64, frequency: f64) -> f64 {
     let count = sound.len() as f64;
     let turn = std::f64::consts::TAU;
     let (mut re, mut im) = (0.0, 0.0);
     for (n, &sample) in sound.iter().enumerate() {
         let hann = 1.0 - (turn * (n as f64 + 0.5) / count).cos();
         let phase = turn * frequency * n as f64 / rate;
-        re += hann * f64::from(sample) * phase.cos();
-        im -= hann * f64::from(sample) * phase.sin();
+        re += hann * sample.into() * phase.cos();
+        im -= hann * sample.into() * phase.sin();
     }
     2.0 * re.hypot(im) / count
 }

@@ -1,9 +1,10 @@
 //! Promise: a lossy fretboard takes from a string that strikes it what its law says and books just that, never pulls,
 //! and leaves a string that rests pressed on a fret alone; one that says nothing of damping has none.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use low_action_dsp::{Scene, Simulation};
+use low_action_tests::stage::amplitude;
 
 const RATE: f64 = 88_200.0;
 
@@ -146,17 +147,10 @@ fn pressed(damping: f64) -> Pressed {
             }
         }
     }
-    // Its size in a fifth of a second from some time on, under a window that shuts out the others.
+    // Its size in a fifth of a second from some time on.
     let partial = |from: f64| {
         let part = &heard[(from * rate) as usize..][..(0.2 * rate) as usize];
-        let (mut cosine, mut sine) = (0.0, 0.0);
-        for (n, velocity) in part.iter().enumerate() {
-            let window = 1.0 - (2.0 * PI * n as f64 / part.len() as f64).cos();
-            let (s, c) = (first_partial() / rate * n as f64).sin_cos();
-            cosine += window * velocity * c;
-            sine += window * velocity * s;
-        }
-        cosine.hypot(sine)
+        amplitude(part, rate, first_partial() / TAU)
     };
     Pressed { decay: (partial(3.1) / partial(4.6)).ln() / 1.5, force, depth, least_force }
 }

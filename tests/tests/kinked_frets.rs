@@ -1,10 +1,9 @@
 //! Promise: a string bends round a kinked fret as if its grid had room for that: what is stopped there rings as long as on a
 //! fine grid, and what strikes it is met by the force of two strings pulled along.
 
-use std::f64::consts::PI;
-
 use low_action_dsp::{Scene, Simulation};
 use low_action_tests::numbers::largest;
+use low_action_tests::stage::amplitude;
 
 /// A thin steel string, without bending so that what its grid lacks is all there is.
 const LENGTH: f64 = 0.65;
@@ -51,18 +50,9 @@ fn decay(placement: &str, (cell, part): (f64, f64)) -> f64 {
         heard.push(simulation.output());
     }
     let frequency = 0.5 * (TENSION / DENSITY).sqrt() / (LENGTH - fret);
-    // Its size in 0.3 s from some time on, under a window that shuts out the others.
-    let partial = |from: f64| {
-        let part = &heard[(from * rate) as usize..][..(0.3 * rate) as usize];
-        let (mut cosine, mut sine) = (0.0, 0.0);
-        for (n, velocity) in part.iter().enumerate() {
-            let window = 1.0 - (2.0 * PI * n as f64 / part.len() as f64).cos();
-            let (s, c) = (2.0 * PI * frequency / rate * n as f64).sin_cos();
-            cosine += window * velocity * c;
-            sine += window * velocity * s;
-        }
-        cosine.hypot(sine)
-    };
+    // Its size in 0.3 s from some time on.
+    let partial =
+        |from: f64| amplitude(&heard[(from * rate) as usize..][..(0.3 * rate) as usize], rate, frequency);
     (partial(0.6) / partial(1.8)).ln() / 1.2
 }
 
