@@ -96,19 +96,24 @@ fn what_has_touched_a_string_lightly_is_off_it_at_the_next_note() {
         let sound = &Stage::alone("electric", 2).play(events, start + 0.3).strings[0];
         decibels(amplitude(&sound[at(start + 0.1)..], RATE, hertz(55.0)))
     };
-    // A palm that is lifted as the note begins, or just before, on a string that has just been played.
+    // A palm that is lifted as the note begins, or just before, on a string that has just been played. Without one some of the note
+    // before rings on, a second old and stilled by 8 dB; under one it has gone. That is 0.73 dB here.
     let again = level(&[(0.0, on(55, 90)), (1.0, on(55, 90))], 1.0);
     for wait in [0.0, 0.02] {
         let events = [(0.0, cc(20, 127)), (0.0, on(55, 90)), (1.0 - wait, cc(20, 0)), (1.0, on(55, 90))];
         let lifted = level(&events, 1.0);
-        assert!((lifted - again).abs() < 1.5, "{lifted} dB, {again} dB without a palm");
+        assert!((lifted - again).abs() < 1.0, "{lifted} dB, {again} dB without a palm");
     }
-    // The finger of a harmonic, which leaves its node after 0.12 s.
+    // The finger of a harmonic, which leaves its node after 0.12 s. The note before, at velocity 30, has 0.19 of
+    // the force, and stilled by 8 dB 0.08 of the sound, which is 0.65 dB either way (0.35 here).
     for wait in [0.1, 0.13, 0.16] {
         let events = [(0.0, cc(23, 1)), (0.0, on(67, 30)), (wait, cc(23, 0)), (wait, on(55, 90))];
         let after = level(&events, wait);
         let again = level(&[(0.0, on(55, 30)), (wait, on(55, 90))], wait);
-        assert!((after - again).abs() < 1.5, "{after} dB {wait} s after a harmonic, {again} dB after a note");
+        assert!(
+            (after - again).abs() < 0.65,
+            "{after} dB {wait} s after a harmonic, {again} dB after a note"
+        );
     }
 }
 
@@ -119,10 +124,12 @@ fn the_palm_shortens_notes_tenfold() {
         let pitch = fundamental(&mut stage, open);
         let mut last = t60(&stage.play(&[(0.0, on(open, 100))], 2.0).strings[0], pitch, [0.1, 1.8]);
         let plain = last;
+        // The palm's loss grows 1.7 times from 32 to 64 and 2.8 times to 127 (eight times over the whole range), and as long as it
+        // is under what takes most out of the string, the string's does with it: a note lasts 0.59 times as long or less.
         for pressure in [32, 64, 127] {
             let played = stage.play(&[(0.0, cc(20, pressure)), (0.0, on(open, 100))], 1.0);
             let time = t60(&played.strings[0], pitch, [0.03, 0.13]);
-            assert!(time < 0.8 * last, "{setup} {string} at {pressure}: {time} s after {last} s");
+            assert!(time < 0.6 * last, "{setup} {string} at {pressure}: {time} s after {last} s");
             last = time;
         }
         assert!(last < 0.1 * plain, "{setup} {string}: {last} s of {plain} s");
