@@ -1,6 +1,7 @@
 //! A player's hands alone: what they do to the strings of an instrument, with nothing that sounds.
 
-use low_action::performance::{Performance, PlayedString, PlayerEvent, Style};
+use low_action::controls::Touching;
+use low_action::performance::{InputMode, Performance, PlayedString, PlayerEvent, Style};
 use low_action_dsp::{FINGERS_PER_STRING, Gesture, Instrument, Quality, Setup, TimedGesture};
 
 /// Hz.
@@ -32,6 +33,34 @@ impl Neck {
     pub fn player(&self, style: Style) -> Performance {
         Performance::new(self.strings.clone(), &self.setup.player, style, RATE)
     }
+
+    /// What hands that act so make of events (samples), with channels taken in a mode.
+    pub fn told(
+        &self,
+        input: InputMode,
+        touching: &Touching,
+        events: &[(u64, PlayerEvent)],
+    ) -> Vec<TimedGesture> {
+        let mut player = self.player(EXACT);
+        player.set_input(input);
+        player.touch(0, touching, &mut Vec::new());
+        play(&mut player, events)
+    }
+}
+
+/// A key goes down on a channel, 0 to 15.
+pub fn note(channel: u8, key: u8) -> PlayerEvent {
+    PlayerEvent::NoteOn { channel, key, velocity: 0.8 }
+}
+
+/// A controller of a channel, 0 to 127.
+pub fn control(channel: u8, number: u8, value: u8) -> PlayerEvent {
+    PlayerEvent::Controller { channel, number, value: f32::from(value) / 127.0 }
+}
+
+/// The wheel of a channel, −1 to 1.
+pub fn wheel(channel: u8, value: f32) -> PlayerEvent {
+    PlayerEvent::PitchBend { channel, value }
 }
 
 /// What a player knows of the strings of an instrument that is built from a set-up.

@@ -6,39 +6,20 @@ use std::sync::LazyLock;
 use low_action::controls::Touching;
 use low_action::performance::{Expression, InputMode, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, play};
+use low_action_tests::hands::{EXACT, Neck, control, note, play, wheel};
 use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 /// A barre at the sixth fret.
 const BARRE: [u8; 6] = [46, 53, 58, 61, 65, 70];
 
-fn note(channel: u8, key: u8) -> PlayerEvent {
-    PlayerEvent::NoteOn { channel, key, velocity: 0.8 }
-}
-
-fn control(channel: u8, number: u8, value: u8) -> PlayerEvent {
-    PlayerEvent::Controller { channel, number, value: f32::from(value) / 127.0 }
-}
-
-fn wheel(channel: u8, value: f32) -> PlayerEvent {
-    PlayerEvent::PitchBend { channel, value }
-}
-
 /// What hands make of events, each with its sample.
-fn hands(input: InputMode, touching: Touching, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
-    let mut player = GUITAR.player(EXACT);
-    player.set_input(input);
-    player.touch(0, &touching, &mut Vec::new());
-    play(&mut player, events)
-}
-
 fn mpe(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
-    hands(InputMode::Mpe, Touching::default(), events)
+    GUITAR.told(InputMode::Mpe, &Touching::default(), events)
 }
 
 fn keyboard(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
-    hands(InputMode::Keyboard, Touching::default(), events)
+    GUITAR.told(InputMode::Keyboard, &Touching::default(), events)
 }
 
 /// (time, string, force) of the plucks.
@@ -137,7 +118,7 @@ fn a_keyswitch_counts_for_the_notes_of_its_sample_whichever_comes_first() {
     let touching = Touching { keyswitches: Some(12), ..Touching::default() };
     let hands = |events: &[PlayerEvent]| {
         let events: Vec<_> = events.iter().map(|&event| (0, event)).collect();
-        hands(InputMode::Keyboard, touching, &events)
+        GUITAR.told(InputMode::Keyboard, &touching, &events)
     };
     // A harmonic, back to plain, and a string.
     let [harmonic, plain, third] = [on(20, 90), on(12, 90), on(26, 90)];
@@ -152,7 +133,7 @@ fn a_string_that_one_channel_asks_for_is_no_other_channels() {
     let touching = Touching { keyswitches: Some(12), ..Touching::default() };
     let strings = |input, events: &[PlayerEvent]| {
         let events: Vec<_> = events.iter().map(|&event| (0, event)).collect();
-        let found = plucks(&hands(input, touching, &events));
+        let found = plucks(&GUITAR.told(input, &touching, &events));
         found.iter().map(|pluck| pluck.1).collect::<Vec<_>>()
     };
     // Strings 3 and 5, of which each channel has its own.
@@ -187,7 +168,10 @@ fn a_string_asked_for_by_a_key_is_not_asked_for_after_everything_has_stopped() {
     let chord = [57, 60, 64].map(|key| (48_000, on(key, 90)));
     let after: Vec<_> = stopped.into_iter().chain(chord).collect();
     let strings = |events: &[(u64, PlayerEvent)]| {
-        plucks(&hands(InputMode::Keyboard, touching, events)).iter().map(|pluck| pluck.1).collect::<Vec<_>>()
+        plucks(&GUITAR.told(InputMode::Keyboard, &touching, events))
+            .iter()
+            .map(|pluck| pluck.1)
+            .collect::<Vec<_>>()
     };
     assert_eq!(strings(&after), strings(&chord));
 }
@@ -206,7 +190,7 @@ fn a_note_that_comes_back_is_as_its_own_channel_has_it() {
     let connected = Touching { legato: true, ..Touching::default() };
     // The wheel of vibrato is still up.
     let events = [(0, cc(1, 127)), (0, on(55, 90)), (24_000, on(57, 90)), (48_000, off(57))];
-    let swings = bends(&hands(InputMode::Keyboard, connected, &events));
+    let swings = bends(&GUITAR.told(InputMode::Keyboard, &connected, &events));
     assert!(swings.iter().filter(|bend| bend.0 > 60_000).count() > 20, "it swings on");
     // The wheel that was turned was the other note's.
     let turned = 1.0 / 48.0;
@@ -216,12 +200,12 @@ fn a_note_that_comes_back_is_as_its_own_channel_has_it() {
         (30_000, wheel(2, turned)),
         (48_000, PlayerEvent::NoteOff { channel: 2, key: 57 }),
     ];
-    let last = *bends(&hands(InputMode::Mpe, connected, &events)).last().expect("it was bent");
+    let last = *bends(&GUITAR.told(InputMode::Mpe, &connected, &events)).last().expect("it was bent");
     assert!(last.0 >= 48_000 && (last.1 - 1.0).abs() < 1e-9, "{last:?}");
     // A note has its own tuning back.
     let tuned = PlayerEvent::Note { channel: 0, key: 55, expression: Expression::Tuning(0.5) };
     let events = [(0, on(55, 90)), (4800, tuned), (24_000, on(57, 90)), (48_000, off(57))];
-    let tunings = bends(&hands(InputMode::Keyboard, connected, &events));
+    let tunings = bends(&GUITAR.told(InputMode::Keyboard, &connected, &events));
     let [first, straight, back] = tunings[..] else { panic!("{tunings:?}") };
     assert!(first.1 > 1.0 && (straight.1 - 1.0).abs() < 1e-9 && back.0 >= 48_000, "{tunings:?}");
 }
@@ -260,7 +244,7 @@ fn a_strum_goes_no_farther_than_silence() {
 
 /// Samples and strings of the plucks, every pluck exactly alike.
 fn strummed_by(input: InputMode, events: &[(u64, PlayerEvent)]) -> Vec<(u64, usize)> {
-    let found = plucks(&hands(input, Touching::new(0.0, 2.0), events));
+    let found = plucks(&GUITAR.told(input, &Touching::new(0.0, 2.0), events));
     found.iter().map(|pluck| (pluck.0, pluck.1)).collect()
 }
 
@@ -311,7 +295,7 @@ fn letting_go_of_all_keys_lets_go_of_keyswitches() {
         let asked = (0, on(SWITCH, 90));
         let all: Vec<_> =
             [asked].into_iter().chain(between.iter().copied()).chain([(4_800, on(52, 90))]).collect();
-        plucks(&hands(InputMode::Keyboard, touching, &all))[0].1
+        plucks(&GUITAR.told(InputMode::Keyboard, &touching, &all))[0].1
     };
     let asked = string_of(&[]);
     let free = string_of(&[(100, off(SWITCH))]);

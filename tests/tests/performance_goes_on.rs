@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use low_action::performance::{Expression, Performance, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, play};
+use low_action_tests::hands::{EXACT, Neck, play, wheel};
 use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
@@ -14,10 +14,6 @@ static BASS: LazyLock<Neck> = LazyLock::new(|| Neck::of("bass"));
 /// A registered parameter, of the first channel.
 fn registered(number: u8, value: u8) -> [(u64, PlayerEvent); 3] {
     [(0, cc(101, 0)), (0, cc(100, number)), (0, cc(6, value))]
-}
-
-fn wheel(channel: u8, value: f32) -> PlayerEvent {
-    PlayerEvent::PitchBend { channel, value }
 }
 
 /// The largest ratio of tensions asked for, and the last place that a finger slides to.

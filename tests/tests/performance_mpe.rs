@@ -6,32 +6,13 @@ use std::sync::LazyLock;
 use low_action::controls::Touching;
 use low_action::performance::{InputMode, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, play};
+use low_action_tests::hands::{EXACT, Neck, control, note, play, wheel};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 
-fn note(channel: u8, key: u8) -> PlayerEvent {
-    PlayerEvent::NoteOn { channel, key, velocity: 0.8 }
-}
-
-fn control(channel: u8, number: u8, value: u8) -> PlayerEvent {
-    PlayerEvent::Controller { channel, number, value: f32::from(value) / 127.0 }
-}
-
-fn wheel(channel: u8, value: f32) -> PlayerEvent {
-    PlayerEvent::PitchBend { channel, value }
-}
-
 /// What hands make of events, each with its sample.
-fn hands(input: InputMode, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
-    let mut player = GUITAR.player(EXACT);
-    player.set_input(input);
-    player.touch(0, &Touching::default(), &mut Vec::new());
-    play(&mut player, events)
-}
-
 fn mpe(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
-    hands(InputMode::Mpe, events)
+    GUITAR.told(InputMode::Mpe, &Touching::default(), events)
 }
 
 /// Times of the plucks.
@@ -96,7 +77,9 @@ fn what_the_first_channel_said_before_it_spoke_for_all_counts_from_then_on() {
     let announced = [(101, 0), (100, 6), (6, 15)].map(|(number, value)| (2400, control(0, number, value)));
     let told = [(0, control(0, 22, 4)), (0, control(2, 20, 100))];
     let played = [(4800, note(2, 60))];
-    let auto = |events: &[&[(u64, PlayerEvent)]]| hands(InputMode::Auto, &events.concat());
+    let auto = |events: &[&[(u64, PlayerEvent)]]| {
+        GUITAR.told(InputMode::Auto, &Touching::default(), &events.concat())
+    };
     assert_eq!(slap_and_palm(&auto(&[&told, &played])), [false, true]);
     assert_eq!(slap_and_palm(&auto(&[&told, &announced, &played])), [true, true]);
     // Or when the input is said to be such a keyboard.
