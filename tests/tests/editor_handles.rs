@@ -16,6 +16,15 @@ fn drag(desk: &mut Desk, name: &str, way: egui::Vec2) -> Vec<Told> {
     desk.host.take()
 }
 
+/// Takes hold of something with a name and moves it a little to the left; gives back where it was.
+fn hold(desk: &mut Desk, name: &str) -> Pos2 {
+    let from = desk.named(name);
+    desk.point(from);
+    desk.press(from, true, Modifiers::NONE);
+    desk.point(from - vec2(60.0, 0.0));
+    from
+}
+
 #[test]
 fn marks_along_the_strings_follow_the_mouse() {
     let mut desk = Desk::new();
@@ -56,11 +65,7 @@ fn what_is_dropped_has_ended() {
     let mut desk = Desk::new();
     let host = desk.host.clone();
     let setter = ParamSetter::new(&*host);
-    let from = desk.named("Pickup position");
-    desk.point(from);
-    desk.press(from, true, Modifiers::NONE);
-    desk.point(from - vec2(30.0, 0.0));
-    desk.point(from - vec2(60.0, 0.0));
+    let from = hold(&mut desk, "Pickup position");
     let moved = desk.params.setup.pickup_position.value();
     setter.set_parameter(&desk.params.instrument.instrument, InstrumentChoice::from_index(1));
     desk.host.take();
@@ -89,10 +94,7 @@ fn what_comes_back_is_a_gesture_of_its_own() {
     let mut desk = Desk::new();
     let host = desk.host.clone();
     let setter = ParamSetter::new(&*host);
-    let from = desk.named("Pickup position");
-    desk.point(from);
-    desk.press(from, true, Modifiers::NONE);
-    desk.point(from - vec2(60.0, 0.0));
+    let from = hold(&mut desk, "Pickup position");
     for index in [1, 0] {
         setter.set_parameter(&desk.params.instrument.instrument, InstrumentChoice::from_index(index));
         desk.host.take();
@@ -108,10 +110,7 @@ fn what_comes_back_is_a_gesture_of_its_own() {
 #[test]
 fn what_is_held_when_the_window_is_closed_has_ended() {
     let mut desk = Desk::new();
-    let from = desk.named("Pluck position");
-    desk.point(from);
-    desk.press(from, true, Modifiers::NONE);
-    desk.point(from - vec2(60.0, 0.0));
+    hold(&mut desk, "Pluck position");
     let Desk { harness, host, .. } = desk;
     drop(harness);
     let told = host.take();
