@@ -1,6 +1,7 @@
 //! A string without contacts, for which formulas on paper say what it does.
 
 use std::f64::consts::PI;
+use std::fmt::Debug;
 
 use low_action_dsp::{Scene, Simulation};
 
@@ -40,6 +41,26 @@ pub const LOW_E: PlainString = PlainString {
     loss_1: 1e-4,
 };
 
+/// A `[[string]]` of a scene, of a length (m) and density (kg/m), under a tension (N) or a course of it, with Young's modulus
+/// (Pa) and radius (m) of its core and both losses (1/s and m²/s).
+pub fn string_table(
+    [length, linear_density]: [f64; 2],
+    tension: &impl Debug,
+    [youngs_modulus, core_radius]: [f64; 2],
+    [loss_0, loss_1]: [f64; 2],
+) -> String {
+    format!(
+        "[[string]]
+        length = {length:?}
+        linear_density = {linear_density:?}
+        tension = {tension:?}
+        youngs_modulus = {youngs_modulus:?}
+        core_radius = {core_radius:?}
+        loss_0 = {loss_0:?}
+        loss_1 = {loss_1:?}"
+    )
+}
+
 impl PlainString {
     fn scene(&self, stencil: &str, shape: &[[f64; 2]], more: &str) -> Scene {
         let text = format!(
@@ -47,24 +68,16 @@ impl PlainString {
             duration = 10.0
             [solver]
             stencil = {stencil:?}
-            [[string]]
-            length = {:?}
-            linear_density = {:?}
-            tension = {:?}
-            youngs_modulus = {:?}
-            core_radius = {:?}
-            loss_0 = {:?}
-            loss_1 = {:?}
+            {}
             shape = {shape:?}
             {more}",
             self.sample_rate,
-            self.length,
-            self.linear_density,
-            self.tension,
-            self.youngs_modulus,
-            self.core_radius,
-            self.loss_0,
-            self.loss_1,
+            string_table(
+                [self.length, self.linear_density],
+                &self.tension,
+                [self.youngs_modulus, self.core_radius],
+                [self.loss_0, self.loss_1],
+            ),
         );
         Scene::from_toml(&text).expect("the scene is valid")
     }

@@ -4,6 +4,7 @@
 use low_action_dsp::{Scene, Simulation};
 use low_action_tests::dense::{Finger, Fret, Fretboard, Pluck, Reference, Setup, Stencil};
 use low_action_tests::numbers;
+use low_action_tests::plain_string::string_table;
 
 /// The length of every run, in samples.
 const SAMPLES: usize = 2000;
@@ -135,14 +136,7 @@ fn scene(setup: &Setup, tolerance: f64) -> Scene {
         max_iterations = 100
         tolerance = {tolerance:?}
         stencil = {stencil:?}
-        [[string]]
-        length = {:?}
-        linear_density = {:?}
-        tension = {:?}
-        youngs_modulus = {:?}
-        core_radius = {:?}
-        loss_0 = {:?}
-        loss_1 = {:?}
+        {}
         tension_modulation = {:?}
         [fretboard]
         stiffness = {:?}
@@ -168,13 +162,12 @@ fn scene(setup: &Setup, tolerance: f64) -> Scene {
         velocity = {:?}
         force = {:?}",
         setup.sample_rate,
-        setup.length,
-        setup.linear_density,
-        setup.tension,
-        setup.youngs_modulus,
-        setup.core_radius,
-        setup.loss_0,
-        setup.loss_1,
+        string_table(
+            [setup.length, setup.linear_density],
+            &setup.tension,
+            [setup.youngs_modulus, setup.core_radius],
+            [setup.loss_0, setup.loss_1],
+        ),
         setup.tension_modulation,
         board.stiffness,
         board.exponent,

@@ -23,6 +23,9 @@ impl Partial {
 /// Releases the string in the shape of mode m and fits a decaying oscillation to the mode's amplitude:
 /// samples D apart obey a[n + 2D] = p a[n + D] + q a[n], with p and q by least squares. D is a quarter of a
 /// period, where the two are told apart best.
+///
+/// The figures of the documentation read partials by a fit of their own (`xtask/src/figures/modes.rs`): what is checked here is
+/// not to lean on what is drawn there, nor the other way round.
 fn measure(string: &PlainString, stencil: &str, mode: f64) -> Partial {
     let beta = mode * PI / string.length;
     let mut simulation = string.released(stencil, |x| 1e-3 * (beta * x).sin(), "");
