@@ -18,6 +18,7 @@ pub mod pictures;
 pub mod pitch;
 pub mod plain_string;
 pub mod ringing;
+pub mod scenes;
 pub mod session;
 pub mod stage;
 pub mod user;

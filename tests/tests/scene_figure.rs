@@ -5,37 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use low_action_tests::command::Workplace;
-
-/// A string over board and frets, with a pluck and a finger.
-const SCENE: &str = r#"
-sample_rate = 44100
-duration = 0.02
-[[string]]
-length = 0.65
-linear_density = 5.25e-3
-tension = 60.0
-youngs_modulus = 2e11
-core_radius = 4.3e-4
-loss_0 = 1.38
-tension_modulation = true
-[fretboard]
-stiffness = 1e12
-exponent = 2.3
-board = -0.0022
-frets = 12
-fret_top = -0.0008
-[[pluck]]
-duration = 0.002
-position = 0.5
-force = -3.0
-[[finger]]
-mass = 5e-3
-stiffness = 1e8
-exponent = 2.0
-position = 0.25
-height = 0.0005
-velocity = -2.0
-"#;
+use low_action_tests::scenes::PLUCKED_AND_TAPPED as SCENE;
 
 fn workplace() -> Workplace {
     Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
@@ -112,7 +82,7 @@ fn a_picture_shows_string_energies_forces_and_the_solver() {
         "force, N",
         "iterations",
         "depth, m",
-        "12 frets",
+        "3 frets",
         "44.1 kHz",
     ] {
         assert!(texts.contains(words), "{words} is not in the picture:\n{texts}");
