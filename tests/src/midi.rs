@@ -1,4 +1,4 @@
-//! MIDI files made by hand, byte by byte, so that odd and broken ones can be made too.
+//! MIDI files made by hand, byte by byte, so that odd and broken ones can be made too, which no library writes.
 
 /// A file from its header fields and the data of its tracks.
 pub fn file(format: u16, division: u16, tracks: &[Vec<u8>]) -> Vec<u8> {

@@ -2,7 +2,10 @@
 
 use std::fs;
 
-use crate::room::{Room, midi, peak, song};
+use midly::num::u24;
+use midly::{MetaMessage, TrackEventKind};
+
+use crate::room::{Room, message, midi_of, peak, song};
 
 #[test]
 fn wrong_usage_is_code_2() {
@@ -170,11 +173,11 @@ fn names_give_no_orders_to_the_terminal() {
 fn an_hour_is_the_limit_unless_another_is_named() {
     let room = Room::new();
     // 17 seconds a beat, and two notes 240 beats apart: 68 minutes.
-    let slow: [u8; 6] = [0xFF, 0x51, 3, 0xFF, 0xFF, 0xFF];
-    let mut events: Vec<(u8, &[u8])> = vec![(0, &slow), (0, &[0x90, 60, 90])];
-    events.extend(std::iter::repeat_n((96, &[0xB0, 7, 100][..]), 242));
-    events.push((96, &[0x80, 60, 0]));
-    fs::write(room.path("long.mid"), midi(&events)).unwrap();
+    let slow = TrackEventKind::Meta(MetaMessage::Tempo(u24::new(0xFF_FFFF)));
+    let mut events = vec![(0, slow), (0, message(&[0x90, 60, 90]))];
+    events.extend(std::iter::repeat_n((96, message(&[0xB0, 7, 100])), 242));
+    events.push((96, message(&[0x80, 60, 0])));
+    fs::write(room.path("long.mid"), midi_of(&events)).unwrap();
     let said = room.refuses(1, &["render", "long.mid"]);
     assert!(
         said.contains("long.mid")

@@ -6,6 +6,9 @@ use std::process::{Command, Output, Stdio};
 
 use hound::{SampleFormat, WavReader};
 use low_action::setups::FOLDER_VARIABLE;
+use midly::live::LiveEvent;
+use midly::num::{u15, u28};
+use midly::{Format, Header, MetaMessage, Smf, Timing, TrackEvent, TrackEventKind};
 use tempfile::TempDir;
 
 /// A folder to work in, with a short song.
@@ -13,17 +16,28 @@ pub struct Room {
     folder: TempDir,
 }
 
-/// A MIDI file of format 0 with 96 ticks a beat, half a second each.
-pub fn midi(events: &[(u8, &[u8])]) -> Vec<u8> {
-    let mut track = Vec::new();
-    for (delta, event) in events {
-        track.push(*delta);
-        track.extend_from_slice(event);
+/// A MIDI file of format 0 with 96 ticks a beat, half a second each, of channel messages, each so many ticks after the last.
+pub fn midi(messages: &[(u8, &[u8])]) -> Vec<u8> {
+    let events: Vec<_> = messages.iter().map(|&(delta, bytes)| (delta, message(bytes))).collect();
+    midi_of(&events)
+}
+
+/// A channel message as an event of a file.
+pub fn message(bytes: &[u8]) -> TrackEventKind<'_> {
+    match LiveEvent::parse(bytes) {
+        Ok(LiveEvent::Midi { channel, message }) => TrackEventKind::Midi { channel, message },
+        other => panic!("{bytes:?} is no channel message: {other:?}"),
     }
-    track.extend([0, 0xFF, 0x2F, 0]);
-    let mut bytes = b"MThd\0\0\0\x06\0\0\0\x01\0\x60MTrk".to_vec();
-    bytes.extend((track.len() as u32).to_be_bytes());
-    bytes.extend(track);
+}
+
+/// The same file of any events.
+pub fn midi_of(events: &[(u8, TrackEventKind)]) -> Vec<u8> {
+    let end = (0, TrackEventKind::Meta(MetaMessage::EndOfTrack));
+    let events = events.iter().copied().chain([end]);
+    let track = events.map(|(delta, kind)| TrackEvent { delta: u28::new(delta.into()), kind }).collect();
+    let header = Header::new(Format::SingleTrack, Timing::Metrical(u15::new(96)));
+    let mut bytes = Vec::new();
+    Smf { header, tracks: vec![track] }.write_std(&mut bytes).unwrap();
     bytes
 }
 

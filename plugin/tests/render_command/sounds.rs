@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use std::process::Stdio;
 
 use hound::{SampleFormat, WavReader};
+use midly::{MetaMessage, TrackEventKind};
 
-use crate::room::{Room, midi, peak, song};
+use crate::room::{Room, message, midi, midi_of, peak, song};
 
 #[test]
 fn a_song_becomes_a_24_bit_stereo_file_named_after_it() {
@@ -143,8 +144,8 @@ fn stems_of_another_song_are_told_of() {
 fn a_sound_of_no_samples_is_told_of() {
     let room = Room::new();
     // A track that ends two seconds later than its only note begins.
-    fs::write(room.path("end.mid"), midi(&[(0, &[0x90, 60, 90]), (96, &[0xFF, 1, 0]), (96, &[0xFF, 1, 0])]))
-        .unwrap();
+    let words = (96, TrackEventKind::Meta(MetaMessage::Text(b"")));
+    fs::write(room.path("end.mid"), midi_of(&[(0, message(&[0x90, 60, 90])), words, words])).unwrap();
     let said = room.renders(&["end.mid", "--tail", "none"]);
     assert!(said.contains("warning: end.mid: the sound has no samples"), "{said}");
     assert_eq!(WavReader::open(room.path("end.wav")).unwrap().duration(), 0);
@@ -221,7 +222,7 @@ fn what_plays_differently_from_the_page_is_said_once() {
     let said = room.renders(&["cut.mid", "--tail", "0.1"]);
     assert_eq!(said.matches("warning").count(), 1, "{said}");
     assert!(
-        said.contains("warning: cut.mid: truncated MIDI file: track 1 announces 20 bytes, 11 are left"),
+        said.contains("warning: cut.mid: truncated MIDI file: track 1 announces 18 bytes, 9 are left"),
         "{said}"
     );
     assert!(peak(&room.path("cut.wav")) > 0.01);

@@ -1,5 +1,9 @@
 //! The music hosts play: a chord, a melody, the pedal and the wheel, as a standard MIDI file.
 
+use midly::live::LiveEvent;
+use midly::num::{u15, u28};
+use midly::{Format, Header, MetaMessage, Smf, Timing, TrackEvent, TrackEventKind};
+
 /// Ticks in a beat. At MIDI's usual 120 beats a minute and 48 kHz a tick is exactly 50 samples, so that no
 /// host can round an event to another sample.
 const TICKS: u16 = 480;
@@ -29,55 +33,56 @@ const MESSAGES: &[(u32, [u8; 3])] = &[
 
 /// The file's bytes, without the notes of one key if one is given.
 pub(super) fn midi(without: Option<u8>) -> Vec<u8> {
-    let mut track = Vec::new();
     let mut now = 0;
-    for &(time, message) in MESSAGES {
-        let is_note = message[0] >> 4 == 0x9 || message[0] >> 4 == 0x8;
-        if is_note && without == Some(message[1]) {
-            continue;
-        }
-        variable_length(time - now, &mut track);
-        track.extend(message);
-        now = time;
-    }
-    track.extend([0, 0xFF, 0x2F, 0]);
-    let mut file = b"MThd\0\0\0\x06\0\0\0\x01".to_vec();
-    file.extend(TICKS.to_be_bytes());
-    file.extend(b"MTrk");
-    file.extend((track.len() as u32).to_be_bytes());
-    file.extend(track);
+    let mut track: Vec<TrackEvent> = MESSAGES
+        .iter()
+        .filter(|(_, [status, key, _])| without != Some(*key) || !matches!(status >> 4, 0x8 | 0x9))
+        .map(|(time, message)| {
+            let Ok(LiveEvent::Midi { channel, message }) = LiveEvent::parse(message) else {
+                panic!("{message:?} is no message of a channel");
+            };
+            let delta = u28::new(time - std::mem::replace(&mut now, *time));
+            TrackEvent { delta, kind: TrackEventKind::Midi { channel, message } }
+        })
+        .collect();
+    let end = TrackEventKind::Meta(MetaMessage::EndOfTrack);
+    track.push(TrackEvent { delta: u28::new(0), kind: end });
+    let header = Header::new(Format::SingleTrack, Timing::Metrical(u15::new(TICKS)));
+    let mut file = Vec::new();
+    Smf { header, tracks: vec![track] }.write_std(&mut file).expect("memory takes every byte");
     file
-}
-
-/// A number in groups of seven bits, the highest first, all but the last marked.
-fn variable_length(number: u32, bytes: &mut Vec<u8>) {
-    let groups = (1..5).rev().filter(|group| number >> (7 * group) != 0);
-    bytes.extend(groups.map(|group| (number >> (7 * group)) as u8 | 0x80));
-    bytes.push(number as u8 & 0x7F);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn numbers_are_those_of_the_standard() {
-        // Examples of the MIDI file specification.
-        for (number, expected) in [
-            (0x40, &[0x40][..]),
-            (0x80, &[0x81, 0x00]),
-            (0x2000, &[0xC0, 0x00]),
-            (0x10_0000, &[0xC0, 0x80, 0x00]),
-            (0x0FFF_FFFF, &[0xFF, 0xFF, 0xFF, 0x7F]),
-        ] {
-            let mut bytes = Vec::new();
-            variable_length(number, &mut bytes);
-            assert_eq!(bytes, expected);
+    /// Ticks and channel messages as a host reads them.
+    fn read(file: &[u8]) -> Vec<(u32, Vec<u8>)> {
+        let Smf { header, tracks } = Smf::parse(file).expect("it is a MIDI file");
+        assert_eq!((header.timing, tracks.len()), (Timing::Metrical(u15::new(TICKS)), 1));
+        let mut now = 0;
+        let mut messages = Vec::new();
+        for event in &tracks[0] {
+            now += event.delta.as_int();
+            if let Some(live @ LiveEvent::Midi { .. }) = event.kind.as_live_event() {
+                let mut bytes = Vec::new();
+                live.write_std(&mut bytes).expect("memory takes every byte");
+                messages.push((now, bytes));
+            }
         }
+        messages
     }
 
     #[test]
-    fn a_note_can_be_taken_away() {
-        assert_eq!(midi(None).len() - midi(Some(TAKEN_AWAY)).len(), 2 * 4);
+    fn the_file_holds_the_messages_at_their_ticks() {
+        let expected = |without| {
+            let kept = |(_, [status, key, _]): &&(u32, [u8; 3])| status & 0xF0 > 0x90 || *key != without;
+            MESSAGES.iter().filter(kept).map(|(time, message)| (*time, message.to_vec())).collect::<Vec<_>>()
+        };
+        assert_eq!(read(&midi(None)), expected(u8::MAX));
+        assert_eq!(read(&midi(Some(TAKEN_AWAY))), expected(TAKEN_AWAY));
+        // A note goes down and up, and no controller has gone with it.
+        assert_eq!(expected(TAKEN_AWAY).len() + 2, MESSAGES.len());
     }
 }
