@@ -198,11 +198,11 @@ impl Limits {
         Self {
             // Three times as hard in a pop; or 50 N by who points.
             pluck: largest([3.0 * hands.pluck_force * strummed, 50.0]),
-            // A tap.
-            throw: 0.15 + 1.6 * strength,
-            // At full pressure 2.5 times, and as many times again where another channel speaks for all. What rests, grazes or slaps
-            // presses with 2 N and less on any string.
-            press: largest([2.5 * 2.5 * fretting.force * pressed, 2.0]),
+            // The hardest tap, however hard a pluck would be.
+            throw: 1.75,
+            // At full pressure 2.5 times, or as a note has it for itself. What rests, grazes or slaps presses with 2 N and less on any
+            // string.
+            press: largest([largest([2.5, pressed]) * fretting.force, 2.0]),
             // A finger, or the bar with its hand, is to move away with 0.5 m/s, or 0.3, in 1 ms, or 3, against the damping of a hand
             // that lets a string down (350 N s/m) or of one that is set to more.
             lift: largest([

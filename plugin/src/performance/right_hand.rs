@@ -192,10 +192,11 @@ impl RightHand {
         let finger = RIGHT_HAND;
         let position = field.slapped();
         self.make_room(field, at);
+        let strength = strength.min(1.0);
         let speed = SLAP_SPEED.0 + SLAP_SPEED.1 * strength;
         let thrown = Gesture::Throw { finger, touch: THUMB, position, clearance: SLAP_CLEARANCE, speed };
         at.does(thrown);
-        at.does(Gesture::Press { finger, force: SLAP_FORCE * strength.min(1.0), duration: 0.0 });
+        at.does(Gesture::Press { finger, force: SLAP_FORCE * strength, duration: 0.0 });
         self.laid = Laid::Thumb;
         thrown
     }

@@ -260,7 +260,9 @@ impl StringPlayer {
     pub(crate) fn set_palm(&mut self, time: u64, palm: f64, out: &mut impl GestureSink) {
         let mut at = self.moment(time, out);
         self.fingers.set_palm(palm, &mut at);
-        if self.note.is_none() && self.ending.is_none() {
+        // One that rests there when a note ends waits from when the fingers leave on.
+        let over = self.ending.is_none_or(|(_, step)| step == Ending::Gone);
+        if self.note.is_none() && over {
             self.palm_waits(&at);
         }
     }

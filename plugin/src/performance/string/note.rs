@@ -1,7 +1,7 @@
 //! A note: what it is to be, and what is remembered of it while it sounds.
 
 use crate::performance::articulation::Articulation;
-use crate::performance::technique::SETTLING;
+use crate::performance::technique::{FIRMEST, SETTLING};
 use crate::performance::variation::Deviation;
 
 /// A note to begin.
@@ -74,7 +74,7 @@ impl Manner {
         Self {
             place: self.place + all.place,
             force: self.force * all.force,
-            pressure: self.pressure * all.pressure,
+            pressure: (self.pressure * all.pressure).min(FIRMEST),
             tuning: self.tuning + all.tuning,
             vibrato: self.vibrato.max(all.vibrato),
         }
