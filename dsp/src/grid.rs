@@ -88,7 +88,7 @@ pub struct Reading {
 pub const READING_NORM: f64 = 1.25;
 
 /// Closer to a node than this fraction of the spacing is at the node.
-const AT_NODE: f64 = 1e-9;
+pub(crate) const AT_NODE: f64 = 1e-9;
 
 impl Reading {
     /// Reads nothing.

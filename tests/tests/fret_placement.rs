@@ -11,7 +11,11 @@ fn over_frets(frets: &[f64], placement: &str) -> Simulation {
          [fretboard]\nstiffness = 1e10\nexponent = 1.5\nfrets = {frets:?}\nfret_top = -1e-3\n\
          fret_placement = \"{placement}\"\n"
     );
-    Simulation::new(&Scene::from_toml(&text).expect("the scene is valid")).expect("the scene can be built")
+    build(&text)
+}
+
+fn build(text: &str) -> Simulation {
+    Simulation::new(&Scene::from_toml(text).expect("the scene is valid")).expect("the scene can be built")
 }
 
 /// Spacing of its grid, m.
@@ -49,4 +53,25 @@ fn nearest_frets_are_on_grid_points() {
     assert_at(&[12.3, 40.8], "nearest", &[(12.0, 1), (41.0, 1)]);
     // Never on an end of the string; two that come to one point are one.
     assert_at(&[0.2, 20.1, 20.4], "nearest", &[(1.0, 1), (20.0, 1)]);
+}
+
+/// Fret 12 stands half way between two grid points wherever the number of intervals is odd.
+#[test]
+fn frets_half_way_between_grid_points_are_moved_away_from_the_nut() {
+    let mut odd = 0;
+    for step in 0..200 {
+        let tension = 40.0 + 0.25 * f64::from(step);
+        let text = format!(
+            "sample_rate = 48000.0\nduration = 1.0\n[[string]]\nlength = {LENGTH}\nlinear_density = 4e-4\n\
+             tension = {tension:?}\n[fretboard]\nstiffness = 1e10\nexponent = 1.5\nfrets = 12\nfret_top = -1e-3\n\
+             fret_placement = \"nearest\"\n"
+        );
+        let simulation = build(&text);
+        let model = &simulation.string(0).model;
+        let twelfth = model.contacts.last().expect("it has frets");
+        let node = (twelfth.place / model.grid.spacing).round() as usize;
+        assert_eq!(node, model.grid.intervals.div_ceil(2), "{tension} N, {} intervals", model.grid.intervals);
+        odd += model.grid.intervals % 2;
+    }
+    assert!(odd > 0, "no number of intervals was odd");
 }

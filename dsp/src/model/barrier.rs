@@ -4,7 +4,7 @@ use super::{Contact, ContactKind};
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, OneOrEach};
 use crate::error::{Error, within};
-use crate::grid::{Grid, Reading};
+use crate::grid::{AT_NODE, Grid, Reading};
 use crate::scene::{FretPlacement, FretboardSpec};
 
 /// How far a board or a crown may be from the string at rest, m: ten times farther than anybody needs.
@@ -102,7 +102,9 @@ impl Barrier {
             let (place, reading) = match self.placement {
                 FretPlacement::Exact | FretPlacement::Kinked => (place, grid.reading(place)),
                 FretPlacement::Nearest => {
-                    let node = ((place / grid.spacing).round() as usize).clamp(1, grid.intervals - 1);
+                    // Half way between two it is the one farther from the nut, however the quotient is rounded.
+                    let node = (place / grid.spacing + AT_NODE).round() as usize;
+                    let node = node.clamp(1, grid.intervals - 1);
                     (grid.place(node), Reading::at_node(grid, node))
                 }
             };
