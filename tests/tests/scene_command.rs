@@ -241,7 +241,7 @@ fn a_run_is_summed_up() {
         "882 samples at 44100 Hz",
         "penetration",
         "iterations",
-        "balance",
+        " of the largest so far, and in all at the end by ",
     ] {
         assert!(done.text().contains(words), "{words} is not in {}", done.text());
     }

@@ -86,10 +86,11 @@ impl Summary<'_> {
             return "energy: not measured (with --trace or --figure it is)".into();
         }
         let most = |of: fn(&Ledger) -> f64| ledgers.iter().map(of).fold(0.0, f64::max);
-        let (largest, worst, open) = (most(|l| l.largest), most(|l| l.worst_residual), most(open_part));
+        let (largest, worst) = (most(|l| l.largest), most(|l| l.worst_residual));
         format!(
-            "energy: at most {largest:.3e} J in a string; the balance is open by {worst:.1e} of that in a sample, \
-             {open:.1e} in all"
+            "energy: at most {largest:.3e} J in a string; the balance is open in a sample by at most {worst:.1e} of the \
+             largest so far, {}",
+            in_all(ledgers)
         )
     }
 
@@ -108,4 +109,14 @@ impl Summary<'_> {
         lines.extend(self.arguments.figure.iter().map(|path| format!("{}: a picture", shown(path))));
         lines
     }
+}
+
+/// How far the ledgers are open in all at the end, where it is most, and what of.
+fn in_all(ledgers: &[Ledger]) -> String {
+    let Some(worst) = ledgers.iter().max_by(|a, b| open_part(a).total_cmp(&open_part(b))) else {
+        return String::new();
+    };
+    let (part, put_in, largest) = (open_part(worst), worst.put_in, worst.largest);
+    let (of, what) = if put_in > largest { (put_in, "put in") } else { (largest, "that there was at most") };
+    format!("and in all at the end by {part:.1e} of the {of:.3e} J {what}")
 }
