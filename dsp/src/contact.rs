@@ -151,7 +151,8 @@ impl ContactLaw {
         self.stored(penetration).0
     }
 
-    /// φ(η) of what the contact itself is pressed in by at most: up to the knee, N. Beyond it something else gives way.
+    /// φ(η) of what the contact itself is pressed in by at most, N: up to the knee, where something else
+    /// [gives way](ContactLaw::giving_way) beyond it.
     #[inline(always)]
     pub fn own_force(&self, penetration: f64) -> f64 {
         if penetration > self.knee { self.at_knee.force } else { self.curved(penetration).0 }

@@ -102,7 +102,7 @@ impl Finger {
             reading: self.reading,
             sign: -1.0,
             law: self.law,
-            lossy: model.lossy(&self.law, self.touch.damping, penetration, own_mobility),
+            lossy: model.lossy(|depth| self.law.force(depth), self.touch.damping, penetration, own_mobility),
             before: Before::new(&self.law, penetration_before),
             rest: (free + motion_before) - slid - here.motion,
             own_mobility,

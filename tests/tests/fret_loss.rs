@@ -83,6 +83,32 @@ fn what_strikes_lose_is_what_the_law_says() {
     }
 }
 
+/// A wall that is as steep as numbers can tell from the first touch on is the same for every exponent next to 1, and so is what it
+/// loses by its damping; from there on it changes with the exponent little by little.
+#[test]
+fn no_exponent_next_to_one_takes_the_damping_away() {
+    let lost = |exponent: f64| {
+        let text = format!(
+            "sample_rate = {RATE}\nduration = 0.05\n[solver]\nmax_iterations = 100\ntolerance = 1e-15\n{STRING}{}damping = 1.0\n",
+            STRUCK.replace("exponent = 1.5", &format!("exponent = {exponent:?}")).replace("1e10", "1e15")
+        );
+        let mut simulation = build(&text);
+        let mut lost = 0.0;
+        for _ in 0..simulation.samples() {
+            lost += simulation.step().expect("the ledger is open").losses.contact / RATE;
+        }
+        lost
+    };
+    let straight = lost(1.0);
+    println!("exponent 1: {straight:.3e} J lost");
+    assert!(straight > 1e-9);
+    for (exponent, apart) in [(1.001, 1e-9), (1.01, 1e-9), (1.05, 1e-6), (1.1, 1e-3)] {
+        let lost = lost(exponent);
+        println!("exponent {exponent}: {lost:.3e} J lost");
+        assert!((lost / straight - 1.0).abs() < apart, "exponent {exponent}: {lost:e} J of {straight:e} J");
+    }
+}
+
 /// With its equations solved: at the solver's cap a force may be eased below nothing, lossy or not.
 #[test]
 fn a_lossy_fretboard_never_pulls() {

@@ -38,6 +38,13 @@ impl Contact {
         if self.radiation > 0.0 { self.law.own_penetration(penetration) } else { penetration }
     }
 
+    /// The force, N, of what the contact itself is pressed in at a penetration, m, on which its damping acts: where the string
+    /// gives way round a kinked fret, no more than that of the knee.
+    #[inline(always)]
+    pub(crate) fn own_force(&self, penetration: f64) -> f64 {
+        if self.radiation > 0.0 { self.law.own_force(penetration) } else { self.law.force(penetration) }
+    }
+
     /// For how many steps a contact that has just been made sends off waves that are too short for the grid, less and less:
     /// they are about as long as it takes to cross two or three spacings.
     pub const RADIATING: u64 = 5;
