@@ -53,12 +53,12 @@ impl Fingers {
         if pull <= 0.0 {
             return Down::on(finger.fret);
         }
-        let part_of_step = time.saturating_sub(since) as f64 / sample_rate / f64::from(PARTS);
+        let step_time = time.saturating_sub(since) as f64 / sample_rate / f64::from(PARTS);
         let rise = finger.touch.hand_damping * self.string.depth(finger.fret) / pull;
-        let stays = libm::exp(-part_of_step / rise.max(f64::MIN_POSITIVE));
+        let stays = libm::exp(-step_time / rise.max(f64::MIN_POSITIVE));
         let (from, to) = (HOLDING, -lift_force(finger.touch, manner) / pull);
         let follow = |part: f64, step: u32| {
-            let x = ((f64::from(step) + 0.5) * part_of_step / manner.turning).min(1.0);
+            let x = ((f64::from(step) + 0.5) * step_time / manner.turning).min(1.0);
             let goal = from + (to - from) * x * x * (3.0 - 2.0 * x);
             (goal + (part - goal) * stays).clamp(0.0, 1.0)
         };
