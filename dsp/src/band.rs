@@ -71,9 +71,9 @@ impl<T: Number> Band<T> {
         }
     }
 
-    /// Adds `amount` to the main diagonal.
-    pub fn shift(&mut self, amount: T) {
-        for row in &mut self.rows {
+    /// Adds `amount` to the main diagonal from a row on.
+    pub fn shift_from(&mut self, first: usize, amount: T) {
+        for row in &mut self.rows[first..] {
             row[0] = row[0] + amount;
         }
     }
@@ -218,7 +218,7 @@ mod tests {
         let mut matrix: Band<Complex<f64>> = Band::of_string(&grid, LINEAR_DENSITY, &STIFFNESS);
         matrix.add_spring(&grid.reading(0.02), Complex::from(1e6));
         matrix.add_spring(&grid.reading(0.31), Complex::new(2e3, 5e2));
-        matrix.shift(Complex::from(-40.0));
+        matrix.shift_from(0, Complex::from(-40.0));
         let vector: Vec<_> = (0..grid.unknowns()).map(|i| Complex::from(1.0 / (1.0 + i as f64))).collect();
         let right: Vec<_> = (0..grid.unknowns()).map(|i| Complex::new(i as f64, 1.0)).collect();
         let strength = Complex::from(300.0);

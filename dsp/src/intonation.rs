@@ -66,8 +66,10 @@ pub fn intonate(
     let target = std::f64::consts::TAU * frequency(string.pitch + setup.tuning);
     let tuned = bench.tuned(string, setup.tension_room(), target)?;
     let mut frets = setup.neck.equal_places();
-    if setup.intonation == Intonation::Compensated {
-        bench.place_frets(&tuned, target, &mut frets)?;
+    match (setup.intonation, setup.neck.fretless) {
+        (Intonation::Physical, _) => {}
+        (Intonation::Compensated, false) => bench.place_frets(&tuned, target, &mut frets)?,
+        (Intonation::Compensated, true) => bench.place_fingers(&tuned, target, &mut frets)?,
     }
     Ok(Intonated { string: tuned, frets })
 }
@@ -219,6 +221,52 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
+    /// Finds where fingers stop the string on a bare board, lowest first: half way between two points of the grid, and of all such
+    /// places where each pitch is met best.
+    ///
+    /// The string ends at a grid point, however far before it the finger presses. From half way the finger presses both of its
+    /// neighbours on the board alike and lifts those beyond, a sixteenth of its force each: there is one end, however the string
+    /// swings. Near a grid point one more lies on the board with hardly any force. Pitch goes smoothly from one end to the next there,
+    /// and might be met to the last digit, but only at rest: swinging the string leaves that point, the sooner the louder.
+    fn place_fingers(&self, string: &StringParameters, open: f64, frets: &mut [f64]) -> Result<(), Error> {
+        let spacing = self.model(string, frets)?.grid.spacing;
+        let (mut rest, mut shift) = (None, 0.0);
+        for fret in 0..frets.len() {
+            let target = open * libm::exp2((fret + 1) as f64 / 12.0);
+            let (low, high) = self.limits(frets, fret);
+            let middle = |cell: f64| ((cell + 0.5) * spacing).clamp(low, high);
+            let mut sharpness = |place: f64, frets: &mut [f64]| {
+                frets[fret] = place;
+                let found = self.stopped(string, frets, fret, target, rest.take())?;
+                rest = Some(found.1);
+                Ok::<f64, Error>(found.0 / target - 1.0)
+            };
+            // Started where the one before leads to. Pitch rises towards the bridge: cell by cell there, or back, until it is passed.
+            let mut cell = ((frets[fret] + shift) / spacing).floor();
+            let mut place = middle(cell);
+            let mut best = (place, sharpness(place, frets)?);
+            let onwards = if best.1 < 0.0 { 1.0 } else { -1.0 };
+            loop {
+                cell += onwards;
+                let before = std::mem::replace(&mut place, middle(cell));
+                if place == before {
+                    break;
+                }
+                let off = sharpness(place, frets)?;
+                if off.abs() < best.1.abs() {
+                    best = (place, off);
+                }
+                if off * onwards >= 0.0 {
+                    break;
+                }
+            }
+            frets[fret] = best.0;
+            shift = best.0 - self.neck.equal_place((fret + 1) as f64);
+            rest = None;
+        }
+        Ok(())
+    }
+
     /// How far a fret may move: less than to where its neighbours would be, and not past the one below.
     fn limits(&self, frets: &[f64], fret: usize) -> (f64, f64) {
         let number = (fret + 1) as f64;
@@ -243,7 +291,10 @@ impl<'a> Bench<'a> {
         let guess = guess.unwrap_or_else(|| self.folded(&model, place, frets[fret]));
         let rest = Equilibrium::new(&model, &at, self.fretting.force, guess);
         let finger = Resting { at, law, fretting: self.fretting };
-        let sound = stopped_oscillation(&model, &rest, &finger, frets[fret], target);
+        // Behind a fret a finger lies between both parts of the string, and swallows what the one behind does. On a bare board it
+        // does not: at semitones 12, 19 and 24, where that has a partial of the same pitch, it would be found as well.
+        let still = self.neck.fretless;
+        let sound = stopped_oscillation(&model, &rest, &finger, frets[fret], target, still);
         Ok((sound.frequency, rest.displacement))
     }
 

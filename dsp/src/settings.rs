@@ -22,8 +22,8 @@ pub struct EngineSettings {
     /// Sample rate at which it is heard, Hz, 8e3 to 1e6.
     pub sample_rate: f64,
     /// The widest grid a string may have, m, 1e-4 or more, or two thirds of it over a wide bridge or under a bar, and over a bare
-    /// board 3 mm at most: one whose grid is wider at `sample_rate` is computed at a multiple of it. Infinite: every string is
-    /// computed at `sample_rate` itself that is not too short for its grid there.
+    /// board 3 mm and a ninetieth of the shortest length that sounds at most: one whose grid is wider at `sample_rate` is computed
+    /// at a multiple of it. Infinite: every string is computed at `sample_rate` itself that is not too short for its grid there.
     pub widest_spacing: f64,
     /// Difference operator of the strings.
     pub stencil: Stencil,
@@ -44,10 +44,11 @@ const HIGHEST_RATE: f64 = 400e3;
 /// so much finer.
 const BETWEEN_FRETS: f64 = 2.0 / 3.0;
 
-/// The widest grid over a bare board that fingers stop strings on, m. Where such a string ends it leaves the board point by point,
-/// and the louder it swings, the farther off: on grids of 4 to 6 mm notes are up to
-/// 16 cents flat by it, on these up to 9, on grids of 2 mm up to 5 (by hand, velocity 100, four strings of `fretless-bass`).
+/// The widest grid over a bare board that fingers stop strings on, m, and as a part of the shortest length that sounds. Such a string ends
+/// at a grid point, by up to half a spacing h beside where its pitch wants it: 600/ln 2 · h/l cents of a length l, 9.6 of ninety
+/// spacings.
 const ON_A_BARE_BOARD: f64 = 3e-3;
+const OF_THE_SHORTEST: f64 = 1.0 / 90.0;
 
 impl EngineSettings {
     /// What they mean for the solver.
@@ -75,7 +76,11 @@ impl EngineSettings {
     /// The widest grid that a string of a set-up may have, m.
     fn widest(&self, setup: &Setup) -> f64 {
         let widest = self.widest_spacing * if setup.is_touched_between_frets() { BETWEEN_FRETS } else { 1.0 };
-        if setup.neck.fretless && widest.is_finite() { widest.min(ON_A_BARE_BOARD) } else { widest }
+        if !setup.neck.fretless || widest.is_infinite() {
+            return widest;
+        }
+        let shortest = setup.neck.scale_length - setup.neck.equal_place(setup.neck.frets as f64);
+        widest.min(ON_A_BARE_BOARD).min(OF_THE_SHORTEST * shortest)
     }
 
     /// Refuses values outside their range.

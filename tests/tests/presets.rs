@@ -112,7 +112,7 @@ fn only_the_worn_fret_buzzes() {
 #[test]
 fn a_fretless_neck_is_in_tune_and_has_no_frets() {
     let setup = shipped("fretless-bass");
-    // All the way up. The louder a string swings, the farther it leaves the board before the finger, point by point.
+    // All the way up. (Every semitone, at other rates, too, is in `tuning.rs`.)
     for (string, fret) in (0..4).flat_map(|string| [2_u8, 3, 7, 11, 14, 16, 20].map(|fret| (string, fret))) {
         let open = setup.string[usize::from(string)].pitch as u8;
         let expected = hertz(f64::from(open + fret));

@@ -62,12 +62,15 @@ impl Resting<'_> {
 }
 
 /// The oscillation about `rest` that is nearest to `near` (1/s) and lives beyond `stop` (m from the nut).
+///
+/// With `still` the string has no mass up to there, and so no oscillations of its own: one of the part behind may be as near.
 pub(super) fn stopped_oscillation(
     model: &Model,
     rest: &Equilibrium,
     finger: &Resting,
     stop: f64,
     near: f64,
+    still: bool,
 ) -> Oscillation {
     let (grid, k) = (&model.grid, model.grid.time_step);
     let node_mass = model.string.linear_density * grid.spacing;
@@ -81,7 +84,9 @@ pub(super) fn stopped_oscillation(
     }
     matrix.add_spring(&finger.at, finger.stiffness(near, k));
     let shift = node_mass * chord * chord;
-    matrix.shift(Complex::from(-shift));
+    let behind = (1..grid.intervals).take_while(|&node| grid.place(node) <= stop).count();
+    let massless = if still { behind } else { 0 };
+    matrix.shift_from(massless, Complex::from(-shift));
     let unit = Stiffness { tension: 1.0, kappa_2: 0.0, kappa_6: 0.0 };
     let curvature = Band::of_string(grid, 0.0, &unit).times(&rest.displacement);
     let curvature = curvature.into_iter().map(Complex::from).collect();
@@ -96,6 +101,8 @@ pub(super) fn stopped_oscillation(
         .collect();
     let mut offset = Complex::from(0.0);
     for _ in 0..ITERATIONS {
+        // What has no mass follows, and drives nothing.
+        shape[..massless].fill(Complex::from(0.0));
         let next = system.solve(&shape);
         offset = dot(&shape, &shape) / dot(&shape, &next);
         let scale = Complex::from(modulus(dot(&next, &next)).sqrt().recip());
