@@ -41,7 +41,7 @@ impl Contact {
     /// The force, N, of what the contact itself is pressed in at a penetration, m, on which its damping acts: where the string
     /// gives way round a kinked fret, no more than that of the knee.
     #[inline(always)]
-    pub(crate) fn own_force(&self, penetration: f64) -> f64 {
+    pub fn own_force(&self, penetration: f64) -> f64 {
         if self.radiation > 0.0 { self.law.own_force(penetration) } else { self.law.force(penetration) }
     }
 

@@ -255,10 +255,9 @@ impl Performance {
     /// A note in the nearest octave that any string gives, free or not: a capo, or the instrument, may have changed since it was
     /// asked for, and one that no string gives would wait for ever.
     fn to_come(&self, wanted: &Wanted) -> Option<Wanted> {
-        let moved = octaves(wanted.pitch).map(|pitch| Wanted { pitch, ..*wanted });
         let given =
             |moved: &Wanted| (0..self.strings.len()).any(|string| self.hand.fret(moved, string).is_some());
-        moved.into_iter().find(given)
+        octaves(wanted.pitch).map(|pitch| Wanted { pitch, ..*wanted }).find(given)
     }
 
     /// The nearest octave of a note that a free string gives, on the one nearest to the hand.

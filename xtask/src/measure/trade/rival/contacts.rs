@@ -59,7 +59,7 @@ impl Rival {
                 self.calm[index] = self.step + Contact::RADIATING;
             }
             let radiating = contact.radiating(self.calm[index].saturating_sub(self.step));
-            let own = contact.damping * contact.law.own_force(penetration);
+            let own = contact.damping * contact.own_force(penetration);
             let change = -(read(&contact.reading, &self.next) + motion);
             self.rows.push(Row {
                 fixed: Some(index),
