@@ -127,7 +127,10 @@ pub(crate) fn pairs<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option
 }
 
 /// The most frets a board may have.
-const MOST_FRETS: usize = 1000;
+pub(crate) const MOST_FRETS: usize = 1000;
+
+/// The most that are counted out in equal temperament: beyond the 647th of them a fret stands on the bridge, as far as numbers tell.
+pub(crate) const MOST_COUNTED: usize = 640;
 
 /// A whole number of equal things, or the place (or value) of each.
 #[derive(Debug, Clone, PartialEq)]
@@ -144,11 +147,11 @@ impl<'de> Deserialize<'de> for CountOrList {
         impl<'de> Visitor<'de> for CountVisitor {
             type Value = CountOrList;
             fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-                write!(f, "a count from 0 to {MOST_FRETS} or a list of at most {MOST_FRETS} places in m")
+                write!(f, "a count from 0 to {MOST_COUNTED} or a list of at most {MOST_FRETS} places in m")
             }
             fn visit_i64<E: de::Error>(self, value: i64) -> Result<CountOrList, E> {
                 match usize::try_from(value) {
-                    Ok(count) if count <= MOST_FRETS => Ok(CountOrList::Count(count)),
+                    Ok(count) if count <= MOST_COUNTED => Ok(CountOrList::Count(count)),
                     _ => Err(E::invalid_value(de::Unexpected::Signed(value), &self)),
                 }
             }

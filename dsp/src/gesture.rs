@@ -58,15 +58,17 @@ pub const MOST_CLEARANCE: f64 = 10.0;
 /// (and a string does not sleep before they are over); but for plucks and stilling, one below 0 or that is no number is at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Gesture {
-    /// A raised-cosine push of a point of the string that ends in a sudden release, equation \[4\]. Left out while as many as
-    /// [`PUSHES`](crate::drive::PUSHES) others are under way.
+    /// A push of a point of the string that grows as a raised cosine, equation \[4\], and lets go at once or as it grew. Left out
+    /// while as many as [`PUSHES`](crate::drive::PUSHES) others are under way.
     Pluck {
         /// Place, m from the nut.
         position: f64,
         /// Largest force, N, up is positive; 0 or more pushes away from the board. Left out above [`MOST_FORCE`].
         force: f64,
-        /// Length of the push, s; one of 0 or less gives nothing. Left out where it is not finite.
+        /// How long the push grows, s; one of 0 or less does not. Left out where it is not finite.
         duration: f64,
+        /// How long it takes to let go after that, s: 0 or less, as a plectrum does, is at once. Left out where it is not finite.
+        release: f64,
     },
     /// Puts a finger over the string, at rest, touching nothing, in the place of the one that is in that slot. What cannot be
     /// (a touch or clearance out of range, a pad too stiff for the string's rate, a slot that is not there) is left out, and
@@ -152,13 +154,20 @@ pub struct TimedGesture {
     pub gesture: Gesture,
 }
 
-/// The push of a pluck in one step, as a part of its force: the mean of (1 − cos(πt/t_p))/2 for 0 ≤ t ≤ t_p, equation
-/// \[4\], and 0 before and after, from half a step before to half a step after `since`.
+/// The push of a pluck in one step, as a part of its force: the mean from half a step before to half a step after `since` of
+/// what grows as (1 − cos(πt/t_p))/2 for 0 ≤ t ≤ t_p, equation \[4\], and falls in the same way for t_r after that.
 ///
-/// All in s: `since` the pluck began, `step` from one sample to the next, the `duration` t_p. The push ends at once where it
-/// is strongest. Taken at the samples alone it would be too long or too short by up to half a step, and one that ends
-/// between two samples might not push at all; by means the string gets what the push gives, t_p/2 in all, wherever samples fall.
-pub fn pluck_push(since: f64, step: f64, duration: f64) -> f64 {
+/// All in s: `since` the pluck began, `step` from one sample to the next, `duration` t_p, `release` t_r. With t_r = 0 the push
+/// ends at once where it is strongest. Taken at the samples alone it would be too long or too short by up to half a step, and
+/// one that ends between two samples might not push at all; by means the string gets what the push gives, (t_p + t_r)/2 in all,
+/// wherever samples fall.
+pub fn pluck_push(since: f64, step: f64, duration: f64, release: f64) -> f64 {
+    // What falls has grown, seen from its end.
+    growing(since, step, duration) + growing(duration + release - since, step, release)
+}
+
+/// The part of it that grows.
+fn growing(since: f64, step: f64, duration: f64) -> f64 {
     let (from, to) = ((since - 0.5 * step).max(0.0), (since + 0.5 * step).min(duration));
     // Less than the smallest normal number has no inverse.
     if from >= to || duration < 1e-300 {

@@ -20,8 +20,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// A grid of the given number of intervals.
-    pub fn new(length: f64, intervals: usize, time_step: f64) -> Self {
+    /// A grid of the given number of intervals, 4 or more, on a string of so many m with steps of so many s.
+    pub(crate) fn new(length: f64, intervals: usize, time_step: f64) -> Self {
         Grid { intervals, length, spacing: length / intervals as f64, time_step }
     }
 

@@ -43,6 +43,7 @@ pub(crate) struct Pluck {
     pub force: f64,
     pub done: u64,
     pub duration: f64,
+    pub release: f64,
 }
 
 /// A hand laid along the string.
@@ -169,13 +170,14 @@ impl Hands {
             }
         };
         match gesture {
-            Gesture::Pluck { position, force, duration } => {
-                let begins = self.plucks.len() < PUSHES && is_possible(force) && duration.is_finite();
+            Gesture::Pluck { position, force, duration, release } => {
+                let ends = duration.is_finite() && release.is_finite();
+                let begins = self.plucks.len() < PUSHES && is_possible(force) && ends;
                 if begins {
                     let position = inside(position);
                     let reading = model.grid.reading(position);
-                    let duration = duration.max(0.0);
-                    self.plucks.push(Pluck { position, reading, force, done: 0, duration });
+                    let [duration, release] = [duration, release].map(|time| time.max(0.0));
+                    self.plucks.push(Pluck { position, reading, force, done: 0, duration, release });
                 }
                 begins
             }
@@ -272,11 +274,12 @@ impl Hands {
         drive.pushes.clear();
         let rate = self.sample_rate;
         self.plucks.retain_mut(|pluck| {
-            let force = pluck.force * pluck_push(pluck.done as f64 / rate, 1.0 / rate, pluck.duration);
+            let since = pluck.done as f64 / rate;
+            let force = pluck.force * pluck_push(since, 1.0 / rate, pluck.duration, pluck.release);
             drive.pushes.push(Push { reading: pluck.reading, force });
             pluck.done += 1;
             // Half a step of the next sample's push may still be its.
-            (pluck.done as f64 - 0.5) / rate < pluck.duration
+            (pluck.done as f64 - 0.5) / rate < pluck.duration + pluck.release
         });
         for slot in 0..FINGERS_PER_STRING {
             let Some(held) = &mut self.fingers[slot] else { continue };

@@ -60,7 +60,7 @@
 //! let mut instrument = Instrument::new(&setup, &Quality::Live.settings(48e3))?;
 //! let geometry = instrument.geometry(0);
 //! let (fretting, place) = (&setup.player.fretting, geometry.finger_position(5));
-//! let pluck = Gesture::Pluck { position: geometry.length - 0.12, force: 1.0, duration: 1.5e-3 };
+//! let pluck = Gesture::Pluck { position: geometry.length - 0.12, force: 1.0, duration: 1.5e-3, release: 0.0 };
 //! let gestures = [
 //!     (0, Gesture::Place { finger: 0, touch: fretting.touch, position: place, clearance: 1e-4 }),
 //!     (0, Gesture::Press { finger: 0, force: fretting.force, duration: 0.004 }),

@@ -16,7 +16,7 @@ use crate::finger::Inertia;
 use crate::flexibility::Flexibility;
 use crate::gesture::Touch;
 use crate::grid::{Grid, Reading};
-use crate::scene::{FretPlacement, SolverSettings, Stencil};
+use crate::scene::{FretPlacement, MOST_FINGERS, SolverSettings, Stencil};
 use crate::skyline::Blocks;
 pub use barrier::Barrier;
 pub(crate) use coasting::Coasting;
@@ -52,7 +52,7 @@ impl Model {
     /// What sample rates may be, Hz.
     pub(crate) const RATES: RangeInclusive<f64> = 1e3..=1e7;
 
-    /// Compiles a string over a barrier, with room for fingers, at a sample rate in Hz, 1e3 to 1e7.
+    /// Compiles a string over a barrier, with room for so many fingers, 100 at most, at a sample rate in Hz, 1e3 to 1e7.
     ///
     /// # Errors
     /// When a number is out of its range, the string is too short for its grid, a fret is off the string, or a contact is too
@@ -66,6 +66,7 @@ impl Model {
     ) -> Result<Model, Error> {
         string.check()?;
         settings.check()?;
+        within("finger_slots", finger_slots as f64, 0.0, MOST_FINGERS as f64, "")?;
         within("sample_rate", sample_rate, *Self::RATES.start(), *Self::RATES.end(), "Hz")?;
         let time_step = 1.0 / sample_rate;
         let grid = Self::grid(&string, settings.stencil, time_step)?;

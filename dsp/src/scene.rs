@@ -2,6 +2,8 @@
 
 mod check;
 
+pub(crate) use check::MOST_FINGERS;
+
 use serde::de::{Error as _, Unexpected};
 use serde::{Deserialize, Deserializer};
 
@@ -181,7 +183,7 @@ impl<'de> Deserialize<'de> for FretPlacement {
     }
 }
 
-/// A raised-cosine push, equation \[4\] of the paper.
+/// A push that grows as a raised cosine, equation \[4\] of the paper, and lets go at once or as it grew.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PluckSpec {
@@ -191,8 +193,11 @@ pub struct PluckSpec {
     /// When it begins, s.
     #[serde(default)]
     pub start: f64,
-    /// How long it lasts, s.
+    /// How long it grows, s.
     pub duration: f64,
+    /// How long it takes to let go after that, s; 0 is at once.
+    #[serde(default)]
+    pub release: f64,
     /// Where, m from the nut.
     pub position: f64,
     /// Largest force, N, up is positive.

@@ -21,8 +21,8 @@ use crate::setup::{Setup, SetupString};
 pub struct EngineSettings {
     /// Sample rate at which it is heard, Hz, 8e3 to 1e6.
     pub sample_rate: f64,
-    /// The widest grid a string may have, m, 1e-4 or more, or two thirds of it over a wide bridge or under a bar, and over a bare
-    /// board 3 mm and a ninetieth of the shortest length that sounds at most: one whose grid is wider at `sample_rate` is computed
+    /// The widest grid a string may have, m, 1e-4 or more, or two thirds of it over a wide bridge or where fret 12 is
+    /// more than 6 mm below the string, and over a bare board 3 mm and a ninetieth of the shortest length that sounds at most: one whose grid is wider at `sample_rate` is computed
     /// at a multiple of it. Infinite: every string is computed at `sample_rate` itself that is not too short for its grid there.
     pub widest_spacing: f64,
     /// Difference operator of the strings.
@@ -40,8 +40,8 @@ const RATES: RangeInclusive<f64> = 8e3..=1e6;
 /// nobody would string up stays within bounds.
 const HIGHEST_RATE: f64 = 400e3;
 
-/// Strings bend round a fret on any grid. What else is hard, a wide bridge that they leave point by point or a bar, asks for one
-/// so much finer.
+/// Strings bend round a fret on any grid. What else is hard, a wide bridge that they leave point by point or a bar (which lies on
+/// strings out of the reach of fingers), asks for one so much finer.
 const BETWEEN_FRETS: f64 = 2.0 / 3.0;
 
 /// The widest grid over a bare board that fingers stop strings on, m, and as a part of the shortest length that sounds. Such a string ends

@@ -252,7 +252,8 @@ impl Setup {
         Ok(())
     }
 
-    /// Whether something hard touches strings elsewhere than at frets: a wide bridge, or a bar where frets are out of reach.
+    /// Whether something hard may touch strings elsewhere than at frets: a wide bridge, or a bar where the frets of the middle are
+    /// out of reach. (Those near the nut may be within it, so that a bar is laid there only where it is asked for.)
     pub(crate) fn is_touched_between_frets(&self) -> bool {
         self.bridge.is_some() || self.neck.action > OUT_OF_REACH
     }

@@ -115,7 +115,11 @@ fn pluck(spec: &PluckSpec, on: &str) -> String {
     let (force, way) = (number(spec.force.abs()), if spec.force < 0.0 { "down" } else { "up" });
     let (place, duration) = (number(spec.position), number(1e3 * spec.duration));
     let start = if spec.start > 0.0 { format!(" from {} s on", number(spec.start)) } else { String::new() };
-    format!("Pluck: {force} N {way} at {place} m, grown over {duration} ms{start}{on}.")
+    let release = match spec.release {
+        0.0 => String::new(),
+        release => format!(" and let go over {} ms", number(1e3 * release)),
+    };
+    format!("Pluck: {force} N {way} at {place} m, grown over {duration} ms{release}{start}{on}.")
 }
 
 fn finger(spec: &FingerSpec, on: &str) -> String {
@@ -199,7 +203,7 @@ mod tests {
             "sample_rate = 44100\nduration = 0.1\n[solver]\nmax_iterations = 50\ntolerance = 1e-15\n\
              stencil = \"paper\"\n{string}{string}[fretboard]\nstiffness = 1e10\nexponent = 1.5\ndamping = 0\n\
              board = [[0.0, -0.002], [0.65, -0.0021]]\nfrets = [0.2, 0.4]\nfret_top = [-0.001, -0.0011]\n\
-             fret_placement = \"exact\"\n[[pluck]]\nstring = 1\nstart = 0\nduration = 2e-3\nposition = 0.5\nforce = 1\n\
+             fret_placement = \"exact\"\n[[pluck]]\nstring = 1\nstart = 0\nduration = 2e-3\nrelease = 1e-4\nposition = 0.5\nforce = 1\n\
              [[finger]]\nstring = 1\nmass = 5e-3\nstiffness = 1e8\nexponent = 2\ndamping = 0\nhand_damping = 0\n\
              position = 0.25\nheight = 5e-4\nvelocity = -2\nforce = 0\n"
         );
@@ -233,6 +237,7 @@ mod tests {
             (halfway, "string = 1\nstart", "string = 2\nstart"),
             (halfway, "start = 0", "start = 0.01"),
             (halfway, "duration = 2e-3", "duration = 3e-3"),
+            (halfway, "release = 1e-4", "release = 0"),
             (halfway, "position = 0.5", "position = 0.4"),
             (halfway, "force = 1", "force = -1"),
             (halfway, "string = 1\nmass", "string = 2\nmass"),

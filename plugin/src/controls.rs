@@ -112,6 +112,8 @@ pub struct Touching {
     pub pluck_softest: f64,
     /// Factor of how long a pluck pushes.
     pub pluck_duration: f64,
+    /// Adds to how long it takes to let go, s.
+    pub pluck_release: f64,
     /// Power of the velocity with which the force goes.
     pub velocity_curve: f64,
     /// Size of the small differences between plucks, 0 to 1.
@@ -147,6 +149,7 @@ impl Touching {
             pluck_force: 1.0,
             pluck_softest: 0.0,
             pluck_duration: 1.0,
+            pluck_release: 0.0,
             velocity_curve: crate::performance::VELOCITY_CURVE,
             variation,
             finger_force: 1.0,
@@ -176,6 +179,7 @@ impl Touching {
         hands.pluck_position = (own + self.pluck_position).min(farthest).max(nearest);
         hands.pluck_force *= self.pluck_force;
         hands.pluck_duration *= self.pluck_duration;
+        hands.pluck_release += self.pluck_release;
         let fretting = &mut hands.fretting;
         fretting.force *= self.finger_force;
         fretting.touch.stiffness *= self.finger_hardness;

@@ -134,6 +134,9 @@ pub struct PlayerParams {
     /// Factor of how long a pluck pushes.
     #[id = "pluck_duration"]
     pub pluck_duration: FloatParam,
+    /// Adds to how long a pluck takes to let go, ms.
+    #[id = "pluck_release"]
+    pub pluck_release: FloatParam,
     /// Power of the velocity with which the force goes.
     #[id = "velocity_curve"]
     pub velocity_curve: FloatParam,

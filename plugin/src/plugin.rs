@@ -17,6 +17,7 @@ mod playing;
 pub mod shelf;
 pub mod state;
 mod voices;
+mod vst3;
 mod workshop;
 
 use std::sync::Arc;
@@ -240,8 +241,9 @@ impl Plugin for LowAction {
         while let Some(event) = self.played.next() {
             playing.touch(event);
         }
+        let is_vst3 = context.plugin_api() == PluginApi::Vst3;
         while let Some(event) = context.next_event() {
-            playing.event(event, &self.params);
+            playing.event(if is_vst3 { vst3::mended(event) } else { event }, &self.params);
         }
         self.display.look(looked_at, playing.engine());
         let mut stems: [&mut [f32]; STRING_OUTPUTS] = std::array::from_fn(|_| Default::default());
@@ -293,8 +295,6 @@ impl Vst3Plugin for LowAction {
     const VST3_SUBCATEGORIES: &'static [Vst3SubCategory] =
         &[Vst3SubCategory::Instrument, Vst3SubCategory::Synth, Vst3SubCategory::Stereo];
 }
-
-nice_export_vst3!(LowAction);
 
 #[cfg(test)]
 mod tests {

@@ -27,7 +27,7 @@ pub fn strike(instrument: &mut Instrument, setup: &Setup) {
         }
         let position = length - player.pluck_position;
         let force = player.pluck_force;
-        does(time + 240, Gesture::Pluck { position, force, duration: player.pluck_duration });
+        does(time + 240, Gesture::Pluck { position, force, duration: player.pluck_duration, release: 0.0 });
     }
 }
 

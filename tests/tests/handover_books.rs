@@ -24,7 +24,7 @@ fn does(instrument: &mut Instrument, gesture: Gesture) {
     }
 }
 
-const PLUCK: Gesture = Gesture::Pluck { position: 0.5, force: 1.0, duration: 1e-3 };
+const PLUCK: Gesture = Gesture::Pluck { position: 0.5, force: 1.0, duration: 1e-3, release: 0.0 };
 
 fn play(instrument: &mut Instrument, seconds: f64) {
     let samples = (seconds * RATE) as usize;

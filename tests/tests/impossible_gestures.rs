@@ -19,7 +19,7 @@ fn play(more: &[Gesture]) -> Vec<f32> {
     };
     at(0, Gesture::Place { finger: FINGER, touch: PAD, position: place, clearance: 1e-3 });
     at(0, Gesture::Press { finger: FINGER, force: 5.0, duration: 0.002 });
-    at(4800, Gesture::Pluck { position: 0.5, force: 0.8, duration: 0.003 });
+    at(4800, Gesture::Pluck { position: 0.5, force: 0.8, duration: 0.003, release: 0.0 });
     more.iter().for_each(|gesture| at(7200, *gesture));
     let (mut left, mut right) = (vec![0.0; 14_400], vec![0.0; 14_400]);
     instrument.process(&mut left, &mut right);
@@ -74,8 +74,9 @@ fn forces_that_are_no_numbers() {
     for force in NUMBERS {
         assert_left_out(Gesture::Press { finger: FINGER, force, duration: 0.01 });
         assert_left_out(Gesture::Lift { finger: FINGER, force, duration: 0.01 });
-        assert_left_out(Gesture::Pluck { position: 0.3, force, duration: 0.01 });
-        assert_left_out(Gesture::Pluck { position: 0.3, force: 1.0, duration: force });
+        assert_left_out(Gesture::Pluck { position: 0.3, force, duration: 0.01, release: 0.0 });
+        assert_left_out(Gesture::Pluck { position: 0.3, force: 1.0, duration: force, release: 0.0 });
+        assert_left_out(Gesture::Pluck { position: 0.3, force: 1.0, duration: 0.01, release: force });
     }
 }
 
@@ -85,10 +86,10 @@ fn forces_beyond_all_hands() {
     for force in [1e7, 1e308, -1e308] {
         assert_left_out(Gesture::Press { finger: FINGER, force, duration: 0.01 });
         assert_left_out(Gesture::Lift { finger: FINGER, force, duration: 0.01 });
-        assert_left_out(Gesture::Pluck { position: 0.3, force, duration: 0.01 });
+        assert_left_out(Gesture::Pluck { position: 0.3, force, duration: 0.01, release: 0.0 });
     }
     // And so is a push of less than any time.
-    assert_left_out(Gesture::Pluck { position: 0.3, force: 1.0, duration: 1e-310 });
+    assert_left_out(Gesture::Pluck { position: 0.3, force: 1.0, duration: 1e-310, release: 0.0 });
 }
 
 #[test]
@@ -114,7 +115,7 @@ fn late_gestures_keep_their_order() {
         let gestures = [
             (now, Gesture::Place { finger: FINGER, touch: PAD, position, clearance: 1e-4 }),
             (late, Gesture::Press { finger: FINGER, force: 5.0, duration: 0.002 }),
-            (now + 480, Gesture::Pluck { position: 0.5, force: 0.8, duration: 0.003 }),
+            (now + 480, Gesture::Pluck { position: 0.5, force: 0.8, duration: 0.003, release: 0.0 }),
         ];
         for (time, gesture) in gestures {
             instrument.schedule(TimedGesture { time, string: 0, gesture }).expect("there is room");
@@ -164,7 +165,7 @@ fn plucks_that_are_left_out_are_not_seen() {
     let mut instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).expect("it can be built");
     instrument.observe(true);
     let mut seen_after = |position, force| {
-        let gesture = Gesture::Pluck { position, force, duration: 0.1 };
+        let gesture = Gesture::Pluck { position, force, duration: 0.1, release: 0.0 };
         let time = instrument.now();
         instrument.schedule(TimedGesture { time, string: 0, gesture }).expect("there is room");
         instrument.process(&mut [0.0], &mut [0.0]);

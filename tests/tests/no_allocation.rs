@@ -46,7 +46,7 @@ fn play(name: &str, setup: &Setup, mut instrument: Instrument) {
                 let gestures = [
                     Gesture::Place { finger, touch, position, clearance: 1e-4 },
                     Gesture::Press { finger, force: 6.0, duration: 0.004 },
-                    Gesture::Pluck { position: away, force: 2.0, duration: 0.001 },
+                    Gesture::Pluck { position: away, force: 2.0, duration: 0.001, release: 0.0 },
                     Gesture::Still { loss: 1000.0, duration: 0.001 },
                     Gesture::Slide { finger, position: position + 0.01, duration: 0.01 },
                     Gesture::Bend { tension_ratio: 1.1, duration: 0.01 },

@@ -57,6 +57,7 @@ fn any_touching() -> impl Strategy<Value = Touching> {
         ranged(&player.pluck_force),
         ranged(&player.pluck_softest),
         ranged(&player.pluck_duration),
+        ranged(&player.pluck_release),
         ranged(&player.velocity_curve),
         ranged(&player.variation),
     );
@@ -71,12 +72,14 @@ fn any_touching() -> impl Strategy<Value = Touching> {
     let told = (ranged(&control.bend_range), any::<bool>(), ranged(&control.tremolo_arm), any::<bool>());
     let keyswitches = prop_oneof![Just(-1.0), 0.0..60.0, ranged(&control.keyswitches)];
     (plucks, fingers, told, keyswitches).prop_map(|(plucks, fingers, told, keyswitches)| {
-        let (pluck_position, pluck_force, pluck_softest, pluck_duration, velocity_curve, variation) = plucks;
+        let (position, pluck_force, pluck_softest, pluck_duration, release, velocity_curve, variation) =
+            plucks;
         let (finger_force, finger_hardness, finger_mass, finger_hover, hand_damping) = fingers;
         let (bend_range, ignore_rpn, tremolo_arm, legato) = told;
         Touching {
-            // The parameter is in mm.
-            pluck_position: 1e-3 * pluck_position,
+            // The parameters are in mm and ms.
+            pluck_position: 1e-3 * position,
+            pluck_release: 1e-3 * release,
             pluck_force,
             pluck_softest,
             pluck_duration,
@@ -224,8 +227,8 @@ impl Limits {
         // Nothing takes longer than the slowest slide.
         let longest = 2.0;
         let kept = match gesture {
-            Gesture::Pluck { force, duration, .. } => {
-                within(force.abs(), self.pluck) && within(duration, longest)
+            Gesture::Pluck { force, duration, release, .. } => {
+                within(force.abs(), self.pluck) && within(duration, longest) && within(release, longest)
             }
             Gesture::Place { touch, clearance, .. } => possible(touch) && within(clearance, 0.1),
             Gesture::Throw { touch, clearance, speed, .. } => {
@@ -240,7 +243,10 @@ impl Limits {
                 force > 0.0 && within(force, self.lift) && within(duration, longest)
             }
             Gesture::Slide { duration, .. } => within(duration, longest),
-            Gesture::Still { loss, duration } => loss > 0.0 && within(loss, 1e4) && within(duration, longest),
+            // A hand that is to be off the string takes nothing.
+            Gesture::Still { loss, duration } => {
+                (loss > 0.0 || duration == 0.0) && within(loss, 1e4) && within(duration, longest)
+            }
             Gesture::Bend { tension_ratio, duration } => tension_ratio > 0.0 && within(duration, longest),
         };
         (!kept).then(|| format!("{gesture:?}"))

@@ -22,7 +22,7 @@ fn pluck(controller: u8, value: u8) -> [f64; 3] {
     let plucks: Vec<_> = gestures
         .iter()
         .filter_map(|timed| match timed.gesture {
-            Gesture::Pluck { position, force, duration } => Some([position, force, duration]),
+            Gesture::Pluck { position, force, duration, .. } => Some([position, force, duration]),
             _ => None,
         })
         .collect();

@@ -4,9 +4,10 @@
 use std::sync::LazyLock;
 
 use low_action::performance::{PlayerEvent, StringDeed};
+use low_action_dsp::Setup;
 use low_action_dsp::{FingerSlot, Gesture, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, RATE, play};
-use low_action_tests::stage::{cc, off, on};
+use low_action_tests::stage::{Stage, cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 
@@ -165,6 +166,61 @@ fn strokes_and_ways_of_stopping_that_there_are_not_are_the_usual_one() {
         // (2 of CC 22 begins with the usual stroke.)
         for value in count..=127 {
             assert_eq!(played(number, value), usual, "CC {number} = {value}");
+        }
+    }
+}
+
+/// What is left of a note would ring for half a minute where nobody hears it, and cost what a note costs.
+#[test]
+fn two_seconds_after_its_note_a_string_is_at_rest() {
+    for (setup, string) in [
+        ("electric", 0),
+        ("electric", 5),
+        ("classical", 5),
+        ("steel", 3),
+        ("bass", 3),
+        ("five-string-bass", 4),
+        ("fretless-bass", 2),
+        ("sitar", 4),
+        ("lap-steel", 1),
+    ] {
+        let shipped = Setup::shipped(setup).expect("it is shipped");
+        let open = shipped.string[string].pitch as u8;
+        let mut stage = Stage::alone(setup, string);
+        for fret in [0, 2, 7] {
+            let sound = &stage.play(&[(0.0, on(open + fret, 110)), (0.5, off(open + fret))], 3.0).strings[0];
+            let rings =
+                sound.iter().rposition(|sample| *sample != 0.0).expect("it sounds") as f64 / RATE - 0.5;
+            println!("{setup}, string {string}, fret {fret}: at rest after {rings:.2} s");
+            assert!(rings < 2.0, "{setup}, string {string}, fret {fret}: {rings} s");
+        }
+    }
+}
+
+/// And the hand that saw to it is off a string that is played again, wherever that falls, and whatever plays.
+#[test]
+fn no_hand_lies_along_a_new_note() {
+    for stroke in [0, 7] {
+        for wait in [0.95, 1.12, 1.2, 1.35, 1.45] {
+            let again = UP + (wait * RATE) as u64;
+            let events =
+                [(0, on(KEY, 80)), (UP, off(KEY)), (again, cc(22, stroke)), (again, on(KEY + 3, 80))];
+            let mut laid = 0;
+            for timed in gestures(&events) {
+                match timed.gesture {
+                    Gesture::Still { loss, duration } => {
+                        laid = timed.time + if loss > 0.0 { (duration * RATE) as u64 } else { 0 };
+                    }
+                    // What the stroke asks for lies under its push.
+                    Gesture::Pluck { duration, .. } if timed.time >= again => {
+                        assert!(laid <= timed.time + (duration * RATE) as u64, "{wait} s: {laid}");
+                    }
+                    Gesture::Throw { .. } if timed.time >= again => {
+                        assert!(laid <= timed.time, "{wait} s: {laid}")
+                    }
+                    _ => {}
+                }
+            }
         }
     }
 }

@@ -238,6 +238,22 @@ fn a_capo_is_a_new_nut() {
     assert!(peak(&played.strings[0][at(3.3)..]) < 1e-4);
 }
 
+/// Wherever a controller that nobody thought of puts it, every key sounds; and resetting controllers takes it off again.
+#[test]
+fn a_capo_leaves_no_key_silent() {
+    for setup in ["electric", "classical", "bass", "ukulele"] {
+        let mut stage = Stage::new(&Setup::shipped(setup).expect("it is shipped"));
+        for key in 60..72 {
+            let played = stage.play(&[(0.0, cc(26, 127)), (0.0, on(key, 100))], 0.3);
+            let loudest = played.strings.iter().map(|sound| peak(sound)).fold(0.0, f64::max);
+            assert!(decibels(loudest) > -40.0, "{setup}, key {key}: {} dB", decibels(loudest));
+        }
+        let taken_off = |by| [(0.0, cc(26, 127)), (0.0, by), (0.1, on(60, 100))];
+        let [one, other] = [cc(26, 0), cc(121, 0)].map(|by| stage.play(&taken_off(by), 0.5).strings);
+        assert!(one == other, "{setup}: the capo is still there");
+    }
+}
+
 /// It leaves a quiet string slowly, last of all: a note below it that comes meanwhile must not sound from it.
 #[test]
 fn a_capo_that_is_leaving_stops_no_note() {

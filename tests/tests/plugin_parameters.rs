@@ -158,6 +158,12 @@ const BUILT: &[Built] = &[
         means: |options, high| options.setup.player.pluck_duration *= pick(high, 0.1, 5.0),
     },
     Built {
+        id: "pluck_release",
+        // A plectrum lets go at once: less than its nothing is nothing.
+        ends: [0.0, 1.0],
+        means: |options, high| options.setup.player.pluck_release = pick(high, 0.0, 0.004),
+    },
+    Built {
         id: "variation",
         ends: [0.0, 1.0],
         means: |options, high| options.variation = pick(high, 0.0, 1.0),

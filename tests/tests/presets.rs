@@ -103,10 +103,29 @@ fn only_the_worn_fret_buzzes() {
     let worn = shipped("worn-fret");
     let mut mended = worn.clone();
     mended.neck.worn.clear();
-    // A string, frets 5 and 9: the worn one, and one of the others.
-    let rattle = |setup: &Setup, fret: u8| brightness(&note(setup, 4, 45 + fret)[240..4800]);
-    assert!(rattle(&worn, 5) > 2.0 * rattle(&mended, 5));
-    assert!((rattle(&worn, 9) / rattle(&mended, 9) - 1.0).abs() < 0.1);
+    // String, fret: the worn one on all strings, and others on one.
+    let both = |string: u8, fret: u8| {
+        [&worn, &mended]
+            .map(|setup| note(setup, string, setup.string[usize::from(string)].pitch as u8 + fret))
+    };
+    let rattle = |sound: &[f32]| brightness(&sound[240..4800]);
+    for string in 0..6 {
+        let [buzzing, clear] = both(string, 5);
+        let (rattles, stays) = (rattle(&buzzing) / rattle(&clear), sustain(&buzzing) / sustain(&clear));
+        let expected = hertz(worn.string[usize::from(string)].pitch + 5.0);
+        let off = cents(frequency_near(&buzzing[9600..], RATE, expected), expected);
+        println!("string {string}: {rattles:.2} as bright, {stays:.2} of the sustain, {off:.1} cents");
+        assert!(rattles > 1.2, "string {string} does not buzz: {rattles}");
+        assert!(stays < 0.9, "string {string} rings as long: {stays}");
+        // It sounds as the fifth fret, not as the sixth, a semitone up.
+        assert!(off.abs() < 8.0, "string {string}: {off} cents");
+    }
+    for fret in [3, 4, 6, 9] {
+        let [of_worn, of_mended] = both(4, fret);
+        let change = rattle(&of_worn) / rattle(&of_mended);
+        println!("fret {fret}: {change:.3} as bright");
+        assert!((change - 1.0).abs() < 0.1, "fret {fret}: {change}");
+    }
 }
 
 #[test]

@@ -25,7 +25,8 @@ fn play(instrument: &mut Instrument, setup: &Setup) {
     for string in 0..instrument.string_count() {
         let geometry = instrument.geometry(string).clone();
         let position = geometry.finger_position(1 + 2 * string);
-        let pluck = Gesture::Pluck { position: geometry.length - 0.12, force, duration: 1.5e-3 };
+        let pluck =
+            Gesture::Pluck { position: geometry.length - 0.12, force, duration: 1.5e-3, release: 0.0 };
         let gestures = [
             (0.001, Gesture::Place { finger: 0, touch: finger.touch, position, clearance: finger.hover }),
             (0.001, Gesture::Press { finger: 0, force: finger.force, duration: finger.landing }),

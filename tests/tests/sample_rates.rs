@@ -32,8 +32,12 @@ fn pitch_is_the_same_at_every_rate() {
             let press =
                 Gesture::Press { finger: 0, force: player.fretting.force, duration: player.fretting.landing };
             let position = geometry.length - player.pluck_position;
-            let pluck =
-                Gesture::Pluck { position, force: 0.2 * player.pluck_force, duration: player.pluck_duration };
+            let pluck = Gesture::Pluck {
+                position,
+                force: 0.2 * player.pluck_force,
+                duration: player.pluck_duration,
+                release: 0.0,
+            };
             for gesture in [place, press].into_iter().filter(|_| fret > 0).chain([pluck]) {
                 instrument.schedule(at(gesture)).expect("there is room");
             }

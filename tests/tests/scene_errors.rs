@@ -85,6 +85,7 @@ fn the_scene_itself_is_accepted() {
 fn values_out_of_range_are_refused() {
     let cases: &[(&str, &str, &[&str])] = &[
         ("duration = 0.01", "duration = 1e18", &["duration = 1e18", "between 0 and 100000 s"]),
+        ("duration = 0.002", "duration = 0.002\nrelease = -1", &["pluck[1].release = -1", "between 0 and"]),
         ("duration = 0.01", "duration = -1", &["duration = -1", "between 0"]),
         ("duration = 0.01", "duration = nan", &["duration = NaN"]),
         ("duration = 0.01", "duration = 1e400", &["line 3, duration", "overflow"]),

@@ -37,7 +37,7 @@ fn play(setup: &Setup, watched: bool) -> (Vec<f32>, bool) {
         at(0, Gesture::Place { finger: 3, touch: HOVERING, position: 0.1, clearance: 0.05 });
     }
     for time in [0, AGAIN] {
-        at(time, Gesture::Pluck { position: 0.5, force: 0.5, duration: 0.003 });
+        at(time, Gesture::Pluck { position: 0.5, force: 0.5, duration: 0.003, release: 0.0 });
     }
     let length = AGAIN as usize + 24_000;
     let (mut left, mut right) = (vec![0.0; length], vec![0.0; length]);
@@ -79,7 +79,7 @@ fn a_string_that_slept_sounds_like_one_that_never_did() {
 fn what_is_reset_is_silent() {
     let mut instrument = Instrument::new(&setup("electric"), &LIVE).expect("it can be built");
     assert!(instrument.is_silent(), "nobody has played yet");
-    let pluck = Gesture::Pluck { position: 0.5, force: 0.5, duration: 0.003 };
+    let pluck = Gesture::Pluck { position: 0.5, force: 0.5, duration: 0.003, release: 0.0 };
     for time in [0, 10_000] {
         instrument.schedule(TimedGesture { time, string: 0, gesture: pluck }).expect("there is room");
     }

@@ -17,7 +17,8 @@ fn stems(settings: &EngineSettings, first: u64) -> Vec<Vec<f32>> {
     let mut instrument = Instrument::new(&setup, settings).expect("it can be built");
     for string in 0..instrument.string_count() {
         let position = instrument.geometry(string).length - setup.player.pluck_position;
-        let gesture = Gesture::Pluck { position, force: 0.1, duration: setup.player.pluck_duration };
+        let gesture =
+            Gesture::Pluck { position, force: 0.1, duration: setup.player.pluck_duration, release: 0.0 };
         let time = first + 100 * string as u64;
         instrument.schedule(TimedGesture { time, string, gesture }).expect("there is room");
     }
@@ -148,7 +149,7 @@ fn one_multiple_takes_over_from_another() {
             for (time, gesture) in [
                 (0, Gesture::Place { finger: 0, touch: fretting.touch, position: place, clearance: 1e-4 }),
                 (0, Gesture::Press { finger: 0, force: fretting.force, duration: fretting.landing }),
-                (960, Gesture::Pluck { position, force: 0.4, duration: 0.003 }),
+                (960, Gesture::Pluck { position, force: 0.4, duration: 0.003, release: 0.0 }),
                 // A slide and a bend are under way when the change comes.
                 (9000, Gesture::Slide { finger: 0, position: place + 0.03, duration: 0.1 }),
                 (9000, Gesture::Bend { tension_ratio: 1.1, duration: 0.1 }),

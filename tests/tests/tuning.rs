@@ -200,6 +200,7 @@ fn handled(setup: &Setup, string: usize, hand: &[(f64, Gesture)], target: f64) -
         position: instrument.geometry(0).length - player.pluck_position,
         force: 0.3 * player.pluck_force,
         duration: player.pluck_duration,
+        release: 0.0,
     };
     for &(time, gesture) in hand.iter().chain([&(PLUCK, pluck)]) {
         let time = (time * RATE) as u64;

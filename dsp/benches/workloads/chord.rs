@@ -48,6 +48,7 @@ pub fn pluck(instrument: &mut Instrument, setup: &Setup, string: usize) -> Resul
         position: instrument.geometry(string).length - player.pluck_position,
         force: 0.6 * player.pluck_force,
         duration: player.pluck_duration,
+        release: 0.0,
     };
     instrument.schedule(TimedGesture { time: 0, string, gesture })
 }

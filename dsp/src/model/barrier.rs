@@ -28,8 +28,12 @@ pub struct Barrier {
 }
 
 impl Barrier {
-    /// The barrier of a scene under a string of the given length.
+    /// The barrier of a scene under a string of the given length, m.
+    ///
+    /// # Errors
+    /// When a value of the description is out of its range.
     pub fn from_spec(spec: &FretboardSpec, length: f64) -> Result<Self, Error> {
+        spec.check()?;
         let places: Vec<f64> = match &spec.frets {
             // Equal temperament: fret m leaves 2^(−m/12) of the string.
             CountOrList::Count(count) => {
@@ -67,8 +71,8 @@ impl Barrier {
         Ok(())
     }
 
-    /// The contacts over a grid, in order of place. Where several share a point, the highest stands
-    /// for all: the barrier is one height at each point, and a fret at a grid point replaces the board.
+    /// The contacts over a grid, in order of place. The barrier is one height at each point: where several frets share it, that of
+    /// the highest; and a fret at a grid point stands there instead of the board, higher or not.
     pub(super) fn contacts(&self, grid: &Grid) -> Result<Vec<Contact>, Error> {
         self.check()?;
         let mut contacts = Vec::new();

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::{FingerSpec, FretboardSpec, ListeningPoint, Scene, SolverSettings, StringSpec};
 use crate::contact::ContactLaw;
-use crate::curve::{CountOrList, Curve, OneOrEach};
+use crate::curve::{CountOrList, Curve, MOST_COUNTED, MOST_FRETS, OneOrEach};
 use crate::digits::plain;
 use crate::error::{Error, within};
 use crate::gesture::Touch;
@@ -15,7 +15,7 @@ const MOST_THINGS: usize = 1000;
 
 /// The most fingers on one string: all that touch each other are solved together, in memory that grows
 /// with their square.
-const MOST_FINGERS: usize = 100;
+pub(crate) const MOST_FINGERS: usize = 100;
 
 impl Scene {
     /// Refuses every value outside its range, naming it as in the file.
@@ -43,6 +43,7 @@ impl Scene {
             let length = self.length_of(&name, pluck.string)?;
             within(&format!("{name}.start"), pluck.start, 0.0, 1e9, "s")?;
             within(&format!("{name}.duration"), pluck.duration, 0.0, 1e9, "s")?;
+            within(&format!("{name}.release"), pluck.release, 0.0, 1e9, "s")?;
             within(&format!("{name}.force"), pluck.force, -1e6, 1e6, "N")?;
             on_string(&format!("{name}.position"), pluck.position, length)?;
         }
@@ -111,7 +112,8 @@ impl StringSpec {
 }
 
 impl FretboardSpec {
-    fn check(&self) -> Result<(), Error> {
+    /// Refuses values outside their range.
+    pub(crate) fn check(&self) -> Result<(), Error> {
         ContactLaw::new("fretboard", self.stiffness, self.exponent)?;
         within("fretboard.damping", self.damping, 0.0, 1e5, "s/m")?;
         if let Some(board) = &self.board {
@@ -121,8 +123,12 @@ impl FretboardSpec {
             within("fretboard.board_reference_spacing", spacing, 1e-6, 1e3, "m")?;
         }
         let count = match &self.frets {
-            CountOrList::Count(count) => *count,
+            CountOrList::Count(count) => {
+                within("fretboard.frets", *count as f64, 0.0, MOST_COUNTED as f64, "")?;
+                *count
+            }
             CountOrList::List(places) => {
+                within("number of fretboard.frets", places.len() as f64, 0.0, MOST_FRETS as f64, "")?;
                 for (i, &place) in places.iter().enumerate() {
                     within(&format!("fretboard.frets[{}]", i + 1), place, 0.0, 1e3, "m")?;
                 }

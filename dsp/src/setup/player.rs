@@ -14,6 +14,9 @@ pub struct Player {
     pub pluck_position: f64,
     /// How long a pluck pushes, s.
     pub pluck_duration: f64,
+    /// How long it takes to let go after that, s; 0 is at once.
+    #[serde(default)]
+    pub pluck_release: f64,
     /// Largest force of a pluck at velocity 127, N.
     pub pluck_force: f64,
     /// The finger that stops a string.
@@ -54,8 +57,9 @@ pub struct Damper {
     pub position: f64,
 }
 
-/// What the numbers may be that a player can also change while playing: s, N, N and m.
+/// What the numbers may be that a player can also change while playing: s, s, N, N and m.
 const PLUCK_DURATION: [f64; 2] = [1e-4, 0.1];
+const PLUCK_RELEASE: [f64; 2] = [0.0, 0.1];
 const PLUCK_FORCE: [f64; 2] = [1e-3, 1e3];
 const FRETTING_FORCE: [f64; 2] = [0.1, 100.0];
 const HOVER: [f64; 2] = [0.0, 0.1];
@@ -66,6 +70,7 @@ impl Player {
         let Fretting { touch, force, hover, .. } = &mut self.fretting;
         for (value, [low, high]) in [
             (&mut self.pluck_duration, PLUCK_DURATION),
+            (&mut self.pluck_release, PLUCK_RELEASE),
             (&mut self.pluck_force, PLUCK_FORCE),
             (force, FRETTING_FORCE),
             (hover, HOVER),
@@ -78,6 +83,7 @@ impl Player {
     pub(super) fn check(&self, scale: f64) -> Result<(), Error> {
         on_scale("player.pluck_position", self.pluck_position, scale)?;
         ranged("player.pluck_duration", self.pluck_duration, PLUCK_DURATION, "s")?;
+        ranged("player.pluck_release", self.pluck_release, PLUCK_RELEASE, "s")?;
         ranged("player.pluck_force", self.pluck_force, PLUCK_FORCE, "N")?;
         let Fretting { touch, force, hover, landing, behind, nearest } = &self.fretting;
         touch.check("player.fretting")?;

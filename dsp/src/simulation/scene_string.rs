@@ -184,7 +184,7 @@ impl SceneString {
         self.drive.tension = self.tension.at(now);
         let step = self.model.grid.time_step;
         for ScenePluck { spec, reading, force, .. } in &mut self.plucks {
-            *force = spec.force * pluck_push(now - spec.start, step, spec.duration);
+            *force = spec.force * pluck_push(now - spec.start, step, spec.duration, spec.release);
             if *force != 0.0 {
                 self.drive.pushes.push(Push { reading: *reading, force: *force });
             }

@@ -225,6 +225,7 @@ fn usual(params: &LowActionParams) -> Values {
             &player.pluck_position,
             &player.pluck_force,
             &player.pluck_duration,
+            &player.pluck_release,
             &player.finger_force,
             &player.finger_hardness,
             &player.finger_mass,

@@ -109,6 +109,7 @@ impl Default for PlayerParams {
             pluck_force: factor("Pluck force", 0.05, 5.0).with_poly_modulation_id(poly::PLUCK_FORCE),
             pluck_softest: part("Softest pluck", 0.0),
             pluck_duration: factor("Pluck duration", 0.1, 5.0),
+            pluck_release: shift("Pluck release", -1.0, 4.0, " ms", PART_STEP),
             velocity_curve: FloatParam::new("Velocity curve", 1.5, FloatRange::Linear { min: 0.0, max: 4.0 })
                 .with_step_size(PART_STEP),
             variation: part("Variation", EngineOptions::VARIATION as f32),

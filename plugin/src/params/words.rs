@@ -9,7 +9,7 @@ use super::LowActionParams;
 use crate::engine::Quality;
 
 /// What is heard of a parameter, by its [identifier](LowActionParams). All strings' tunings share one.
-const HEARD: [(&str, &str); 37] = [
+const HEARD: [(&str, &str); 38] = [
     ("instrument", "The instrument: strings, neck, hands and pickup."),
     ("instrument_file", "An instrument of your own, from your folder, in place of that one."),
     (
@@ -35,7 +35,11 @@ const HEARD: [(&str, &str); 37] = [
     ("pluck_position", "Nearer to the saddle is brighter and thinner, nearer to the neck rounder."),
     ("pluck_force", "How hard the hardest pluck is. Hard plucks throw the string at the frets."),
     ("pluck_softest", "How hard the softest pluck is beside the hardest: more evens the dynamics out."),
-    ("pluck_duration", "A long push is a soft thumb, a short one a hard pick."),
+    ("pluck_duration", "How long the string is pushed before it is let go of: a short push is a flick."),
+    (
+        "pluck_release",
+        "A plectrum lets go at once and is bright; the longer flesh takes to slip off, the softer the tone.",
+    ),
     (
         "velocity_curve",
         "How force follows velocity: low numbers are loud early, high ones late; 0 is always the hardest.",

@@ -112,6 +112,11 @@ impl Performance {
             Request::Reset => {
                 self.tell_keys_under(request, whose);
                 self.let_fall_under(whose);
+                // What no channel owns, any of them puts back; in MPE the one that speaks for all.
+                if number == MANAGER || !self.is_mpe() {
+                    self.set_capo(0);
+                    self.set_switches(self.touching.keyswitches);
+                }
             }
             _ => {}
         }

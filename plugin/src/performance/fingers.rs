@@ -197,9 +197,9 @@ impl Fingers {
         self.capo[0]
     }
 
-    /// How long a pluck pushes, s.
-    pub(crate) fn pluck_duration(&self) -> f64 {
-        self.hands.pluck_duration
+    /// How long a pluck pushes before it lets go, and how long that takes, s.
+    pub(crate) fn pluck_times(&self) -> [f64; 2] {
+        [self.hands.pluck_duration, self.hands.pluck_release]
     }
 
     /// How long a stroke pushes, s; none for those that strike.

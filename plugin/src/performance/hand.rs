@@ -26,6 +26,8 @@ use search::Search;
 
 /// Frets under the hand without reaching: one for each finger.
 const SPAN: usize = 4;
+/// Frets that a capo leaves at least: on strings a fourth apart every note has a place then, in some octave.
+const OVER_CAPO: usize = 5;
 /// Most notes considered at one instant, one for each key; of more, the last to arrive are left out.
 pub(crate) const LARGEST_CHORD: usize = 128;
 
@@ -129,9 +131,9 @@ impl Hand {
         self.position = 1;
     }
 
-    /// Puts a capo on a fret, 0 for none.
+    /// Puts a capo on a fret, 0 for none, but no farther up than leaves [`OVER_CAPO`] frets.
     pub(crate) fn set_capo(&mut self, fret: usize) {
-        self.capo = fret.min(self.highest_fret);
+        self.capo = fret.min(self.highest_fret.saturating_sub(OVER_CAPO));
         self.position = self.position.max(self.capo + 1).min(self.highest_fret.max(1));
     }
 
@@ -158,7 +160,7 @@ impl Hand {
 
     /// Stays where another hand is, on the neck of another model of the instrument.
     pub(crate) fn take_over(&mut self, old: &Self) {
-        self.capo = old.capo.min(self.highest_fret);
+        self.set_capo(old.capo);
         self.position = old.position.min(self.highest_fret.max(1));
     }
 

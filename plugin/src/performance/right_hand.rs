@@ -52,7 +52,7 @@ impl Field<'_> {
     /// A stroke that pulls or pushes: so hard (0 to 1), and so far beside the usual place (m), of which the hand has been
     /// moved so far on purpose (m). `None` for those that strike.
     pub(crate) fn pluck(&self, stroke: Stroke, strength: f64, beside: f64, moved: f64) -> Option<Gesture> {
-        let Player { pluck_position, pluck_duration, pluck_force, .. } = *self.hands;
+        let Player { pluck_position, pluck_duration, pluck_release, pluck_force, .. } = *self.hands;
         let [force, duration, nearer] = match stroke {
             Stroke::Down | Stroke::Alternate => [1.0, 1.0, 0.0],
             Stroke::Pinch => {
@@ -68,6 +68,7 @@ impl Field<'_> {
             position: self.place(pluck_position + beside - nearer),
             force: pluck_force * strength * force,
             duration: pluck_duration * duration,
+            release: pluck_release,
         })
     }
 

@@ -126,6 +126,7 @@ impl StringPlayer {
         // A light finger at a node takes up what it is to take up.
         let stilling = (stills && !taps && stop != Stop::Harmonic).then(|| self.stilling(stroke, start.fret));
         start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
+        self.call_off(&mut self.moment(time, out));
         self.begin(time, &start, strength);
         if at_rest {
             self.bend.begin_at_rest(time);
@@ -261,7 +262,7 @@ impl StringPlayer {
         let mut at = self.moment(time, out);
         self.fingers.set_palm(palm, &mut at);
         // One that rests there when a note ends waits from when the fingers leave on.
-        let over = self.ending.is_none_or(|(_, step)| step == Ending::Gone);
+        let over = self.ending.is_none_or(|(_, step)| matches!(step, Ending::Gone | Ending::Over));
         if self.note.is_none() && over {
             self.palm_waits(&at);
         }

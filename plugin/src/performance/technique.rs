@@ -108,6 +108,10 @@ pub(crate) const FINGER_EASING: Leaving = Leaving { speed: 0.005, turning: 0.5 }
 /// How the dampers leave after it; they bend the string much less.
 pub(crate) const DAMPER_EASING: Leaving = Leaving { speed: 0.01, turning: 0.2 };
 
+/// What a hand takes of a string that its fingers have left, 1/s, and for how long, s: 156 dB, so that nothing is left to ring where
+/// nobody would hear it for half a minute.
+pub(crate) const LAID_ALONG: (f64, f64) = (60.0, 0.3);
+
 /// Fastest change of pitch by tension, semitones a second; strong fingers bend a tone in 20 ms.
 pub(crate) const BEND_SPEED: f64 = 100.0;
 /// Shortest ramp of a bend, s: longer than the steps of most wheels, so that they do not show.

@@ -98,6 +98,7 @@ pub(crate) fn touching(params: &LowActionParams) -> Touching {
         pluck_force: exact(&player.pluck_force),
         pluck_softest: exact(&player.pluck_softest),
         pluck_duration: exact(&player.pluck_duration),
+        pluck_release: 1e-3 * exact(&player.pluck_release),
         velocity_curve: exact(&player.velocity_curve),
         variation: exact(&player.variation),
         finger_force: exact(&player.finger_force),
@@ -146,13 +147,13 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
         });
         section.add_page("Hands", |page| {
             page.add_param(&player.pluck_duration);
+            page.add_param(&player.pluck_release);
             page.add_param(&player.velocity_curve);
             page.add_param(&player.variation);
             page.add_param(&player.finger_hardness);
             page.add_param(&player.finger_mass);
             page.add_param(&player.finger_hover);
             page.add_param(&player.hand_damping);
-            page.add_param(&player.pluck_softest);
         });
         section.add_page("Strings", |page| {
             strings.iter().for_each(|string| page.add_param(&string.tuning));
@@ -175,7 +176,7 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
             page.add_param(&control.ignore_rpn);
             page.add_param(&control.legato);
             page.add_param(&control.keyswitches);
-            page.add_spacer();
+            page.add_param(&player.pluck_softest);
         });
     });
 }
@@ -192,7 +193,7 @@ mod tests {
     fn hands_led_as_far_as_they_go_are_those_of_a_set_up() {
         let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
         let player = params.player.param_map();
-        assert_eq!(player.len(), 11);
+        assert_eq!(player.len(), 12);
         for (id, param, _) in player {
             // SAFETY: the pointers lead into `params`.
             let set = |value| unsafe { param._internal_set_normalized_value(value) };

@@ -154,8 +154,8 @@ fn numbers_are_to_the_last_bit_what_the_strings_are_given() {
         assert_eq!(number(line, "sample"), Some(given.time as f64), "{line}");
         assert_eq!(number(line, "string"), Some(given.string as f64 + 1.0), "{line}");
         let numbers: &[(&str, f64)] = &match given.gesture {
-            Gesture::Pluck { position, force, duration } => {
-                vec![("position", position), ("force", force), ("duration", duration)]
+            Gesture::Pluck { position, force, duration, release } => {
+                vec![("position", position), ("force", force), ("duration", duration), ("release", release)]
             }
             Gesture::Place { finger, touch, position, clearance } => vec![
                 ("finger", finger as f64 + 1.0),

@@ -1,7 +1,7 @@
 //! Figure 2: a string over a fretboard after a weak and a strong pluck.
 
 use anyhow::{Context, Result, ensure};
-use low_action_dsp::Scene;
+use low_action_dsp::{Scene, Simulation};
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;
 use low_action_figures::{Axis, Ground, Layer, Panel, Profile, Sheet, Stroke};
@@ -15,6 +15,9 @@ pub const SCENE: &str = "scenes/paper/figure_2.toml";
 
 /// Moments shown, ms after the string is let go: a period of the scene's string, closer together where it hits.
 const MOMENTS: [f64; 8] = [0.0, 2.0, 4.0, 5.0, 6.0, 7.0, 9.0, 12.0];
+
+/// A time that is a whole number of steps may come out below it by less than that, s.
+const ROUNDING: f64 = 1e-9;
 
 /// What a run came to.
 struct Outcome {
@@ -64,10 +67,11 @@ fn observe(scene: &Scene) -> Result<Outcome> {
         hardest: 0.0,
         swings: Vec::new(),
     };
-    run(scene, |simulation, _| {
-        let since = simulation.steps() as f64 / scene.sample_rate - release;
+    let step = 1.0 / scene.sample_rate;
+    let mut look = |simulation: &Simulation| {
+        let since = simulation.steps() as f64 * step - release + ROUNDING;
         let string = simulation.string(0);
-        if MOMENTS.get(outcome.profiles.len()).is_some_and(|moment| since >= 1e-3 * moment - 1e-9) {
+        if MOMENTS.get(outcome.profiles.len()).is_some_and(|moment| since >= 1e-3 * moment) {
             outcome.profiles.push(Profile::of(string));
         }
         for (place, u) in string.places().zip(string.state.displacement()) {
@@ -80,6 +84,8 @@ fn observe(scene: &Scene) -> Result<Outcome> {
                 outcome.swings[period] = f64::max(outcome.swings[period], 1e3 * u.abs());
             }
         }
+        // Forces act in the step that led here, at the time of the state it began with.
+        let since = since - step;
         for (fret, force) in string.fret_forces().filter(|fret| fret.1 > 0.0) {
             let first = outcome.touched.map_or(since, |touched| touched.0);
             outcome.touched = Some((first, since));
@@ -88,7 +94,10 @@ fn observe(scene: &Scene) -> Result<Outcome> {
                 outcome.frets.push(fret + 1);
             }
         }
-    })?;
+    };
+    // What a string is let go in counts as well.
+    look(&Simulation::new(scene)?);
+    run(scene, |simulation, _| look(simulation))?;
     outcome.frets.sort_unstable();
     Ok(outcome)
 }

@@ -59,7 +59,7 @@ pub fn tap(scene: &Scene) -> Result<Tap> {
     let simulation = run(scene, |simulation, entry| {
         let string = simulation.string(0);
         // State after the step, force in the step.
-        let (time, middle) = (simulation.steps() as f64 * step, (simulation.steps() as f64 - 1.0) * step);
+        let (time, before) = (simulation.steps() as f64 * step, (simulation.steps() as f64 - 1.0) * step);
         let Some(finger) = string.fingers().next() else { return };
         if time < 1e-3 * SHOWN {
             if MOMENTS.get(tap.profiles.len()).is_some_and(|moment| time >= 1e-3 * moment) {
@@ -69,12 +69,12 @@ pub fn tap(scene: &Scene) -> Result<Tap> {
             tap.string.push((1e3 * time, 1e3 * string.state.displacement_at(&reading)));
             let fret = string.fret_forces().filter(|fret| fret.0 == 0).map(|fret| fret.1).fold(0.0, f64::max);
             for (course, force) in tap.forces.iter_mut().zip([finger.force, string.board_force(), fret]) {
-                course.push((1e3 * middle, force));
+                course.push((1e3 * before, force));
             }
         }
         if finger.force > 0.0 {
-            let first = tap.touch.map_or(1e3 * time, |touch| touch.0);
-            tap.touch = Some((first, 1e3 * time));
+            let first = tap.touch.map_or(1e3 * before, |touch| touch.0);
+            tap.touch = Some((first, 1e3 * before));
             tap.hardest = tap.hardest.max(finger.force);
             let grid = &string.model.grid;
             let points = string.places().zip(string.state.displacement()).take_while(|point| point.0 < fret);

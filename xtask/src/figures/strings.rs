@@ -79,6 +79,7 @@ fn strummed(scene: &Scene) -> Scene {
             string: 6 - string,
             start: 0.25 * string as f64,
             duration: 0.003,
+            release: 0.0,
             position: 0.52,
             force: 1.0,
         })

@@ -112,12 +112,6 @@ pub(super) fn compare(rendered: &Sound, played: &Sound) -> Comparison {
     }
 }
 
-/// Compares what a host played with the nearest of two renderings.
-pub(super) fn nearest(rendered: &[Sound; 2], played: &Sound) -> Comparison {
-    let [one, other] = [&rendered[0], &rendered[1]].map(|rendered| compare(rendered, played));
-    if other.relative_rms < one.relative_rms { other } else { one }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

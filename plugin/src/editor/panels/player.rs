@@ -16,6 +16,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
         pluck_force,
         pluck_softest,
         pluck_duration,
+        pluck_release,
         velocity_curve,
         variation,
         finger_force,
@@ -36,7 +37,16 @@ pub fn show(ui: &mut Ui, given: &Given) {
     } = &given.params.control;
     let mut cells = Cells::new(ui.max_rect(), 6);
     cells.group(ui, "PLUCKS", 2);
-    for param in [pluck_position, pluck_force, pluck_softest, pluck_duration, velocity_curve, variation] {
+    let plucks = [
+        pluck_position,
+        pluck_force,
+        pluck_duration,
+        pluck_release,
+        pluck_softest,
+        velocity_curve,
+        variation,
+    ];
+    for param in plucks {
         slider(ui, given, param, cells.next());
     }
     cells.group(ui, "FINGERS", 2);

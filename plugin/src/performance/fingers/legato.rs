@@ -123,7 +123,7 @@ impl Fingers {
         }
         let (part, duration) = PULL_OFF;
         let force = part * strength * self.hands.pluck_force;
-        let pluck = Gesture::Pluck { position: self.pressed(&old), force, duration };
+        let pluck = Gesture::Pluck { position: self.pressed(&old), force, duration, release: 0.0 };
         at.does(pluck);
         at.does(old.lets_go(self.letting_go(pulling(strength))));
         Some(pluck)

@@ -220,7 +220,8 @@ impl StringPlayer {
             self.tells_sound(delay, excitation, at);
         }
         if let Some(partial) = pinched {
-            self.deeds.plan(at.after(delay + self.fingers.pluck_duration()), Deed::Graze(partial));
+            let [push, _] = self.fingers.pluck_times();
+            self.deeds.plan(at.after(delay + push), Deed::Graze(partial));
         }
     }
 }

@@ -1,5 +1,7 @@
 //! How a note ends: step by step, and so gently that only the string's own silence is heard.
 
+use low_action_dsp::Gesture;
+
 use super::deeds::Deeds;
 use super::{StringPlayer, UNDER};
 use crate::performance::technique::*;
@@ -16,8 +18,10 @@ pub(super) enum Ending {
     EaseOff,
     /// They go, and the dampers ease off.
     Leave,
-    /// The dampers have gone too.
+    /// The dampers have gone too; a hand lies along the string, and takes what nobody hears.
     Gone,
+    /// It is off the string.
+    Over,
 }
 
 impl StringPlayer {
@@ -57,9 +61,19 @@ impl StringPlayer {
             }
             Ending::Gone => {
                 self.fingers.gone();
-                None
+                let (loss, duration) = LAID_ALONG;
+                at.does(Gesture::Still { loss, duration });
+                Some((at.after(duration), Ending::Over))
             }
+            Ending::Over => None,
         };
+    }
+
+    /// The ending is called off. A hand that lies along the string is off it: what begins now is to ring.
+    pub(super) fn call_off(&mut self, at: &mut Moment<impl GestureSink>) {
+        if let Some((_, Ending::Over)) = self.ending.take() {
+            at.does(Gesture::Still { loss: 0.0, duration: 0.0 });
+        }
     }
 
     /// What is done as soon as the string is quiet.

@@ -16,8 +16,8 @@ impl StringPlayer {
         match deed {
             StringDeed::Pluck { position, force } => {
                 let force = if force.is_nan() { 0.0 } else { f64::from(force) };
-                self.take_in_hand(time);
-                let duration = self.fingers.pluck_duration();
+                self.take_in_hand(time, out);
+                let [duration, release] = self.fingers.pluck_times();
                 let mut at = self.moment(time, out);
                 self.fingers.let_ring(&mut at);
                 self.rest_later(time);
@@ -25,13 +25,14 @@ impl StringPlayer {
                     position: on_string(position),
                     force: force.clamp(-HARDEST_POINTED, HARDEST_POINTED),
                     duration,
+                    release,
                 });
             }
             StringDeed::Press { position } => {
                 // The note that sounded is no more.
                 self.moment(time, out).tells(Annotation::Damped);
                 (self.note, self.under, self.deeds) = (None, [None; UNDER], Deeds::default());
-                self.take_in_hand(time);
+                self.take_in_hand(time, out);
                 let mut at = self.moment(time, out);
                 self.fingers.press_at(on_string(position), &mut at);
             }
@@ -45,8 +46,8 @@ impl StringPlayer {
     }
 
     /// The string sounds on without a note of its own, and an ending that was under way is called off.
-    fn take_in_hand(&mut self, time: u64) {
-        self.ending = None;
+    fn take_in_hand(&mut self, time: u64, out: &mut impl GestureSink) {
+        self.call_off(&mut self.moment(time, out));
         self.touched = true;
         // The ending would have stopped the hand of a note that is over, and let go of its tuning.
         if self.note.is_none() {

@@ -29,7 +29,8 @@ fn every_gesture_is_drawn() {
     let mut drawn = BTreeSet::new();
     for number in 0..TRIES {
         drawn.insert(match gesture(&mut Draw::new(1, number), &setup, 0.65) {
-            Gesture::Pluck { .. } => "pluck",
+            Gesture::Pluck { release: 0.0, .. } => "pluck",
+            Gesture::Pluck { .. } => "pluck that lets go softly",
             Gesture::Place { .. } => "place",
             Gesture::Throw { .. } => "throw",
             Gesture::Press { .. } => "press",
@@ -40,7 +41,18 @@ fn every_gesture_is_drawn() {
             Gesture::Bend { .. } => "bend",
         });
     }
-    let all = ["pluck", "place", "throw", "press", "slide", "lift", "still for no time", "still", "bend"];
+    let all = [
+        "pluck",
+        "pluck that lets go softly",
+        "place",
+        "throw",
+        "press",
+        "slide",
+        "lift",
+        "still for no time",
+        "still",
+        "bend",
+    ];
     assert_drawn(&drawn, &all);
 }
 
@@ -124,6 +136,7 @@ fn every_key_of_a_scene_is_drawn() {
         "wide",
         "pluck",
         "pluck later on",
+        "pluck that lets go softly",
         "pluck on the second string",
         "shape",
         "stiff string",
@@ -176,10 +189,11 @@ fn see_scene(scene: &Scene, drawn: &mut BTreeSet<&'static str>) {
         see(shape.is_some(), "shape");
         see(velocity.is_some(), "velocity");
     }
-    for PluckSpec { string, start, duration: _, position: _, force: _ } in pluck {
+    for PluckSpec { string, start, duration: _, release, position: _, force: _ } in pluck {
         see(true, "pluck");
         see(*string == 2, "pluck on the second string");
         see(*start > 0.0, "pluck later on");
+        see(*release > 0.0, "pluck that lets go softly");
     }
     for finger in finger {
         let FingerSpec {

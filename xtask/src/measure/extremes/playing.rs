@@ -204,7 +204,10 @@ pub fn gesture(draw: &mut Draw, setup: &Setup, length: f64) -> Gesture {
     let duration = draw.over_or_nothing(0.2, 1e-4, 0.1);
     let touch = if draw.chance(0.5) { setup.player.fretting.touch } else { setup.player.damper.touch };
     match draw.whole(0, 12) {
-        0..=3 => Gesture::Pluck { position, force: draw.either_way(0.1, 100.0), duration },
+        0..=3 => {
+            let (force, release) = (draw.either_way(0.1, 100.0), draw.over_or_nothing(0.5, 1e-4, 0.1));
+            Gesture::Pluck { position, force, duration, release }
+        }
         4 | 5 => Gesture::Place { finger, touch, position, clearance: draw.over(1e-5, 1e-2) },
         6 => {
             let (clearance, speed) = (draw.over(1e-5, 1e-2), draw.over(1e-3, 10.0));

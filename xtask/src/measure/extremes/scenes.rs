@@ -347,5 +347,6 @@ fn pluck(draw: &mut Draw, string: &Drawn, number: i64, rate: f64, duration: f64)
     // From what barely moves the string to what throws it across the room.
     let force = draw.either_way(1e-3, 1e4).clamp(-1e4, 1e4);
     table.insert("force".into(), force.into());
+    table.insert("release".into(), draw.over_or_nothing(0.5, 0.1 / rate, duration.max(1.0 / rate)).into());
     table
 }

@@ -183,7 +183,7 @@ fn prepare_instrument(strings: usize, ringing: usize, fretted: bool) -> Result<B
     for string in 0..ringing {
         chord::stop(&mut instrument, &setup, string, if fretted { chord::fret(string) } else { 0 })?;
         // A little softer than the chord's own pluck: the counts in the table are of this one.
-        let gesture = Gesture::Pluck { position: 0.52, force: 0.4, duration: 0.003 };
+        let gesture = Gesture::Pluck { position: 0.52, force: 0.4, duration: 0.003, release: 0.0 };
         instrument.schedule(TimedGesture { time: 0, string, gesture })?;
     }
     let (mut left, mut right) = ([0.0; 64], [0.0; 64]);

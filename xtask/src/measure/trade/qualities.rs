@@ -53,12 +53,12 @@ fn aims(outcomes: &[Outcome]) -> String {
             largest(live, &[Kind::Pressed], outcomes, |one| one.errors.pitch),
         ),
         ("`live`: forces of pressed strings, %", 3.0, largest(live, &[Kind::Pressed], outcomes, impulses)),
-        ("`live`: buzz, %", 50.0, largest(live, BUZZING, outcomes, impulses)),
+        ("`live`: buzz, %", 25.0, largest(live, BUZZING, outcomes, impulses)),
         ("`live`: price over that of `draft`", 2.0, price(Quality::Live)),
         ("`studio`: price over that of `draft`", 7.0, price(Quality::Studio)),
-        ("`studio`: buzz, %", 25.0, largest(at(Quality::Studio), BUZZING, outcomes, impulses)),
+        ("`studio`: buzz, %", 15.0, largest(at(Quality::Studio), BUZZING, outcomes, impulses)),
         ("`reference`: price over that of `draft`", 20.0, price(Quality::Reference)),
-        ("`reference`: buzz, %", 15.0, largest(at(Quality::Reference), BUZZING, outcomes, impulses)),
+        ("`reference`: buzz, %", 12.0, largest(at(Quality::Reference), BUZZING, outcomes, impulses)),
     ];
     let mut text = head(["at most".into(), "found".into(), String::new()]);
     for (what, aim, found) in rows {

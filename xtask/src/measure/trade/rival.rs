@@ -198,7 +198,7 @@ impl Rival {
             square += second[i] * second[i];
         }
         for (pluck, reading) in &self.plucks {
-            let force = pluck.force * pluck_push(time - pluck.start, k, pluck.duration);
+            let force = pluck.force * pluck_push(time - pluck.start, k, pluck.duration, pluck.release);
             if force != 0.0 {
                 spread(reading, next, k2 / (string.linear_density * h) * force);
             }

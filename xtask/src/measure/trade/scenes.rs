@@ -196,6 +196,7 @@ impl Part {
             string: 1,
             start: PLUCK + later,
             duration: setup.player.pluck_duration,
+            release: setup.player.pluck_release,
             position: setup.neck.scale_length - setup.player.pluck_position,
             force,
         });

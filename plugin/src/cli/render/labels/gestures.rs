@@ -69,6 +69,9 @@ pub(super) struct LabelledGesture {
     /// s.
     #[serde(skip_serializing_if = "Option::is_none")]
     duration: Option<f64>,
+    /// s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    release: Option<f64>,
     #[serde(flatten)]
     touch: Option<LabelledTouch>,
 }
@@ -98,11 +101,12 @@ impl LabelledGesture {
         let at = Self { string: string + 1, sample: time, time: clock.seconds(time), ..Self::default() };
         let of = |finger: usize| Some(finger + 1);
         match gesture {
-            Gesture::Pluck { position, force, duration } => Self {
+            Gesture::Pluck { position, force, duration, release } => Self {
                 gesture: "pluck",
                 position: Some(position),
                 force: Some(force),
                 duration: Some(duration),
+                release: Some(release),
                 ..at
             },
             Gesture::Place { finger, touch, position, clearance } => Self {

@@ -42,6 +42,7 @@ pub(super) struct LabelledNote {
     stroke_force: Option<f64>,
     stroke_speed: Option<f64>,
     stroke_duration: Option<f64>,
+    stroke_release: Option<f64>,
     /// m from the nut.
     finger_position: Option<f64>,
     touch_position: Option<f64>,
@@ -128,7 +129,7 @@ impl Course {
         // What a finger stops, the neck has its own say in.
         let stopped = string.fret_frequencies.get(note.fret.wrapping_sub(1)).copied();
         let stopped = stopped.filter(|_| excitation.stop == Stopped::Finger);
-        let Stroke { position, force, speed, duration } = Stroke::of(excitation.gesture);
+        let Stroke { position, force, speed, duration, release } = Stroke::of(excitation.gesture);
         Some(LabelledNote {
             string: string.string,
             string_name: string.name.clone(),
@@ -156,6 +157,7 @@ impl Course {
             stroke_force: force,
             stroke_speed: speed,
             stroke_duration: duration,
+            stroke_release: release,
             finger_position: excitation.finger,
             touch_position: excitation.touch,
             palm: note.palm,
@@ -170,15 +172,17 @@ struct Stroke {
     force: Option<f64>,
     speed: Option<f64>,
     duration: Option<f64>,
+    release: Option<f64>,
 }
 
 impl Stroke {
     fn of(gesture: Option<Gesture>) -> Self {
         match gesture {
-            Some(Gesture::Pluck { position, force, duration }) => Self {
+            Some(Gesture::Pluck { position, force, duration, release }) => Self {
                 position: Some(position),
                 force: Some(force),
                 duration: Some(duration),
+                release: Some(release),
                 ..Self::default()
             },
             Some(Gesture::Throw { position, speed, .. }) => {
