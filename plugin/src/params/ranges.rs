@@ -154,7 +154,8 @@ impl Default for OutputParams {
             level: FloatParam::new("Level", 0.0, FloatRange::Linear { min: -60.0, max: 12.0 })
                 .with_step_size(FINE_STEP)
                 .with_smoother(SmoothingStyle::Linear(LEVEL_RAMP))
-                .with_unit(" dB"),
+                .with_unit(" dB")
+                .with_string_to_value(Arc::new(number)),
             bypass: BoolParam::new("Bypass", false).make_bypass(),
         }
     }
@@ -178,7 +179,7 @@ fn factor(name: &str, min: f32, max: f32) -> FloatParam {
         .with_step_size(PART_STEP)
         .with_unit(" %")
         .with_value_to_string(formatters::v2s_f32_percentage(0))
-        .with_string_to_value(formatters::s2v_f32_percentage())
+        .with_string_to_value(Arc::new(|text| Some(number(text)? / 100.0)))
 }
 
 /// A part from 0 to 1, shown as a percentage.
@@ -187,12 +188,21 @@ fn part(name: &str, default: f32) -> FloatParam {
         .with_step_size(PART_STEP)
         .with_unit(" %")
         .with_value_to_string(formatters::v2s_f32_percentage(0))
-        .with_string_to_value(formatters::s2v_f32_percentage())
+        .with_string_to_value(Arc::new(|text| Some(number(text)? / 100.0)))
 }
 
 /// Added to what the set-up has, 0 unless changed.
 fn shift(name: &str, min: f32, max: f32, unit: &'static str, step: f32) -> FloatParam {
-    FloatParam::new(name, 0.0, FloatRange::Linear { min, max }).with_step_size(step).with_unit(unit)
+    FloatParam::new(name, 0.0, FloatRange::Linear { min, max })
+        .with_step_size(step)
+        .with_unit(unit)
+        .with_string_to_value(Arc::new(number))
+}
+
+/// The number that a text begins with, whatever unit follows it, with a point or a comma.
+fn number(text: &str) -> Option<f32> {
+    let text = text.trim().trim_end_matches(|letter: char| !letter.is_ascii_digit());
+    text.replace(',', ".").replace('−', "-").parse().ok()
 }
 
 /// The value of a parameter as the number its decimal notation means, so that 0.3 set in a host and
@@ -202,4 +212,26 @@ pub fn exact(param: &FloatParam) -> f64 {
     let value = param.value();
     let value = if value.is_nan() { param.default_plain_value() } else { value };
     (f64::from(value) * 1e3).round() / 1e3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_are_taken_as_people_write_them() {
+        for (text, expected) in [
+            ("-3dB", -3.0),
+            ("12 mm", 12.0),
+            (" −0,5  mm", -0.5),
+            ("+1.25", 1.25),
+            ("90%", 90.0),
+            ("-0.00 ms", 0.0),
+        ] {
+            assert_eq!(number(text), Some(expected), "{text}");
+        }
+        for text in ["", "mm", "nan", "inf", "one", "1.2.3", "--3 dB"] {
+            assert_eq!(number(text), None, "{text}");
+        }
+    }
 }
