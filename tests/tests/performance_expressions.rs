@@ -108,7 +108,8 @@ fn a_note_that_waits_for_a_string_is_plucked_as_it_was_told_meanwhile() {
         (0..128).find(|&key| player.awaits(0, key)).expect("one still waits")
     };
     let (time, place, force) = told(&[]);
-    assert_eq!(time, 6_720);
+    // The hand stills the string that it takes over, in up to 10 ms.
+    assert!((6_720..=6_720 + 480).contains(&time), "{time}");
     let softer = told(&[(2_400, has(key, Expression::PluckForce(0.5)))]);
     assert_eq!((softer.0, softer.1), (time, place));
     assert!((softer.2 / force - 0.5).abs() < 1e-9, "{} N of {force}", softer.2);

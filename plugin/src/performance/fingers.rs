@@ -226,8 +226,13 @@ impl Fingers {
     }
 
     /// Whether a finger at a lower fret, not 0, takes over from the one that stops the string.
-    pub(crate) fn gives_way_to(&self, fret: usize) -> bool {
-        fret > 0 && self.fretting.is_some_and(|finger| !finger.bar && finger.fret > fret)
+    fn gives_way_to(&self, fret: usize) -> bool {
+        fret > 0 && self.lets_up_to(fret)
+    }
+
+    /// Whether the finger that stops the string lets it up for a note at a fret, 0 for the open string.
+    pub(crate) fn lets_up_to(&self, fret: usize) -> bool {
+        self.fretting.is_some_and(|finger| !finger.bar && finger.fret > fret)
     }
 
     /// Period of the open string, s.

@@ -110,8 +110,7 @@ impl StringPlayer {
     /// Begins a note; one that sounds gives way.
     pub(crate) fn start(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
         self.strike_in_time(&mut self.moment(time, out));
-        let stills = self.wants_stilling(start.fret);
-        let at_rest = self.note.is_none() && self.ending.is_none() && !self.touched;
+        let stills = self.wants_stilling();
         self.take_presses(&mut start);
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
@@ -128,7 +127,7 @@ impl StringPlayer {
         start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
         self.call_off(&mut self.moment(time, out));
         self.begin(time, &start, strength);
-        if at_rest {
+        if !stills {
             self.bend.begin_at_rest(time);
         }
         let mut at = self.moment(time, out);
@@ -141,7 +140,14 @@ impl StringPlayer {
                 None => self.tap(start.fret, strength, &mut at),
             }
         } else {
-            self.fingers.stop(start.fret, stop, [start.force() * start.haste(), start.haste()], &mut at);
+            let landing = [strength * start.haste(), start.haste()];
+            // The little by which a string comes up to a lower fret is not heard under the hand that stills it; more is.
+            let by_little = start.fret > self.fingers.capo();
+            let leaves = match stilling {
+                Some(stilling) if by_little && stilling.comes_at_once(start.wait) => QUICK_LIFT,
+                _ => self.fingers.letting_go(landing[0]),
+            };
+            self.fingers.stop(start.fret, stop, landing, leaves, &mut at);
             self.touch_node(start.wait, &mut at);
             if let Some(stilling) = stilling {
                 self.still_before(start.wait, stilling, &mut at);

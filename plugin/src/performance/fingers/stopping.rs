@@ -11,13 +11,14 @@ use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
     /// Makes way for a note of some strength (0 to 1): dampers off, a finger behind the fret (0: none), in haste or not (1 to
-    /// 0). One that is there already stays. One at a lower fret leaves when the new one has landed, one at a higher fret when the
-    /// new one stops the string behind it, so that the string does not come up in between.
+    /// 0). One that is there already stays. One at a lower fret leaves when the new one has landed, one at a higher fret, in a
+    /// manner of leaving, when the new one stops the string behind it, so that the string does not come up in between.
     pub(crate) fn stop(
         &mut self,
         fret: usize,
         stop: Stop,
         [strength, haste]: [f64; 2],
+        leaves: Leaving,
         at: &mut Moment<impl GestureSink>,
     ) {
         let called_back = if self.gives_way_to(fret) { self.call_back(at.time) } else { None };
@@ -46,16 +47,16 @@ impl Fingers {
             }
             Some(old) if self.is_over(fret, down) => {
                 self.land(fret, down, [strength, haste], at);
-                return at.does(old.lets_go(self.letting_go(strength)));
+                return at.does(old.lets_go(leaves));
             }
             Some(old) => {
                 self.stop_behind(fret, old.slot, anchor, at);
-                return at.does(old.lets_go(self.letting_go(strength)));
+                return at.does(old.lets_go(leaves));
             }
             None => {}
         }
         for finger in [old, anchor].into_iter().flatten() {
-            at.does(finger.lets_go(self.letting_go(strength)));
+            at.does(finger.lets_go(leaves));
         }
         match stop {
             Stop::Mute => self.mute(fret, at),
@@ -67,7 +68,7 @@ impl Fingers {
 
     /// How a finger leaves a string that a note of some strength is about to sound on: a string let go of suddenly sounds as
     /// if plucked, by as much as it was pressed down.
-    pub(super) fn letting_go(&self, strength: f64) -> Leaving {
+    pub(crate) fn letting_go(&self, strength: f64) -> Leaving {
         let softness = (1.0 - strength).clamp(0.0, 1.0);
         let pitch = frequency(self.string.geometry.open_pitch);
         let Leaving { speed, turning } = QUICK_LIFT;

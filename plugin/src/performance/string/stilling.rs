@@ -20,30 +20,37 @@ pub(super) struct Stilling {
     loss: f64,
 }
 
+impl Stilling {
+    /// Whether the hand is on the string at once, for a stroke so many seconds from now.
+    pub(super) fn comes_at_once(&self, wait: f64) -> bool {
+        wait <= self.lead
+    }
+}
+
 impl StringPlayer {
-    /// Whether the hand stills the string for a stroke on a fret, 0 for the open string: where it has sounded and nobody has
-    /// let it come to rest since. One that comes up from a fret to another would be held back on its way.
-    pub(super) fn wants_stilling(&self, fret: usize) -> bool {
-        let sounds_on = self.note.is_some() || self.ending.is_some() || self.touched;
-        sounds_on && !self.fingers.gives_way_to(fret)
+    /// Whether the hand stills the string for a stroke: where it has sounded and nobody has let it come to rest since.
+    pub(super) fn wants_stilling(&self) -> bool {
+        self.note.is_some() || self.ending.is_some() || self.touched
     }
 
-    /// How the hand stills the string for a stroke on a fret, 0 for the open string.
+    /// How the hand stills the string for a stroke on a fret, 0 for the open string. Where a finger lets the string up to
+    /// that, what counts is how long the hand is still there when the string has come up: letting go is a pluck, too.
     pub(super) fn stilling(&self, stroke: Stroke, fret: usize) -> Stilling {
         let period = self.fingers.period(fret);
         // A thumb takes some time to come.
         let within = |stroke| STILLED_PUSH * self.fingers.push_time(stroke).unwrap_or(0.0);
-        let time = (STILLING.0 * period).max(STILLED_AT_LEAST);
+        let rising = if self.fingers.lets_up_to(fret) { RISING } else { 0.0 };
+        let time = (rising + STILLING.0 * period).max(STILLED_AT_LEAST);
         let lead = (time - within(Stroke::Down)).clamp(0.0, LONGEST_LEAD);
         Stilling { lead, duration: time.min(lead + within(stroke)), loss: STILLING.1 / period }
     }
 
     /// Has the hand still the string for a stroke so many seconds from now, no less than it comes before it.
     pub(super) fn still_before(&mut self, wait: f64, stilling: Stilling, at: &mut Moment<impl GestureSink>) {
-        if wait > stilling.lead {
-            self.deeds.plan(at.after(wait - stilling.lead), Deed::Still(stilling));
-        } else {
+        if stilling.comes_at_once(wait) {
             still(stilling, at);
+        } else {
+            self.deeds.plan(at.after(wait - stilling.lead), Deed::Still(stilling));
         }
     }
 
