@@ -113,6 +113,7 @@ mod tests {
             // Points of both grids, that nothing but the operator counts.
             let (coarse, fine) = (residual(2000, place), residual(4000, place));
             println!("{place}: {coarse:e}, {fine:e}");
+            // A quarter, and what the next order adds; and far less than the h/T that a straight line would lack (5e-4 L/T).
             assert!(fine < 0.3 * coarse && coarse < 1e-5 * LENGTH / TENSION, "{place}: {coarse:e}, {fine:e}");
         }
     }

@@ -88,13 +88,14 @@ impl Neck {
             return Err(Error::range("neck.action", plain(self.action), accepted));
         }
         ranged("neck.fret_height", self.fret_height, FRET_HEIGHT, "m")?;
-        for (fret, wear) in &self.worn {
+        for (i, (fret, wear)) in self.worn.iter().enumerate() {
+            let [fret_name, depth_name] =
+                ["fret", "depth"].map(|what| format!("{what} of neck.worn[{}]", i + 1));
             if self.frets == 0 {
-                let accepted = "there are no frets, neck.frets is 0";
-                return Err(Error::range("neck.worn, fret", fret, accepted));
+                return Err(Error::range(fret_name, fret, "there are no frets, neck.frets is 0"));
             }
-            within("neck.worn, fret", *fret as f64, 1.0, self.frets as f64, "")?;
-            within("neck.worn, depth", *wear, 0.0, 0.02, "m")?;
+            within(&fret_name, *fret as f64, 1.0, self.frets as f64, "")?;
+            within(&depth_name, *wear, 0.0, 0.02, "m")?;
         }
         self.check_relief()?;
         ContactLaw::new("neck", self.stiffness, self.exponent)?;

@@ -159,7 +159,7 @@ const EDGE: f64 = 1e-6;
 const ABYSS: f64 = -0.05;
 
 /// The most strings an instrument may have.
-const MOST_STRINGS: usize = 32;
+pub const MOST_STRINGS: usize = 32;
 
 /// What the numbers may be that a luthier can change on an instrument that is made: semitones, a part, a MIDI note number,
 /// 1/s and m²/s.

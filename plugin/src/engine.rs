@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 use std::num::NonZeroUsize;
 
 pub use low_action_dsp::Quality;
-use low_action_dsp::setup::SetupString;
+use low_action_dsp::setup::{MOST_STRINGS, SetupString};
 use low_action_dsp::{EngineSettings, Instrument, Setup};
 
 use crate::controls::Touching;
@@ -28,8 +28,6 @@ const STEP: usize = 64;
 const MANY_GESTURES: usize = 512;
 /// Events that can wait for their time; far more than any host sends for one block.
 const WAITING_EVENTS: usize = 16_384;
-/// Most stems written at once; set-ups have at most 32 strings.
-const MOST_STEMS: usize = 32;
 
 /// A sound is over when it has stayed below this part of its peak: −72 dB.
 pub const QUIET: f64 = 2.5e-4;
@@ -199,13 +197,13 @@ impl Engine {
     /// (as many as there are strings, as long as the block). The stereo sound is the same as
     /// without.
     pub fn process_stems(&mut self, stems: &mut [&mut [f32]], left: &mut [f32], right: &mut [f32]) {
-        let count = stems.len().min(MOST_STEMS);
+        let count = stems.len().min(MOST_STRINGS);
         let frames = left.len().min(right.len());
         let mut done = 0;
         while done < frames {
             let span = done..done + self.prepare(frames - done);
             done = span.end;
-            let mut parts: [&mut [f32]; MOST_STEMS] = std::array::from_fn(|_| Default::default());
+            let mut parts: [&mut [f32]; MOST_STRINGS] = std::array::from_fn(|_| Default::default());
             for (part, stem) in parts.iter_mut().zip(stems.iter_mut()) {
                 *part = &mut stem[span.clone()];
             }

@@ -2,9 +2,9 @@
 //! compiled of it.
 
 use low_action_dsp::contact::ContactLaw;
-use low_action_dsp::curve::Curve;
+use low_action_dsp::curve::{CountOrList, Curve, OneOrEach};
 use low_action_dsp::scene::FretPlacement;
-use low_action_dsp::{Barrier, Model, SolverSettings, StringParameters};
+use low_action_dsp::{Barrier, Model, Scene, Simulation, SolverSettings, StringParameters};
 
 const RATE: f64 = 48_000.0;
 
@@ -85,6 +85,43 @@ fn rates_and_solvers_that_cannot_be_are_refused() {
     assert_refused(Model::new(STRING, None, 0, endless, RATE), &["solver.max_iterations = 1e6", "1000"]);
     let vague = SolverSettings { tolerance: f64::NAN, ..SolverSettings::default() };
     assert_refused(Model::new(STRING, None, 0, vague, RATE), &["solver.tolerance = NaN", "0.001 m"]);
+}
+
+#[test]
+fn more_fingers_than_there_is_memory_for_are_refused() {
+    for slots in [101, usize::MAX] {
+        let built = Model::new(STRING, None, slots, SolverSettings::default(), RATE);
+        assert_refused(built, &["finger_slots = ", "between 0 and 100"]);
+    }
+}
+
+/// Descriptions that no file can hold, but a program.
+#[test]
+fn fretboards_that_cannot_be_are_refused() {
+    let text = "sample_rate = 48000\nduration = 0.01\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\ntension = 60.0\n\
+                [fretboard]\nstiffness = 1e10\nexponent = 1.5\nfrets = 3\nfret_top = -1e-3\n";
+    let scene = Scene::from_toml(text).expect("it is a scene");
+    let board = scene.fretboard.clone().expect("it has a board");
+    for (frets, fret_top, words) in [
+        (CountOrList::Count(641), OneOrEach::One(-1e-3), ["fretboard.frets = 641", "between 0 and 640"]),
+        (CountOrList::Count(usize::MAX), OneOrEach::One(-1e-3), ["fretboard.frets = ", "between 0 and 640"]),
+        (
+            CountOrList::List(vec![0.1; 1001]),
+            OneOrEach::One(-1e-3),
+            ["number of fretboard.frets = 1001", "1000"],
+        ),
+        (CountOrList::Count(3), OneOrEach::Each(Vec::new()), ["fretboard.fret_top", "the 3 frets"]),
+    ] {
+        let mut board = board.clone();
+        (board.frets, board.fret_top) = (frets, Some(fret_top));
+        let refused = [
+            Barrier::from_spec(&board, 0.65).map(|_| ()),
+            Simulation::new(&Scene { fretboard: Some(board.clone()), ..scene.clone() }).map(|_| ()),
+        ];
+        for said in refused.map(|built| built.expect_err("it is refused").to_string()) {
+            assert!(words.iter().all(|word| said.contains(word)), "{said}");
+        }
+    }
 }
 
 #[test]

@@ -161,11 +161,11 @@ fn frequencies_follow_the_midi_tuning_standard() {
 fn wrong_setups_are_refused_in_one_line() {
     let cases: [(&str, &str, &[&str]); 29] = [
         ("frets = 22", "frets = 99", &["neck.frets", "99"]),
-        ("frets = 22", "frets = 22\nworn = [[23, 1e-4]]", &["neck.worn, fret = 23", "between 1 and 22"]),
+        ("frets = 22", "frets = 22\nworn = [[23, 1e-4]]", &["fret of neck.worn[1] = 23", "between 1 and 22"]),
         (
             "frets = 22",
             "frets = 0\nworn = [[3, 1e-4]]",
-            &["neck.worn, fret = 3 is refused: there are no frets, neck.frets is 0"],
+            &["fret of neck.worn[1] = 3 is refused: there are no frets, neck.frets is 0"],
         ),
         ("frets = 22", "fretz = 22", &["fretz"]),
         (

@@ -55,10 +55,10 @@ pub struct RenderArgs {
     #[arg(short, long, value_name = "16|24|32f", default_value_t = BitDepth::Int24)]
     pub bit_depth: BitDepth,
     /// How long to go on after the last event that is for the player, whenever the track itself ends: until it is quiet
-    /// (auto, 30 s at most), so many seconds, or not at all (none).
+    /// (auto, 30 s at most), so many seconds, up to 3600, or not at all (none).
     #[arg(long, value_name = "auto|SECONDS|none", default_value_t = Tail::Auto)]
     pub tail: Tail,
-    /// Play only this track, counted from 1; tempo changes and registered parameters (bend ranges, MPE) of all tracks
+    /// Play only this track, 1 to 65535, counted from 1; tempo changes and registered parameters (bend ranges, MPE) of all tracks
     /// count.
     #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=65_535))]
     pub track: Option<u16>,
@@ -84,7 +84,7 @@ pub struct RenderArgs {
     /// Pass over what the song says of the bend range (registered parameter 0).
     #[arg(long)]
     pub ignore_rpn: bool,
-    /// Longest music accepted, minutes.
+    /// Longest music accepted, minutes, above 0 to 1e6.
     #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes)]
     pub max_length: f64,
     /// Also write each string's own sound, mono and before panning, into this folder, as NUMBER-NAME.wav, in place of
@@ -102,7 +102,7 @@ pub struct RenderArgs {
     /// sounds still depends on how the string moves when it is plucked) to 1.
     #[arg(long, value_name = "AMOUNT", default_value_t = EngineOptions::VARIATION, value_parser = render::parse_variation)]
     pub variation: f64,
-    /// Which sequence of those differences.
+    /// Which sequence of those differences, 0 to 18446744073709551615.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>(0..=u64::MAX))]
     pub seed: u64,
 }
@@ -186,7 +186,7 @@ pub struct SceneArgs {
     /// Trace to write, in place of any that is there: displacements, contact forces and the energy balance.
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
-    /// Keep every N-th sample of the trace, from the first.
+    /// Keep every N-th sample of the trace, 1 or more, from the first.
     #[arg(long, value_name = "N", default_value_t = 1, requires = "trace", value_parser = whole::<u64>(1..=u64::MAX))]
     pub every: u64,
     /// Picture to draw (SVG), in place of any that is there: the strings over the board, energies, contact forces,
@@ -218,7 +218,7 @@ pub struct StandAloneArgs {
     /// Samples per second, 8000 to 384000; JACK has its own.
     #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate)]
     pub sample_rate: u32,
-    /// Samples computed at a time: fewer answer sooner, more are safer. JACK has its own.
+    /// Samples computed at a time, 1 to 65536: fewer answer sooner, more are safer. JACK has its own.
     #[arg(short, long, value_name = "SAMPLES", default_value_t = 256, value_parser = whole::<u32>(1..=65_536))]
     pub period_size: u32,
     /// Lists outputs and MIDI inputs, and plays nothing.

@@ -1,14 +1,13 @@
 //! A still picture of all strings, with what has happened to them since the last one.
 
 use low_action_dsp::FINGERS_PER_STRING;
+use low_action_dsp::setup::MOST_STRINGS;
 
 use super::Health;
 
 /// Points at which a snapshot has each string, evenly from nut to saddle, both included.
 pub const POINTS: usize = 129;
 
-/// The most strings of a set-up.
-const MOST_STRINGS: usize = 32;
 /// The most frets of a set-up.
 const MOST_FRETS: usize = 36;
 

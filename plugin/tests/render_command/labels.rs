@@ -218,7 +218,7 @@ fn every_key_is_documented() {
     used.dedup();
     assert_eq!(
         used,
-        ["bend", "lift", "place", "pluck", "press", "slide", "throw"].map(String::from).as_slice()
+        ["bend", "lift", "place", "pluck", "press", "slide", "still", "throw"].map(String::from).as_slice()
     );
     let told = [words("notes", "technique"), words("notes", "stop"), words("notes", "end_by"), used].concat();
     told.iter()

@@ -5,6 +5,7 @@ use low_action_dsp::Gesture;
 
 use super::StringPlayer;
 use super::deeds::Deed;
+use super::ending::Ending;
 use crate::performance::articulation::Stroke;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
@@ -30,7 +31,8 @@ impl Stilling {
 impl StringPlayer {
     /// Whether the hand stills the string for a stroke: where it has sounded and nobody has let it come to rest since.
     pub(super) fn wants_stilling(&self) -> bool {
-        self.note.is_some() || self.ending.is_some() || self.touched
+        let ends = self.ending.is_some_and(|(_, step)| step != Ending::Over);
+        self.note.is_some() || ends || self.touched
     }
 
     /// How the hand stills the string for a stroke on a fret, 0 for the open string. Where a finger lets the string up to
