@@ -58,8 +58,8 @@ pub const MOST_CLEARANCE: f64 = 10.0;
 /// (and a string does not sleep before they are over); but for plucks and stilling, one below 0 or that is no number is at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Gesture {
-    /// A push of a point of the string that grows as a raised cosine, equation \[4\], and lets go at once or as it grew. Left out
-    /// while as many as [`PUSHES`](crate::drive::PUSHES) others are under way.
+    /// A push of a point of the string that grows as a raised cosine (`docs/physics.md`, section 1), and lets go at once or as it
+    /// grew. Left out while as many as [`PUSHES`](crate::drive::PUSHES) others are under way.
     Pluck {
         /// Place, m from the nut.
         position: f64,
@@ -155,7 +155,7 @@ pub struct TimedGesture {
 }
 
 /// The push of a pluck in one step, as a part of its force: the mean from half a step before to half a step after `since` of
-/// what grows as (1 − cos(πt/t_p))/2 for 0 ≤ t ≤ t_p, equation \[4\], and falls in the same way for t_r after that.
+/// what grows as (1 − cos(πt/t_p))/2 for 0 ≤ t ≤ t_p and falls in the same way for t_r after that (`docs/physics.md`, section 1).
 ///
 /// All in s: `since` the pluck began, `step` from one sample to the next, `duration` t_p, `release` t_r. With t_r = 0 the push
 /// ends at once where it is strongest. Taken at the samples alone it would be too long or too short by up to half a step, and

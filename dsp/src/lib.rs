@@ -8,7 +8,8 @@
 //!
 //! - A [`Scene`] is an experiment in SI units, a [`Setup`] an instrument as a luthier would describe it.
 //!   Both are read from TOML and refused in one line when something is impossible.
-//! - A [`Model`] holds every coefficient of one string on its grid. It never changes while it sounds.
+//! - A [`Model`] holds every coefficient of one string on its grid. It never changes while it sounds, but for how exactly its
+//!   contacts are solved ([`Instrument::set_effort`]).
 //! - A [`State`] holds what one sample hands to the next: displacement and motion of the string, fingers,
 //!   the contacts that are close (`skyline`). [`State::step`] takes it from sample n to n + 1. Numbers over the grid lie
 //!   in a [`field::Field`], in the order in which vectors take them.
@@ -88,20 +89,24 @@
 //! | L | `length` | m | length of the string |
 //! | ρ | `linear_density` | kg/m | mass per length, winding included |
 //! | T | `tension` | N | tension at rest; `tension_limit` is the most that bends reach |
-//! | E, r | `youngs_modulus`, `core_radius` | Pa, m | of the core: a winding adds mass, hardly stiffness |
-//! | A, I | (in `axial_stiffness`, `kappa_squared`) | m², m⁴ | section πr² and its moment πr⁴/4 |
+//! | E, r_c | `youngs_modulus`, `core_radius` | Pa, m | of the core: a winding adds mass, hardly stiffness |
+//! | A, I | (in `axial_stiffness`, `kappa_squared`) | m², m⁴ | section πr_c² and its moment πr_c⁴/4 |
 //! | c², κ² | `c2`, `kappa_squared` | m²/s², m⁴/s² | T/ρ and EI/ρ |
 //! | κ₂², κ₆ | `kappa_2`, `kappa_6` | m⁴/s², m⁶/s² | κ² as the stencil realises it, and its sixth-order term |
 //! | σ₀, σ₁ | `loss_0`, `loss_1` | 1/s, m²/s | loss of all frequencies alike, and growing with frequency |
+//! | σₕ | `loss` of a [`Drive`] | 1/s | what a hand laid along the string adds to σ₀ in a step |
+//! | τ | `stretch_tension` | N | what stretching adds to T |
 //! | k, h, N | `time_step`, `spacing`, `intervals` | s, m, – | grid; the unknowns are u₁ … u_{N−1} |
 //! | λ | `courant2` is λ² | – | ck/h, spacings a wave travels in a step |
 //! | uⁿ, dⁿ | `displacement`, `motion` | m | the string, and uⁿ − uⁿ⁻¹ |
 //! | v | `curvature` | m | undivided second difference of uⁿ |
-//! | w, ψ | `prediction`, `pull` | m, – | motion without contact and stretching; stretching takes ψv off it |
+//! | w, ψ | `prediction`, `pull` of the [`Scratch`] | m, – | motion without contact and stretching; stretching takes ψv off it |
 //! | s | `inverse_s` is 1/s | – | 1 + σ₀k |
+//! | | `decay` | – | (1 − σ₀k)/(1 + σ₀k), what is left of the motion after a step |
+//! | m | `mobility` | m/N | k²/(ρhs), how far one newton at a grid point moves it in a step |
 //! | q, q̄ | `stretched`, `stretching` | m² | (δuⁿ)ᵀδuⁿ⁺¹, and the mean of that before and after n |
 //! | G | `stretch` | 1/m² | k²EA/(4ρLh³s), strength of tension modulation |
-//! | h g | `Reading::weights` | – | weights that read a point, and spread a force on it |
+//! | h g | `Reading::weights` | – | weights that read a point, and spread a force on it; section 7 and `docs/solver.md` call them g |
 //! | b | `height` | m | height of board or crown |
 //! | η | `penetration` | m | overlap of two bodies, positive when they touch |
 //! | r, c | `change`; −c is `centre` when a solution begins | m | ηⁿ⁺¹ − ηⁿ⁻¹, which without force would be −c |
@@ -111,12 +116,18 @@
 //! | C, 2√(Tρ) | `residual`, `radiation` | m/N, N s/m | how far a string gives way at a kinked fret and its grid does not; what waves take away there that are too short for it |
 //! | f | `force` | N | force of a contact, never below 0 |
 //! | M | `Response` | m/N | answer of the penetrations to the forces: r = −c − M f |
+//! | ε, z | `sign`, `pull` of a contact | –, m | +1 for board and frets, −1 for fingers; ε gᵀv |
 //! | u_f, d_f | `height`, `motion` of [`finger::Finger`] | m | height of a finger's pad, and its last change |
 //! | M_f, R_f | `mass`, `hand_damping` | kg, N s/m | a finger, and the hand behind it |
 //! | M̃_f | `Inertia::mass` | kg | what a finger moves with in steps of this length |
+//! | m_f | `own_mobility` | m/N | k²/(M̃_f + R_f k/2), how far one newton moves a finger in a step |
+//! | mᵢ | | m/N | of a contact: m, for a finger m + m_f |
 //! | f₀ | `force` of [`drive::Hand`] | N | push of the hand, towards the board |
 //! | f_e | `force` of [`drive::Push`] | N | a pluck |
+//! | R, D | `Ratio`, `DELAY` | – | steps of a string in a sample of the host's; samples of the host's by which all are late |
 //! | 𝔥, 𝔮, 𝔭 | [`Energies`], `power_loss` (its terms are [`Losses`]) and `power_solver`, `power_in` ([`Inputs`]) | J, W, W | stored, lost, put in |
+//!
+//! D is also the difference along the string (section 4), and in `docs/solver.md` the slopes of the laws.
 
 mod active;
 mod band;

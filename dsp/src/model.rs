@@ -1,4 +1,4 @@
-//! The model of one string: every coefficient that stays the same while it is played.
+//! The model of one string: every coefficient that stays the same while it is played, and how exactly it is solved.
 
 mod barrier;
 mod coasting;
@@ -26,7 +26,8 @@ pub use steepness::stiffest;
 use steepness::{STEEPEST, check_stiffness, too_stiff};
 pub use stiffness::Stiffness;
 
-/// Everything about one string that stays the same while it is played.
+/// Everything about one string that stays the same while it is played, but for `settings`, of which an instrument may change the
+/// cap and the tolerance ([`set_effort`](crate::Instrument::set_effort)).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     /// Grid in space and time.

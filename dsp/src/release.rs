@@ -11,8 +11,8 @@ impl State {
     ///
     /// The velocity v at a sample is the mean of the motions that lead to it and from it. Were the string simply kv away from
     /// where it is a sample before, it would be released half a sample too early, and all that follows would be off by as much.
-    /// A step d⁺ = decay·d + q from d = kv shows q, and d⁺ + d = 2kv makes d = (2kv − q)/(1 + decay), but for the part of it
-    /// that `loss_1` damps in that step; likewise for a finger. Allocates.
+    /// A step d⁺ = decay·d + e from d = kv shows e, and d⁺ + d = 2kv makes d = (2kv − e)/(1 + decay), but for the part of it
+    /// that `loss_1` damps in that step; likewise for a finger (`docs/physics.md`, section 6). Allocates.
     ///
     /// # Panics
     /// As [`State::step`].
@@ -55,7 +55,8 @@ impl State {
 }
 
 /// The motion d with which what is `thrown`, m per step, begins: a step from there has led to the motion `after`, of which so
-/// much is what `persists` of d that d⁺ = persists·d + q, and the mean of d and d⁺ is to be what it is thrown with.
+/// much is what `persists` of d that d⁺ = persists·d + e, and the mean of d and d⁺ is to be what it is thrown with. (The `q`
+/// below is e.)
 fn begun(thrown: f64, after: f64, persists: f64) -> f64 {
     let q = after - persists * thrown;
     (2.0 * thrown - q) / (1.0 + persists)

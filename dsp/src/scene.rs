@@ -183,7 +183,7 @@ impl<'de> Deserialize<'de> for FretPlacement {
     }
 }
 
-/// A push that grows as a raised cosine, equation \[4\] of the paper, and lets go at once or as it grew.
+/// A push that grows as a raised cosine (`docs/physics.md`, section 1), and lets go at once or as it grew.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PluckSpec {

@@ -1,7 +1,7 @@
 //! The contact forces of one sample: f = law(−c − M f) for all active contacts together.
 //!
-//! M is symmetric and ≥ 0 and the law non-decreasing, so f is the minimum of a strongly convex function
-//! of r: unique, and reached by a line-searched Newton iteration from anywhere. The unknown is f and r is
+//! M is symmetric and ≥ 0 and the law non-decreasing, so r is the minimum of a strongly convex function:
+//! unique, with it f = law(r), and reached by a line-searched Newton iteration from anywhere. The unknown is f and r is
 //! always −c − M f, so that wherever the iteration stops the string really moves by r and only the force
 //! law is inexact. An inexact solution may give the string at most as much energy as the contacts give
 //! up; if the iteration stops with a solution that would give more, a secant solution that cannot

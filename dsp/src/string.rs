@@ -89,7 +89,9 @@ impl Scratch {
         self.instructions = Instructions::any();
     }
 
-    /// Back to the state of new room, without allocating.
+    /// Back to the state of new room, without allocating. What is not set here a step writes before it reads it: the prediction,
+    /// the clearances, `yielding`, `tried` and `finger_energy` whenever they are asked for, stiffness, loss and what follows from
+    /// them where the drive has others than the step before.
     pub fn reset(&mut self) {
         self.active.clear();
         self.held.fill(0);

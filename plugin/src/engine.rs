@@ -271,7 +271,8 @@ impl Engine {
         self.performance.compromises()
     }
 
-    /// Events lost because too many came at once (more than 16,384 in one block).
+    /// What was lost because too much came at once: events beyond 16,384 that wait in one block, and gestures that the
+    /// instrument's queue has no room for.
     pub fn lost_events(&self) -> u64 {
         self.lost
     }

@@ -32,7 +32,8 @@ impl ContactLaw {
 
     /// The same in contact at both ends, a and b: with s = √a and t = √b the differences of powers are divided by
     /// b − a = (t + s)(t − s) once and for all, so that no digit is lost however near a is to b, and nothing is decided
-    /// by how near. For α = 3/2, b^(5/2) − a^(5/2) = (t − s)(t⁴ + t³s + t²s² + ts³ + s⁴).
+    /// by how near. For α = 3/2, b^(5/2) − a^(5/2) = (t − s)(t⁴ + t³s + t²s² + ts³ + s⁴). (`docs/physics.md`, section 7, calls
+    /// a, b, s and t η₁, η₂, p₁ and p₂.)
     #[inline(always)]
     fn pressed_gradient(&self, before: &Before, r: f64) -> (f64, f64) {
         let (a, s) = (before.penetration, before.root);

@@ -142,9 +142,9 @@ fn section(scenes: &[Scene], runs: &[Vec<Run>], coarse: &[f64]) -> Section {
     let mut section = Section::new("Closing remarks: iterations")
         .text(
             "The paper leaves open whether each step has one solution and whether Newton’s method finds it. For the scheme \
-             as built here both are proved in [solver.md](solver.md): the forces minimise a strongly convex function, and \
-             the step is searched along the line. What is left to measure is how soon. Scenes: those of Figures 2, 4 and \
-             6.",
+             as built here both are proved in [solver.md](solver.md): the changes of penetration are the minimum of a \
+             strongly convex function, the forces follow from them, and the step is searched along the line. What is left to \
+             measure is how soon. Scenes: those of Figures 2, 4 and 6.",
         )
         .picture("Part of the steps that take the fallback, and energy lost to inexact forces, over the cap on iterations")
         .claims(claims)
