@@ -239,7 +239,45 @@ fn a_strum_goes_no_farther_than_silence() {
         let late = plucks(&gestures).into_iter().filter(|pluck| pluck.0 > 2400).count();
         assert_eq!(late, 0, "{silence:?}");
         assert_eq!(plucks(&gestures).len(), 1, "the first string has been struck");
+        // Nor where all keys have gone up before, as hosts have it when they stop.
+        let released = [40, 47, 52, 56, 59, 64].map(|key| (1200, off(key)));
+        let before = events.len() - 1;
+        let events = [&events[..before], &released, &events[before..]].concat();
+        let struck = plucks(&keyboard(&events));
+        assert!(struck.len() == 1 && struck[0].0 < 1200, "{silence:?}: {struck:?}");
     }
+}
+
+/// Tension in semitones, as it was last asked for before a sample.
+fn bent_by(gestures: &[TimedGesture], time: u64) -> f64 {
+    let ratios = gestures.iter().filter(|g| g.time < time).filter_map(|g| match g.gesture {
+        Gesture::Bend { tension_ratio, .. } => Some(tension_ratio),
+        _ => None,
+    });
+    6.0 * ratios.last().unwrap_or(1.0).log2()
+}
+
+/// An open string.
+#[test]
+fn a_held_wheel_stands_for_what_it_is_told_to() {
+    let mut player = GUITAR.player(EXACT);
+    let mut gestures = Vec::new();
+    player.touch(0, &Touching::new(0.0, 1.0), &mut gestures);
+    for (time, event) in [(0, on(40, 90)), (4_800, wheel(0, 1.0))] {
+        player.event(time, event, &mut gestures);
+    }
+    player.advance(9_600, &mut gestures);
+    assert!((bent_by(&gestures, 9_600) - 1.0).abs() < 1e-9);
+    player.touch(9_600, &Touching::new(0.0, 2.0), &mut gestures);
+    player.advance(14_400, &mut gestures);
+    assert!((bent_by(&gestures, 14_400) - 2.0).abs() < 1e-9);
+    // A channel that bends all others reaches two semitones, whatever is set.
+    player.touch(14_400, &Touching::new(0.0, 1.0), &mut gestures);
+    player.advance(19_200, &mut gestures);
+    player.set_input(InputMode::Mpe);
+    player.advance(24_000, &mut gestures);
+    let found = [19_200, 24_000].map(|time| bent_by(&gestures, time));
+    assert!((found[0] - 1.0).abs() < 1e-9 && (found[1] - 2.0).abs() < 1e-9, "{found:?}");
 }
 
 /// Samples and strings of the plucks, every pluck exactly alike.

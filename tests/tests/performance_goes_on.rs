@@ -3,9 +3,10 @@
 
 use std::sync::LazyLock;
 
+use low_action::controls::Touching;
 use low_action::performance::{Expression, Performance, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, play, wheel};
+use low_action_tests::hands::{EXACT, Neck, RATE, play, wheel};
 use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
@@ -75,6 +76,59 @@ fn capo_and_keyswitches_stay_where_they_are() {
     let before = bass.compromises().moved_by_octaves;
     play(&mut bass, &[(400_000, on(28, 90))]);
     assert_eq!(bass.compromises().moved_by_octaves, before + 1);
+}
+
+/// Force of the finger on the string, N, as last asked for.
+fn pressed(gestures: &[TimedGesture]) -> Option<f64> {
+    let forces = gestures.iter().filter_map(|g| match g.gesture {
+        Gesture::Press { force, .. } => Some(force),
+        _ => None,
+    });
+    forces.last()
+}
+
+/// Where strings go on, so do the fingers: with the new hands, and under a capo as far as the new neck goes.
+#[test]
+fn fingers_on_strings_that_go_on_press_as_the_new_hands_do() {
+    let held = [(0, on(62, 90))];
+    let mut player = GUITAR.player(EXACT);
+    let mut gestures = Vec::new();
+    player.touch(0, &Touching::default(), &mut gestures);
+    for (time, event) in held {
+        player.event(time, event, &mut gestures);
+    }
+    player.advance(12_000, &mut gestures);
+    let before = pressed(&gestures).expect("a finger stops the string");
+    let mut firm = GUITAR.setup.player.clone();
+    firm.fretting.force *= 1.5;
+    let mut next = Performance::new(GUITAR.strings.clone(), &firm, EXACT, RATE);
+    next.take_over(&player, true);
+    let mut gestures = Vec::new();
+    next.touch(12_000, &Touching::default(), &mut gestures);
+    next.advance(24_000, &mut gestures);
+    let after = pressed(&gestures).expect("it presses on");
+    assert!((after / before - 1.5).abs() < 1e-9, "{before} N, then {after} N");
+
+    // A capo past the last fret but five goes as far as that of the new neck.
+    let strings = |frets: usize| {
+        let mut strings = GUITAR.strings.clone();
+        strings.iter_mut().for_each(|string| string.geometry.frets.truncate(frets));
+        strings
+    };
+    let of = |frets| Performance::new(strings(frets), &GUITAR.setup.player, EXACT, RATE);
+    let (mut long, mut short, mut own) = (of(22), of(12), of(12));
+    play(&mut long, &[(0, cc(26, 15))]);
+    short.take_over(&long, true);
+    play(&mut own, &[(0, cc(26, 15))]);
+    let capo = |player: &mut Performance| {
+        let gestures = play(player, &[(400_000, on(60, 90))]);
+        let mut placed = gestures.iter().filter_map(|g| match g.gesture {
+            Gesture::Place { position, .. } => Some(position),
+            _ => None,
+        });
+        placed.next().expect("the capo comes")
+    };
+    assert_eq!(capo(&mut short), capo(&mut own));
 }
 
 /// On other strings notes end; but those that were begun for them are struck there.

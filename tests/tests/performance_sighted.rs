@@ -163,6 +163,24 @@ fn a_capo_that_is_leaving_comes_back() {
     }
 }
 
+/// The hand stills a string that somebody has plucked, which takes its time, but not for ever after.
+#[test]
+fn a_note_waits_for_no_string_that_was_plucked_long_ago() {
+    let (mut stage, place) = string();
+    let mut struck = |seconds: u64| {
+        let mut gestures = Vec::new();
+        stage.performance.reset();
+        stage.performance.event(0, pluck(place, 0.5), &mut gestures);
+        let time = seconds * 48_000;
+        stage.performance.event(time, on(50, 90), &mut gestures);
+        stage.performance.advance(time + 4_800, &mut gestures);
+        let last = gestures.iter().rfind(|timed| matches!(timed.gesture, Gesture::Pluck { .. }));
+        last.expect("the note is struck").time - time
+    };
+    assert!(struck(1) > 0);
+    assert_eq!(struck(31), 0);
+}
+
 /// No key ends what is plucked under a capo, but the string must rest some time.
 #[test]
 fn a_string_plucked_under_a_capo_comes_to_rest() {

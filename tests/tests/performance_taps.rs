@@ -1,6 +1,7 @@
 //! The promise: taps are as loud as their velocities have them, on every fret: a harder one is louder. One after another they are so
 //! whether a finger is still on the string or not: what has been tapped is let go of as softly as the next tap strikes.
 
+use low_action_dsp::Gesture;
 use low_action_tests::numbers::largest;
 use low_action_tests::stage::{Stage, cc, level, off, on};
 
@@ -67,5 +68,19 @@ fn taps_in_a_row_are_as_soft_as_their_velocity() {
                 "{setup} {string}, {gap} s apart: {range} dB from the softest to the hardest"
             );
         }
+    }
+}
+
+/// A soft finger lets the string up in most of a period before the next can tap it: longer than the shortest note.
+#[test]
+fn a_tap_of_no_length_is_played() {
+    let mut stage = Stage::alone("bass", 3);
+    for velocity in [1, 127] {
+        let events =
+            [(0.0, on(35, 60)), (0.5, cc(22, 7)), (0.5, on(31, velocity)), (0.5, off(35)), (0.501, off(31))];
+        let thrown = stage.play(&events, 0.7).gestures.into_iter().filter(|timed| {
+            timed.time > (0.5 * RATE) as u64 && matches!(timed.gesture, Gesture::Throw { .. })
+        });
+        assert_eq!(thrown.count(), 1, "velocity {velocity}");
     }
 }

@@ -249,6 +249,16 @@ impl Performance {
         self.strings[index].set_touch(time, &articulation, out);
     }
 
+    /// What wheels stand for has changed: strings are bent as far as it is now.
+    pub(super) fn follow_wheels(&mut self) {
+        for index in 0..self.strings.len() {
+            if let Some(channel) = self.strings[index].channel() {
+                let bend = self.bend(channel);
+                self.strings[index].bend(self.now, channel, bend);
+            }
+        }
+    }
+
     /// A capo goes to a fret of all strings, 0 for none, as soon as each is played.
     pub(super) fn set_capo(&mut self, fret: usize) {
         self.hand.set_capo(fret);

@@ -8,6 +8,7 @@ mod held;
 mod landing;
 mod leaving;
 mod legato;
+mod pulling;
 mod sighted;
 mod stopping;
 mod touches;
@@ -130,6 +131,7 @@ impl Fingers {
 
     /// Takes over the fingers on this string, when it has been given another model.
     pub(crate) fn take_over(&mut self, old: &Self) {
+        self.hands = old.hands.clone();
         (self.fretting, self.anchor, self.light) = (old.fretting, old.anchor, old.light);
         self.touched = old.touched;
         (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
@@ -240,6 +242,17 @@ impl Fingers {
         1.0 / frequency(self.string.geometry.open_pitch)
     }
 
+    /// Where a stroke falls now.
+    fn field(&self) -> Field<'_> {
+        Field { geometry: &self.string.geometry, hands: &self.hands, sounding: self.sounding_length() }
+    }
+
+    /// The right hand, and where a stroke of it falls now.
+    fn right_hand(&mut self) -> (&mut RightHand, Field<'_>) {
+        let sounding = self.sounding_length();
+        (&mut self.right, Field { geometry: &self.string.geometry, hands: &self.hands, sounding })
+    }
+
     /// The palm is to rest so hard, 0 to 1, at the next stroke.
     pub(crate) fn expect_palm(&mut self, palm: f64) {
         self.right.expect_palm(palm);
@@ -247,9 +260,8 @@ impl Fingers {
 
     /// The palm is to rest so hard on the string, 0 to 1.
     pub(crate) fn set_palm(&mut self, palm: f64, at: &mut Moment<impl GestureSink>) {
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        self.right.set_palm(palm, &field, at);
+        let (right, field) = self.right_hand();
+        right.set_palm(palm, &field, at);
     }
 
     /// Whether the palm rests on the string.
@@ -259,9 +271,8 @@ impl Fingers {
 
     /// The palm, or a thumb, leaves the string until the next stroke.
     pub(crate) fn lift_palm(&mut self, at: &mut Moment<impl GestureSink>) {
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        self.right.leave(&field, at);
+        let (right, field) = self.right_hand();
+        right.leave(&field, at);
     }
 
     /// The string under them.
@@ -313,23 +324,19 @@ impl Fingers {
         if let Some(slot) = self.light.take() {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        self.right.prepare(&field, at);
+        let (right, field) = self.right_hand();
+        right.prepare(&field, at);
     }
 
     /// The pluck of a note: so hard (0 to 1), and so far beside the usual place (m), of which the hand has been moved so
     /// far on purpose (m); none for strokes that strike.
     pub(crate) fn pluck(&self, stroke: Stroke, strength: f64, beside: f64, moved: f64) -> Option<Gesture> {
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        field.pluck(stroke, strength, beside, moved)
+        self.field().pluck(stroke, strength, beside, moved)
     }
 
     /// The partial that a thumb picks out beside the pluck of a hand that has been moved so far from the saddle, m.
     pub(crate) fn pinched_partial(&self, moved: f64) -> u32 {
-        let sounding = self.sounding_length();
-        Field { geometry: &self.string.geometry, hands: &self.hands, sounding }.pinched_partial(moved)
+        self.field().pinched_partial(moved)
     }
 
     /// Length that sounds: from the fretting finger, or the capo, or the nut, to the saddle, m.

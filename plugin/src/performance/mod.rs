@@ -81,6 +81,8 @@ pub struct Performance {
     /// Length of the strings, m; of the shortest.
     scale: f64,
     touching: Touching,
+    /// Whether fingers on the strings are another's, and act as that had them until they are next told how.
+    taken_over: bool,
     compromises: Compromises,
     /// Notes that began at `now` and are not placed yet.
     chord: Vec<Unplaced>,
@@ -124,6 +126,7 @@ impl Performance {
             input: InputMode::default(),
             hands: hands.clone(),
             touching: Touching::new(style.variation, style.bend_range),
+            taken_over: false,
             compromises: Compromises::default(),
             chord: Vec::with_capacity(LARGEST_CHORD),
             late: Vec::with_capacity(LARGEST_CHORD),
@@ -202,9 +205,10 @@ impl Performance {
 
     /// The hands act differently from sample `time` on.
     pub fn touch(&mut self, time: u64, touching: &Touching, out: &mut impl GestureSink) {
-        if self.touching == *touching {
+        if self.touching == *touching && !self.taken_over {
             return;
         }
+        self.taken_over = false;
         let time = time.max(self.now);
         self.advance(time, out);
         if touching.keyswitches != self.touching.keyswitches {
@@ -215,6 +219,7 @@ impl Performance {
         for channel in &mut self.channels {
             channel.set_range(touching.bend_range, touching.ignore_rpn);
         }
+        self.follow_wheels();
         let hands = touching.hands(&self.hands, self.scale);
         for string in &mut self.strings {
             string.set_hands(time, &hands, out);
@@ -224,11 +229,15 @@ impl Performance {
 
     /// Channels mean something else from now on.
     pub fn set_input(&mut self, input: InputMode) {
+        if input == self.input {
+            return;
+        }
         let was_mpe = self.is_mpe();
         self.input = input;
         if self.is_mpe() && !was_mpe {
             self.begin_mpe();
         }
+        self.follow_wheels();
     }
 
     /// Takes over from another player in the middle of the music: pedals, wheels and, if the strings go on
@@ -248,13 +257,15 @@ impl Performance {
             for (string, old) in self.strings.iter_mut().zip(&old.strings) {
                 string.take_over(old);
             }
+            self.set_capo(self.hand.capo());
         } else {
             // It may have played before.
             self.strings.iter_mut().for_each(StringPlayer::reset);
             self.hand.reset();
             self.set_capo(old.hand.capo());
+            self.pick_up_hands();
         }
-        self.pick_up_hands();
+        self.taken_over = strings_go_on;
     }
 
     /// Does everything that falls due before sample `until`. Events at `until` and later may still

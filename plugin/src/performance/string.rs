@@ -48,8 +48,8 @@ pub(crate) struct StringPlayer {
     deeds: Deeds,
     /// Strokes a second of a tremolo, 0 for none.
     tremolo: f64,
-    /// Whether it sounds without a note, by somebody who sees it.
-    touched: bool,
+    /// Since when it may sound without a note, by somebody who sees it.
+    touched: Option<u64>,
     /// Notes bent less far than asked, since that was last asked for.
     bent_short: u64,
     /// Whether a note has come back whose key was down under another, since that was last asked for.
@@ -74,7 +74,7 @@ impl StringPlayer {
             under: [None; UNDER],
             deeds: Deeds::default(),
             tremolo: 0.0,
-            touched: false,
+            touched: None,
             bent_short: 0,
             gone_back: false,
         }
@@ -91,7 +91,7 @@ impl StringPlayer {
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
         self.tremolo = 0.0;
-        self.touched = false;
+        self.touched = None;
         self.bent_short = 0;
         self.gone_back = false;
     }
@@ -110,7 +110,7 @@ impl StringPlayer {
     /// Begins a note; one that sounds gives way.
     pub(crate) fn start(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
         self.strike_in_time(&mut self.moment(time, out));
-        let stills = self.wants_stilling();
+        let stills = self.wants_stilling(time);
         self.take_presses(&mut start);
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
@@ -136,7 +136,10 @@ impl StringPlayer {
         self.parting = if taps { TAPPING } else { RESTING };
         if taps {
             match self.fingers.let_up(start.fret, strength, &mut at) {
-                Some(rising) => self.deeds.plan(at.after(rising), Deed::Tap { fret: start.fret, strength }),
+                Some(rising) => {
+                    self.deeds.plan(at.after(rising), Deed::Tap { fret: start.fret, strength });
+                    self.sounds_later(rising);
+                }
                 None => self.tap(start.fret, strength, &mut at),
             }
         } else {
@@ -190,9 +193,16 @@ impl StringPlayer {
         });
         self.bend.begin(start.channel);
         self.plucked_at = Some(time);
-        self.ending = None;
-        self.touched = false;
+        self.touched = None;
         self.set_tremolo(tremolo)
+    }
+
+    /// Its note is to be heard for as long as any, but begins so many seconds later.
+    fn sounds_later(&mut self, wait: f64) {
+        let wait = self.samples(wait);
+        if let Some(note) = &mut self.note {
+            note.since += wait;
+        }
     }
 
     /// Bends the string as its new note has it.
@@ -235,7 +245,7 @@ impl StringPlayer {
         self.fingers.set_hands(hands, &mut at);
     }
 
-    /// The hands act so from the start, and the tremolo arm stands there, semitones.
+    /// The hands act so on a string that nobody has touched yet, and the tremolo arm stands there, semitones.
     pub(crate) fn begin_with(&mut self, time: u64, hands: &Player, arm: f64) {
         self.fingers.begin_with(hands);
         self.bend.set_arm(time, arm);

@@ -4,7 +4,7 @@ use low_action_dsp::{FingerSlot, Gesture};
 
 use super::held::{Down, Grip};
 use super::landing::Thrown;
-use super::{Finger, Fingers};
+use super::{Finger, Fingers, pulling};
 use crate::performance::articulation::{Stop, Stroke};
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment, Technique};
@@ -121,11 +121,9 @@ impl Fingers {
             Some(anchor) => at.does(anchor.gives_way()),
             None => {}
         }
-        let (part, duration) = PULL_OFF;
-        let force = part * strength * self.hands.pluck_force;
-        let pluck = Gesture::Pluck { position: self.pressed(&old), force, duration, release: 0.0 };
+        let pluck = self.pull(self.pressed(&old), fret, strength);
         at.does(pluck);
-        at.does(old.lets_go(self.letting_go(pulling(strength))));
+        at.does(old.lets_go(self.letting_go(pulling::letting_go(strength))));
         Some(pluck)
     }
 
@@ -292,11 +290,4 @@ impl Fingers {
         at.does(Gesture::Slide { finger: finger.slot, position, duration });
         reached
     }
-}
-
-/// How fast a finger lets go of a string that it pulls (0 to 1), how hard: faster than before a pluck, for most of what is
-/// heard comes from letting go. Fitted to plucks as soft, where letting go at once would be 10 to 20 dB louder.
-fn pulling(strength: f64) -> f64 {
-    let softness = (1.0 - strength).clamp(0.0, 1.0);
-    1.0 - softness * softness * softness
 }

@@ -6,7 +6,6 @@ use low_action_dsp::setup::Fretting;
 
 use super::held::Down;
 use super::{Fingers, lift_force, lifting};
-use crate::performance::right_hand::Field;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
@@ -42,9 +41,7 @@ impl Fingers {
     }
 
     fn touch_lightly(&mut self, position: f64, times: f64, at: &mut Moment<impl GestureSink>) {
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        let (touch, force) = field.matched(times);
+        let (touch, force) = self.field().matched(times);
         // Where another finger has just stopped the string, the next slot is the one of the finger before it, which
         // is still on its way up; the dampers are not.
         let finger = if self.fretting.is_some() { LIGHT } else { self.next_slot };
@@ -127,9 +124,8 @@ impl Fingers {
 
     /// The thumb is thrown at the string, how hard, 0 to 1; gives back the throw.
     pub(crate) fn slap(&mut self, strength: f64, at: &mut Moment<impl GestureSink>) -> Gesture {
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        self.right.slap(strength, &field, at)
+        let (right, field) = self.right_hand();
+        right.slap(strength, &field, at)
     }
 
     /// It bounces off.
@@ -139,22 +135,19 @@ impl Fingers {
 
     /// The thumb grazes the string beside the plectrum, at a node of this partial.
     pub(crate) fn graze(&mut self, partial: u32, at: &mut Moment<impl GestureSink>) {
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        self.right.graze(partial, &field, at);
+        let (right, field) = self.right_hand();
+        right.graze(partial, &field, at);
     }
 
     /// It leaves, and the palm comes back if it was there.
     pub(crate) fn leave_graze(&mut self, at: &mut Moment<impl GestureSink>) {
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        self.right.leave_graze(&field, at);
+        let (right, field) = self.right_hand();
+        right.leave_graze(&field, at);
     }
 
     /// The palm comes back after a slap if it was there.
     pub(crate) fn lay_palm(&mut self, at: &mut Moment<impl GestureSink>) {
-        let sounding = self.sounding_length();
-        let field = Field { geometry: &self.string.geometry, hands: &self.hands, sounding };
-        self.right.lay_again(&field, at);
+        let (right, field) = self.right_hand();
+        right.lay_again(&field, at);
     }
 }

@@ -28,7 +28,7 @@ impl StringPlayer {
     /// The note is over: it is damped now, or once it has been heard.
     pub(super) fn end(&mut self, time: u64) {
         self.under = [None; UNDER];
-        self.touched = false;
+        self.touched = None;
         let heard = self.note.take().map_or(0, |note| note.since + self.samples(SHORTEST_NOTE));
         self.ending = Some((time.max(heard), Ending::Damp));
     }
@@ -37,7 +37,7 @@ impl StringPlayer {
     pub(super) fn end_by(&mut self, step: Ending, mut at: Moment<impl GestureSink>) {
         self.ending = match step {
             Ending::Damp => {
-                (self.deeds, self.touched) = (Deeds::default(), false);
+                (self.deeds, self.touched) = (Deeds::default(), None);
                 self.fingers.damp(self.parting, &mut at);
                 at.tells(Annotation::Damped);
                 let next = self.quiet_by(at.after(self.parting.relaxing));

@@ -1,6 +1,6 @@
 //! What keeps a note sounding, and lets it end: its key, the pedals, and the messages that stop everything.
 
-use super::{Note, StringPlayer, UNDER};
+use super::{Ending, Note, StringPlayer, UNDER};
 use crate::performance::technique::SHORTEST_NOTE;
 use crate::performance::{Annotation, GestureSink};
 
@@ -123,7 +123,7 @@ impl StringPlayer {
 
     /// Ends the string's note, whoever holds it; `None` means any channel's.
     pub(crate) fn silence(&mut self, time: u64, channel: Option<u8>) {
-        let touched = self.touched && channel.is_none();
+        let touched = self.touched.is_some() && channel.is_none();
         if touched || self.note.is_some_and(|note| channel.is_none_or(|channel| note.channel == channel)) {
             // A stroke that is still on its way does not come, and nobody waits to hear it.
             self.deeds.forget_strokes();
@@ -132,6 +132,14 @@ impl StringPlayer {
                 note.since = heard;
             }
             self.end(time);
+        } else if let Some((damped, Ending::Damp)) = self.ending
+            && damped > time
+            && self.touched.is_none()
+            && (channel.is_none() || channel == self.bend.channel())
+        {
+            // So it is where the key has gone up before.
+            self.deeds.forget_strokes();
+            self.ending = Some((time, Ending::Damp));
         }
     }
 }

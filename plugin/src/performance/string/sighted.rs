@@ -48,7 +48,7 @@ impl StringPlayer {
     /// The string sounds on without a note of its own, and an ending that was under way is called off.
     fn take_in_hand(&mut self, time: u64, out: &mut impl GestureSink) {
         self.call_off(&mut self.moment(time, out));
-        self.touched = true;
+        self.touched = Some(time);
         // The ending would have stopped the hand of a note that is over, and let go of its tuning.
         if self.note.is_none() {
             self.bend.set_vibrato(time, 0.0);
@@ -59,7 +59,7 @@ impl StringPlayer {
     /// No key ends what somebody plucks. What stops the string then, a capo, goes when it has rung for long: under it the
     /// string would never rest.
     fn rest_later(&mut self, time: u64) {
-        if self.touched && self.note.is_none() && self.fingers.stopped_by_nobody() {
+        if self.touched.is_some() && self.note.is_none() && self.fingers.stopped_by_nobody() {
             self.ending = Some((time + self.samples(POINTED_RINGING), Ending::Damp));
         }
     }

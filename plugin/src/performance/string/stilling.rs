@@ -29,10 +29,11 @@ impl Stilling {
 }
 
 impl StringPlayer {
-    /// Whether the hand stills the string for a stroke: where it has sounded and nobody has let it come to rest since.
-    pub(super) fn wants_stilling(&self) -> bool {
+    /// Whether the hand stills the string for a stroke: where it has sounded and has not come to rest since.
+    pub(super) fn wants_stilling(&self, time: u64) -> bool {
         let ends = self.ending.is_some_and(|(_, step)| step != Ending::Over);
-        self.note.is_some() || ends || self.touched
+        let rings = self.touched.is_some_and(|since| time < since + self.samples(POINTED_RINGING));
+        self.note.is_some() || ends || rings
     }
 
     /// How the hand stills the string for a stroke on a fret, 0 for the open string. Where a finger lets the string up to
