@@ -74,10 +74,10 @@ fn taps_in_a_row_are_as_soft_as_their_velocity() {
 /// A soft finger lets the string up in most of a period before the next can tap it: longer than the shortest note.
 #[test]
 fn a_tap_of_no_length_is_played() {
-    let mut stage = Stage::alone("bass", 3);
+    let mut stage = Stage::alone("five-string-bass", 4);
     for velocity in [1, 127] {
         let events =
-            [(0.0, on(35, 60)), (0.5, cc(22, 7)), (0.5, on(31, velocity)), (0.5, off(35)), (0.501, off(31))];
+            [(0.0, on(30, 60)), (0.5, cc(22, 7)), (0.5, on(26, velocity)), (0.5, off(30)), (0.501, off(26))];
         let thrown = stage.play(&events, 0.7).gestures.into_iter().filter(|timed| {
             timed.time > (0.5 * RATE) as u64 && matches!(timed.gesture, Gesture::Throw { .. })
         });
