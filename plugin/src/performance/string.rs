@@ -1,12 +1,14 @@
 //! One string under two hands: a note's life as gestures at exact samples.
 //!
 //! A note begins with the finger landing behind its fret and the stroke, at once; a finger already
-//! there just stays. Or it takes over from the one before by a hammer, a pull or a slide (`legato`). It
-//! ends under the edge of a hand that comes to rest on the string; only when the string is quiet do the
-//! fretting finger and then the hand ease off, so slowly that their going makes no sound. What is to
-//! happen later is kept here as deadlines, because the next note may come first and call it off.
+//! there just stays (`beginning`). Or it takes over from the one before by a hammer, a pull or a slide
+//! (`legato`). It ends under the edge of a hand that comes to rest on the string; only when the string is
+//! quiet do the fretting finger and then the hand ease off, so slowly that their going makes no sound
+//! (`ending`). What is to happen later is kept here as deadlines (`deeds`), because the next note may come
+//! first and call it off.
 
 mod annotated;
+mod beginning;
 mod deeds;
 mod ending;
 mod keys;
@@ -18,13 +20,13 @@ mod stilling;
 
 use low_action_dsp::setup::Player;
 
-use super::articulation::{Articulation, Stop, Stroke};
+use super::articulation::Articulation;
 use super::bend::Bend;
 use super::fingers::Fingers;
 use super::hand::Use;
 use super::technique::*;
 use super::{GestureSink, Moment, PlayedString};
-use deeds::{Deed, Deeds, Struck};
+use deeds::{Deed, Deeds};
 use ending::Ending;
 pub(crate) use note::{Manner, Note, Start};
 pub(crate) use own::Own;
@@ -105,110 +107,6 @@ impl StringPlayer {
             }
             None => Use::Free,
         }
-    }
-
-    /// Begins a note; one that sounds gives way.
-    pub(crate) fn start(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
-        self.strike_in_time(&mut self.moment(time, out));
-        let stills = self.wants_stilling(time);
-        self.take_presses(&mut start);
-        self.under = [None; UNDER];
-        self.deeds = Deeds::default();
-        let strength = start.force();
-        let Articulation { mut stroke, stop, .. } = start.articulation;
-        // A finger that presses no fret has nothing to strike the string against.
-        let taps = stroke == Stroke::Tap && stop == Stop::Press && start.fret > self.fingers.capo();
-        // And a thumb beside the plectrum would take up the partial that another finger lets through.
-        if stroke == Stroke::Tap || (stroke == Stroke::Pinch && stop == Stop::Harmonic) {
-            stroke = Stroke::Down;
-        }
-        // A light finger at a node takes up what it is to take up.
-        let stilling = (stills && !taps && stop != Stop::Harmonic).then(|| self.stilling(stroke, start.fret));
-        start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
-        self.call_off(&mut self.moment(time, out));
-        self.begin(time, &start, strength);
-        if !stills {
-            self.bend.begin_at_rest(time);
-        }
-        let mut at = self.moment(time, out);
-        at.tells(self.new_note(&start));
-        self.fingers.press(start.manner.pressure, &mut at);
-        self.parting = if taps { TAPPING } else { RESTING };
-        if taps {
-            match self.fingers.let_up(start.fret, strength, &mut at) {
-                Some(rising) => {
-                    self.deeds.plan(at.after(rising), Deed::Tap { fret: start.fret, strength });
-                    self.sounds_later(rising);
-                }
-                None => self.tap(start.fret, strength, &mut at),
-            }
-        } else {
-            let landing = [strength * start.haste(), start.haste()];
-            // The little by which a string comes up to a lower fret is not heard under the hand that stills it; more is.
-            let by_little = start.fret > self.fingers.capo();
-            let leaves = match stilling {
-                Some(stilling) if by_little && stilling.comes_at_once(start.wait) => QUICK_LIFT,
-                _ => self.fingers.letting_go(landing[0]),
-            };
-            self.fingers.stop(start.fret, stop, landing, leaves, &mut at);
-            self.touch_node(start.wait, &mut at);
-            if let Some(stilling) = stilling {
-                self.still_before(start.wait, stilling, &mut at);
-            }
-            let moved = start.manner.place;
-            let beside = start.deviation.place + moved + self.towards_antinode();
-            let struck = Struck { stroke, strength, beside, moved };
-            if start.wait > 0.0 {
-                self.deeds.plan(at.after(start.wait + start.deviation.delay), Deed::Strike(struck));
-            } else {
-                self.strike(struck, start.deviation.delay, &mut at);
-            }
-            if self.tremolo > 0.0 {
-                let lead = if stop == Stop::Harmonic { 0.0 } else { self.stilling(stroke, start.fret).lead };
-                self.deeds.plan(at.after(start.wait + 1.0 / self.tremolo - lead), Deed::Tremolo(struck));
-            }
-        }
-        self.follow(time, &start.manner);
-    }
-
-    /// Writes down that a note begins. Gives back how many strokes a second a tremolo had so far.
-    fn begin(&mut self, time: u64, start: &Start, strength: f64) -> f64 {
-        let Articulation { slide, slide_time, stop, tremolo, .. } = start.articulation;
-        self.note = Some(Note {
-            channel: start.channel,
-            key: start.key,
-            velocity: start.velocity,
-            since: time + self.samples(start.wait),
-            presses: start.presses,
-            caught: start.caught,
-            fret: start.fret,
-            strength,
-            tuning: start.manner.tuning,
-            pressure: start.manner.pressure,
-            vibrato: start.manner.vibrato,
-            bar: stop == Stop::Bar,
-            partial: (stop == Stop::Harmonic).then_some(start.order),
-            slide: (slide || stop == Stop::Bar).then_some(slide_time),
-            bent_short: false,
-        });
-        self.bend.begin(start.channel);
-        self.plucked_at = Some(time);
-        self.touched = None;
-        self.set_tremolo(tremolo)
-    }
-
-    /// Its note is to be heard for as long as any, but begins so many seconds later.
-    fn sounds_later(&mut self, wait: f64) {
-        let wait = self.samples(wait);
-        if let Some(note) = &mut self.note {
-            note.since += wait;
-        }
-    }
-
-    /// Bends the string as its new note has it.
-    fn follow(&mut self, time: u64, manner: &Manner) {
-        self.bend.tune(time, manner.tuning);
-        self.bend.set_vibrato(time, manner.vibrato);
     }
 
     /// Whether it has a note.

@@ -1,0 +1,127 @@
+//! How a note begins that is struck: by a stroke of the right hand, or by a tap.
+
+use super::deeds::{Deed, Deeds, Struck};
+use super::stilling::Stilling;
+use super::{Manner, Note, Start, StringPlayer, UNDER};
+use crate::performance::articulation::{Articulation, Stop, Stroke};
+use crate::performance::technique::*;
+use crate::performance::{GestureSink, Moment};
+
+impl StringPlayer {
+    /// Begins a note; one that sounds gives way.
+    pub(crate) fn start(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
+        self.strike_in_time(&mut self.moment(time, out));
+        let stills = self.wants_stilling(time);
+        self.take_presses(&mut start);
+        self.under = [None; UNDER];
+        self.deeds = Deeds::default();
+        let strength = start.force();
+        let Articulation { mut stroke, stop, .. } = start.articulation;
+        // A finger that presses no fret has nothing to strike the string against.
+        let taps = stroke == Stroke::Tap && stop == Stop::Press && start.fret > self.fingers.capo();
+        // And a thumb beside the plectrum would take up the partial that another finger lets through.
+        if stroke == Stroke::Tap || (stroke == Stroke::Pinch && stop == Stop::Harmonic) {
+            stroke = Stroke::Down;
+        }
+        // A light finger at a node takes up what it is to take up.
+        let stilling = (stills && !taps && stop != Stop::Harmonic).then(|| self.stilling(stroke, start.fret));
+        start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
+        self.call_off(&mut self.moment(time, out));
+        self.begin(time, &start, strength);
+        if !stills {
+            self.bend.begin_at_rest(time);
+        }
+        let mut at = self.moment(time, out);
+        at.tells(self.new_note(&start));
+        self.fingers.press(start.manner.pressure, &mut at);
+        self.parting = if taps { TAPPING } else { RESTING };
+        if taps {
+            self.begin_tap(&start, strength, &mut at);
+        } else {
+            self.begin_stroke(&start, stroke, strength, stilling, &mut at);
+        }
+        self.follow(time, &start.manner);
+    }
+
+    /// A finger comes down on the fret, how hard, 0 to 1: once the string is up there.
+    fn begin_tap(&mut self, start: &Start, strength: f64, at: &mut Moment<impl GestureSink>) {
+        let fret = start.fret;
+        let Some(rising) = self.fingers.let_up(fret, strength, at) else {
+            return self.tap(fret, strength, at);
+        };
+        self.deeds.plan(at.after(rising), Deed::Tap { fret, strength });
+        // Even the shortest note is to be heard.
+        let later = self.samples(rising);
+        if let Some(note) = &mut self.note {
+            note.since += later;
+        }
+    }
+
+    /// The left hand stops the string, and the right hand strikes it, how hard, 0 to 1, if need be after it has stilled it.
+    fn begin_stroke(
+        &mut self,
+        start: &Start,
+        stroke: Stroke,
+        strength: f64,
+        stilling: Option<Stilling>,
+        at: &mut Moment<impl GestureSink>,
+    ) {
+        let stop = start.articulation.stop;
+        let landing = [strength * start.haste(), start.haste()];
+        // The little by which a string comes up to a lower fret is not heard under the hand that stills it; more is.
+        let by_little = start.fret > self.fingers.capo();
+        let leaves = match stilling {
+            Some(stilling) if by_little && stilling.comes_at_once(start.wait) => QUICK_LIFT,
+            _ => self.fingers.letting_go(landing[0]),
+        };
+        self.fingers.stop(start.fret, stop, landing, leaves, at);
+        self.touch_node(start.wait, at);
+        if let Some(stilling) = stilling {
+            self.still_before(start.wait, stilling, at);
+        }
+        let moved = start.manner.place;
+        let beside = start.deviation.place + moved + self.towards_antinode();
+        let struck = Struck { stroke, strength, beside, moved };
+        if start.wait > 0.0 {
+            self.deeds.plan(at.after(start.wait + start.deviation.delay), Deed::Strike(struck));
+        } else {
+            self.strike(struck, start.deviation.delay, at);
+        }
+        if self.tremolo > 0.0 {
+            let lead = if stop == Stop::Harmonic { 0.0 } else { self.stilling(stroke, start.fret).lead };
+            self.deeds.plan(at.after(start.wait + 1.0 / self.tremolo - lead), Deed::Tremolo(struck));
+        }
+    }
+
+    /// Writes down that a note begins. Gives back how many strokes a second a tremolo had so far.
+    pub(super) fn begin(&mut self, time: u64, start: &Start, strength: f64) -> f64 {
+        let Articulation { slide, slide_time, stop, tremolo, .. } = start.articulation;
+        self.note = Some(Note {
+            channel: start.channel,
+            key: start.key,
+            velocity: start.velocity,
+            since: time + self.samples(start.wait),
+            presses: start.presses,
+            caught: start.caught,
+            fret: start.fret,
+            strength,
+            tuning: start.manner.tuning,
+            pressure: start.manner.pressure,
+            vibrato: start.manner.vibrato,
+            bar: stop == Stop::Bar,
+            partial: (stop == Stop::Harmonic).then_some(start.order),
+            slide: (slide || stop == Stop::Bar).then_some(slide_time),
+            bent_short: false,
+        });
+        self.bend.begin(start.channel);
+        self.plucked_at = Some(time);
+        self.touched = None;
+        self.set_tremolo(tremolo)
+    }
+
+    /// Bends the string as its new note has it.
+    pub(super) fn follow(&mut self, time: u64, manner: &Manner) {
+        self.bend.tune(time, manner.tuning);
+        self.bend.set_vibrato(time, manner.vibrato);
+    }
+}
