@@ -115,8 +115,8 @@ impl Articulation {
         }
     }
 
-    /// Follows a controller (0 to 127); `false` if it is none of these.
-    pub(crate) fn set_controller(&mut self, number: u8, value: u8) -> bool {
+    /// Follows a controller (0 to 127), if it is one of these.
+    pub(crate) fn set_controller(&mut self, number: u8, value: u8) {
         let part = f64::from(value) / 127.0;
         match number {
             5 => self.slide_time = SLIDE_TIME.0 * libm::pow(SLIDE_TIME.1 / SLIDE_TIME.0, part),
@@ -129,14 +129,13 @@ impl Articulation {
             24 => self.accent = ((f64::from(value) - 64.0) / 63.0).max(-1.0),
             25 if value == 0 => self.tremolo = 0.0,
             25 => self.tremolo = TREMOLO.0 + (TREMOLO.1 - TREMOLO.0) * part,
-            _ => return false,
+            _ => {}
         }
-        true
     }
 
-    /// Follows a keyswitch, counted from the first; `false` if there is none of that number. Each takes the
+    /// Follows a keyswitch, counted from the first, if there is one of that number. Each takes the
     /// place of the one before; how long slides and strums take stays.
-    pub(crate) fn switch(&mut self, number: u8) -> bool {
+    pub(crate) fn switch(&mut self, number: u8) {
         let Self { slide_time, strum, accent, .. } = *self;
         let plain = Self { slide_time, strum, accent, ..Self::PLAIN };
         *self = match number {
@@ -152,9 +151,8 @@ impl Articulation {
             9 => Self { stop: Stop::Mute, ..plain },
             10 => Self { legato: true, ..plain },
             11 => Self { legato: true, slide: true, ..plain },
-            _ => return false,
+            _ => *self,
         };
-        true
     }
 }
 

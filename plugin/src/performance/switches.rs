@@ -26,7 +26,7 @@ impl Performance {
         for own in self.switched_by(channel) {
             match number.checked_sub(SWITCHES) {
                 Some(string) => own.forced = Some((usize::from(string), channel)),
-                None => _ = own.articulation.switch(number),
+                None => own.articulation.switch(number),
             }
         }
         for note in &mut self.chord {
