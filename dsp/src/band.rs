@@ -34,7 +34,7 @@ impl<T: Number> Band<T> {
         let h = grid.spacing;
         let parts = [
             stiffness.tension / h,
-            linear_density * stiffness.kappa_2 / (h * h * h),
+            linear_density * stiffness.kappa_squared / (h * h * h),
             linear_density * stiffness.kappa_6 / (h * h * h * h * h),
         ];
         let near: [f64; DIAGONALS] =
@@ -186,7 +186,7 @@ mod tests {
     use super::*;
 
     const GRID: [f64; 3] = [0.65, 12.0, 1.0 / 48_000.0];
-    const STIFFNESS: Stiffness = Stiffness { tension: 70.0, kappa_2: 0.6, kappa_6: 3e-5 };
+    const STIFFNESS: Stiffness = Stiffness { tension: 70.0, kappa_squared: 0.6, kappa_6: 3e-5 };
     const LINEAR_DENSITY: f64 = 1e-3;
 
     fn grid() -> Grid {
@@ -202,7 +202,7 @@ mod tests {
             let angle = std::f64::consts::PI * partial as f64 / grid.intervals as f64;
             let mode: Vec<f64> = (1..grid.intervals).map(|node| (angle * node as f64).sin()).collect();
             let s = (2.0 * (0.5 * angle).sin() / grid.spacing).powi(2);
-            let bending = LINEAR_DENSITY * s * s * (STIFFNESS.kappa_2 + s * STIFFNESS.kappa_6);
+            let bending = LINEAR_DENSITY * s * s * (STIFFNESS.kappa_squared + s * STIFFNESS.kappa_6);
             let expected = grid.spacing * (STIFFNESS.tension * s + bending);
             for (found, u) in matrix.times(&mode).iter().zip(&mode) {
                 assert!((found - expected * u).abs() < 1e-12 * expected, "partial {partial}");

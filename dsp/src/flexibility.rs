@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn between_points_a_flexible_string_lacks_its_kink() {
         let grid = Grid::new(LENGTH, 60, 1e-5);
-        let stiffness = Stiffness { tension: TENSION, kappa_2: 0.0, kappa_6: 0.0 };
+        let stiffness = Stiffness { tension: TENSION, kappa_squared: 0.0, kappa_6: 0.0 };
         let flexibility = Flexibility::new(&string(0.0), &stiffness, &grid);
         for (cell, p) in [(0, 0.3), (7, 0.0), (20, 0.5), (33, 0.9), (59, 0.7)] {
             let place = (cell as f64 + p) * grid.spacing;
@@ -106,7 +106,8 @@ mod tests {
         let string = string(2.5e-4);
         let residual = |intervals: usize, place: f64| {
             let grid = Grid::new(LENGTH, intervals, 1e-7);
-            let stiffness = Stiffness { tension: TENSION, kappa_2: string.kappa_squared(), kappa_6: 0.0 };
+            let stiffness =
+                Stiffness { tension: TENSION, kappa_squared: string.kappa_squared(), kappa_6: 0.0 };
             Flexibility::new(&string, &stiffness, &grid).residual(place, &grid.reading(place)).abs()
         };
         for place in [0.2 * LENGTH, 0.01 * LENGTH, 0.77 * LENGTH] {

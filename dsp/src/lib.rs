@@ -92,7 +92,7 @@
 //! | E, r_c | `youngs_modulus`, `core_radius` | Pa, m | of the core: a winding adds mass, hardly stiffness |
 //! | A, I | (in `axial_stiffness`, `kappa_squared`) | m², m⁴ | section πr_c² and its moment πr_c⁴/4 |
 //! | c², κ² | `c2`, `kappa_squared` | m²/s², m⁴/s² | T/ρ and EI/ρ |
-//! | κ₂², κ₆ | `kappa_2`, `kappa_6` | m⁴/s², m⁶/s² | κ² as the stencil realises it, and its sixth-order term |
+//! | κ₂², κ₆ | `kappa_squared`, `kappa_6` of [`model::Stiffness`] | m⁴/s², m⁶/s² | κ² as the stencil realises it, and its sixth-order term |
 //! | σ₀, σ₁ | `loss_0`, `loss_1` | 1/s, m²/s | loss of all frequencies alike, and growing with frequency |
 //! | σₕ | `loss` of a [`Drive`] | 1/s | what a hand laid along the string adds to σ₀ in a step |
 //! | τ | `stretch_tension` | N | what stretching adds to T |

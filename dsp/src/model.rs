@@ -83,9 +83,9 @@ impl Model {
             contact.law = contact.law.no_steeper_than(STEEPEST / mobility);
         }
         if barrier.is_some_and(|barrier| barrier.placement == FretPlacement::Kinked) {
-            let kappa = string.kappa_squared();
+            let kappa_squared = string.kappa_squared();
             let at_rest =
-                Stiffness::new(settings.stencil, string.linear_density, string.tension, kappa, &grid);
+                Stiffness::new(settings.stencil, string.linear_density, string.tension, kappa_squared, &grid);
             let flexibility = Flexibility::new(&string, &at_rest, &grid);
             contacts.iter_mut().for_each(|contact| contact.bend_round(&string, &grid, &flexibility));
         }
@@ -108,11 +108,11 @@ impl Model {
     /// # Errors
     /// When the string is too short for a grid of the least number of intervals at this time step.
     pub fn grid(string: &StringParameters, stencil: Stencil, time_step: f64) -> Result<Grid, Error> {
-        let kappa = string.kappa_squared();
+        let kappa_squared = string.kappa_squared();
         let fits = |length: f64, intervals: usize| {
             let grid = Grid::new(length, intervals, time_step);
             [string.tension_limit, string.tension].iter().all(|&tension| {
-                let stiffness = Stiffness::new(stencil, string.linear_density, tension, kappa, &grid);
+                let stiffness = Stiffness::new(stencil, string.linear_density, tension, kappa_squared, &grid);
                 let wave_fits =
                     tension / string.linear_density * time_step * time_step <= grid.spacing * grid.spacing;
                 wave_fits && stiffness.stability(string.linear_density, string.loss_1, &grid) <= 1.0
@@ -159,8 +159,8 @@ impl Model {
 
     /// The string's stiffness at a tension, N.
     pub fn stiffness(&self, tension: f64) -> Stiffness {
-        let kappa = self.string.kappa_squared();
-        Stiffness::new(self.settings.stencil, self.string.linear_density, tension, kappa, &self.grid)
+        let kappa_squared = self.string.kappa_squared();
+        Stiffness::new(self.settings.stencil, self.string.linear_density, tension, kappa_squared, &self.grid)
     }
 
     /// The grid points that each fixed contact touches, from the first to the one after the last, in the order in which many

@@ -72,7 +72,7 @@ fn four_points_are_worth_two_decibels() {
         let (spacing, density) = (string.model.grid.spacing, string.model.string.linear_density);
         let stiffness = string.scratch.stiffness();
         let curved = (2.0 * (0.5 * wave_number * spacing).sin() / spacing).powi(2);
-        let pull = TENSION + density * curved * (stiffness.kappa_2 + stiffness.kappa_6 * curved);
+        let pull = TENSION + density * curved * (stiffness.kappa_squared + stiffness.kappa_6 * curved);
         let by_sums = decibels(pull * last / spacing);
         println!("{stencil}: {four:.3} dB, by the sums {by_sums:.2} dB");
         assert!((-0.14..0.0).contains(&four), "{stencil}: {four} dB");

@@ -30,7 +30,7 @@ pub(super) fn gross(
     let h2 = h * h;
     let per_slope = 0.5 / h
         * (stiffness.tension
-            + 4.0 * string.linear_density * (stiffness.kappa_2 + 4.0 * stiffness.kappa_6 / h2) / h2);
+            + 4.0 * string.linear_density * (stiffness.kappa_squared + 4.0 * stiffness.kappa_6 / h2) / h2);
     let stretched = if string.tension_modulation {
         let product = slopes(now, next);
         // Where the product all but vanishes what is left of it is what the whole sum was rounded by, and its square

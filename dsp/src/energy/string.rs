@@ -57,7 +57,7 @@ fn stiffness_energy(model: &Model, stiffness: &Stiffness, a: &[f64], b: &[f64], 
     let (second, third) = curvatures(a, b);
     let h3 = h * h * h;
     0.5 * stiffness.tension / h * slope
-        + 0.5 * rho * stiffness.kappa_2 / h3 * second
+        + 0.5 * rho * stiffness.kappa_squared / h3 * second
         + 0.5 * rho * stiffness.kappa_6 / (h3 * h * h) * third
 }
 
@@ -68,7 +68,7 @@ pub(super) fn stiffness_change(model: &Model, new: &Stiffness, old: &Stiffness, 
     let slope = slopes(now, &past);
     let change = Stiffness {
         tension: new.tension - old.tension,
-        kappa_2: new.kappa_2 - old.kappa_2,
+        kappa_squared: new.kappa_squared - old.kappa_squared,
         kappa_6: new.kappa_6 - old.kappa_6,
     };
     stiffness_energy(model, &change, now, &past, slope)

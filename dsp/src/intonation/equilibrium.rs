@@ -95,7 +95,7 @@ impl Equilibrium {
     /// strictly convex, so there is exactly one; Newton's method with a search along the step finds it
     /// from any `guess`, sooner from a good one.
     pub fn new(model: &Model, at: &Reading, force: f64, guess: Vec<f64>) -> Equilibrium {
-        let unit = Stiffness { tension: 1.0, kappa_2: 0.0, kappa_6: 0.0 };
+        let unit = Stiffness { tension: 1.0, kappa_squared: 0.0, kappa_6: 0.0 };
         let potential = Potential {
             model,
             at,

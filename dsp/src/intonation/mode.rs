@@ -25,7 +25,8 @@ pub(super) fn open_frequency(model: &Model, partial: usize) -> f64 {
     let own = model.stiffness(model.string.tension);
     let half = libm::sin(0.5 * std::f64::consts::PI * partial as f64 / grid.intervals as f64);
     let s = 4.0 * half * half / (grid.spacing * grid.spacing);
-    let stiffness = s * (own.tension / model.string.linear_density + s * (own.kappa_2 + s * own.kappa_6));
+    let stiffness =
+        s * (own.tension / model.string.linear_density + s * (own.kappa_squared + s * own.kappa_6));
     realised(stiffness, grid.time_step)
 }
 
@@ -87,7 +88,7 @@ pub(super) fn stopped_oscillation(
     let behind = (1..grid.intervals).take_while(|&node| grid.place(node) <= stop).count();
     let massless = if still { behind } else { 0 };
     matrix.shift_from(massless, Complex::from(-shift));
-    let unit = Stiffness { tension: 1.0, kappa_2: 0.0, kappa_6: 0.0 };
+    let unit = Stiffness { tension: 1.0, kappa_squared: 0.0, kappa_6: 0.0 };
     let curvature = Band::of_string(grid, 0.0, &unit).times(&rest.displacement);
     let curvature = curvature.into_iter().map(Complex::from).collect();
     // The stretch acts half at n and half as the mean of n + 1 and n − 1.

@@ -19,7 +19,7 @@ impl Weights {
         let (k, h2) = (model.grid.time_step, model.grid.spacing * model.grid.spacing);
         let k2 = k * k * coasting.inverse_s;
         let second = k2 * stiffness.tension / (model.string.linear_density * h2);
-        let fourth = k2 * stiffness.kappa_2 / (h2 * h2);
+        let fourth = k2 * stiffness.kappa_squared / (h2 * h2);
         let sixth = k2 * stiffness.kappa_6 / (h2 * h2 * h2);
         let loss = 2.0 * model.string.loss_1 * k * coasting.inverse_s / h2;
         // second·v − fourth·δ²v + sixth·δ⁴v + loss·δ²d, gathered by neighbour; δ²d is what v has changed by.

@@ -182,7 +182,8 @@ impl Rival {
         }
         let k2 = k * k;
         let (c2, shear) = (k2 * stiffness.tension / string.linear_density / h2, 2.0 * string.loss_1 * k / h2);
-        let (bend, sixth) = (k2 * stiffness.kappa_2 / (h2 * h2), k2 * stiffness.kappa_6 / (h2 * h2 * h2));
+        let (bend, sixth) =
+            (k2 * stiffness.kappa_squared / (h2 * h2), k2 * stiffness.kappa_6 / (h2 * h2 * h2));
         let keep = 1.0 - string.loss_0 * k;
         let strength = if string.tension_modulation {
             0.5 * k * (string.axial_stiffness() * h / (string.linear_density * string.length)).sqrt() / h2
