@@ -15,7 +15,7 @@ use crate::scene::FretPlacement;
 pub struct Neck {
     /// Length from nut to saddle, m; fret m of equal temperament leaves 2^(−m/12) of it.
     pub scale_length: f64,
-    /// Number of frets, 0 to 36.
+    /// Number of frets, 0 to [`Neck::MOST_FRETS`].
     pub frets: usize,
     /// Whether the fretted notes are stopped by fingers on the bare board; the number of frets is then how
     /// many semitones can be stopped.
@@ -62,6 +62,9 @@ const OVERHANG: f64 = 0.008;
 const PIECES: usize = 64;
 
 impl Neck {
+    /// The most frets.
+    pub const MOST_FRETS: usize = 36;
+
     /// The highest action, m.
     pub const HIGHEST_ACTION: f64 = 0.05;
 
@@ -79,7 +82,7 @@ impl Neck {
     /// Refuses values outside their range.
     pub(crate) fn check(&self) -> Result<(), Error> {
         within("neck.scale_length", self.scale_length, 0.1, 5.0, "m")?;
-        within("neck.frets", self.frets as f64, 0.0, 36.0, "")?;
+        within("neck.frets", self.frets as f64, 0.0, Self::MOST_FRETS as f64, "")?;
         ranged("neck.nut_clearance", self.nut_clearance, NUT_CLEARANCE, "m")?;
         if !(self.nut_clearance..=Self::HIGHEST_ACTION).contains(&self.action) {
             // Either may be what is wrong.
@@ -211,7 +214,7 @@ mod tests {
     #[test]
     fn no_crown_lies_lower_than_relief_explains() {
         let neck = crate::Setup::builtin("electric").expect("it is built in").neck;
-        for frets in 1..=36 {
+        for frets in 1..=Neck::MOST_FRETS {
             let neck = Neck { frets, relief: 3e-4, ..neck.clone() };
             let straight = Neck { relief: 0.0, ..neck.clone() };
             assert!(neck.most_relief() >= 3e-4, "{frets} frets");

@@ -1,6 +1,7 @@
 //! How a snapshot is filled from an engine.
 
 use low_action_dsp::model::ContactKind;
+use low_action_dsp::pickup::{stretch_energy, stretch_tension};
 use low_action_dsp::{FINGERS_PER_STRING, Instrument};
 
 use super::Health;
@@ -30,12 +31,15 @@ impl StringSeen {
         self.pluck = observed
             .pluck
             .map(|pluck| PluckSeen { position: pluck.position as f32, force: pluck.force as f32 });
-        self.tension = drive.tension as f32;
-        self.energy = scratch.string_energy() as f32;
+        self.rest_tension = model.string.tension as f32;
+        self.tension = (drive.tension + stretch_tension(model, scratch)) as f32;
+        self.energy = (scratch.string_energy() + stretch_energy(model, scratch)) as f32;
         self.iterations = observed.iterations as f32 / observed.steps.max(1) as f32;
         self.see_barrier(instrument, index);
         self.see_fingers(instrument, index);
-        self.contacts = scratch.forces().filter(|(_, force)| *force > 0.0).count() as u32;
+        // Fingers are contacts too, and come after those of the model.
+        let touches = |&(contact, force): &(usize, f64)| contact < model.contacts.len() && force > 0.0;
+        self.contacts = scratch.forces().filter(touches).count() as u32;
     }
 
     /// Frets and board, where they are now, with their forces.
@@ -45,15 +49,15 @@ impl StringSeen {
         let hits = &instrument.observed(index).forces;
         self.board.fill(f32::NAN);
         self.board_force.fill(0.0);
+        self.board_hit.fill(0.0);
         self.fret_count = 0;
         let heights = model.contacts.iter().zip(state.heights()).zip(hits);
         for ((contact, &height), &hit) in heights {
             match contact.kind {
                 ContactKind::Board { node } => {
-                    let part = node as f64 / model.grid.intervals as f64;
-                    let point = (part * (POINTS - 1) as f64).round() as usize;
+                    let point = nearest_point(node, model.grid.intervals);
                     self.board[point] = height as f32;
-                    self.board_force[point] = self.board_force[point].max(hit as f32);
+                    self.board_hit[point] = self.board_hit[point].max(hit as f32);
                 }
                 ContactKind::Fret { index: fret } => {
                     let Some(seen) = self.frets.get_mut(self.fret_count) else { continue };
@@ -70,13 +74,20 @@ impl StringSeen {
             }
         }
         for (contact, force) in instrument.scratch(index).forces() {
-            // Contacts and frets are both in order of place.
-            if let Some(ContactKind::Fret { .. }) = model.contacts.get(contact).map(|contact| contact.kind) {
-                let before = model.contacts[..contact].iter();
-                let fret = before.filter(|other| matches!(other.kind, ContactKind::Fret { .. })).count();
-                if let Some(seen) = self.frets.get_mut(fret) {
-                    seen.force = force as f32;
+            match model.contacts.get(contact).map(|contact| contact.kind) {
+                // Contacts and frets are both in order of place.
+                Some(ContactKind::Fret { .. }) => {
+                    let before = model.contacts[..contact].iter();
+                    let fret = before.filter(|other| matches!(other.kind, ContactKind::Fret { .. })).count();
+                    if let Some(seen) = self.frets.get_mut(fret) {
+                        seen.force = force as f32;
+                    }
                 }
+                Some(ContactKind::Board { node }) => {
+                    let point = nearest_point(node, model.grid.intervals);
+                    self.board_force[point] = self.board_force[point].max(force as f32);
+                }
+                None => {}
             }
         }
     }
@@ -94,6 +105,11 @@ impl StringSeen {
             });
         }
     }
+}
+
+/// The point of a snapshot nearest to a grid point.
+fn nearest_point(node: usize, intervals: usize) -> usize {
+    (node as f64 / intervals as f64 * (POINTS - 1) as f64).round() as usize
 }
 
 /// Values at the interior points of a grid of so many intervals, read evenly from end to end; 0 at the ends.

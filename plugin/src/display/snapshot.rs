@@ -1,15 +1,13 @@
 //! A still picture of all strings, with what has happened to them since the last one.
 
 use low_action_dsp::FINGERS_PER_STRING;
+use low_action_dsp::neck::Neck;
 use low_action_dsp::setup::MOST_STRINGS;
 
 use super::Health;
 
 /// Points at which a snapshot has each string, evenly from nut to saddle, both included.
 pub const POINTS: usize = 129;
-
-/// The most frets of a set-up.
-const MOST_FRETS: usize = 36;
 
 /// A still picture of all strings.
 #[derive(Debug, Clone)]
@@ -35,21 +33,25 @@ pub struct StringSeen {
     pub highest: [f32; POINTS],
     /// Height of the board under the points, m; not a number where there is none.
     pub board: [f32; POINTS],
-    /// Largest force of the board near each point since the last snapshot, N.
+    /// Force of the board near each point in the last step, N: the largest of a place of the board that is nearest to it.
     pub board_force: [f32; POINTS],
+    /// Largest force of the board near each point since the last snapshot, N.
+    pub board_hit: [f32; POINTS],
     /// Fingers near the string, by slot.
     pub fingers: [Option<FingerSeen>; FINGERS_PER_STRING],
     /// The last pluck begun since the last snapshot.
     pub pluck: Option<PluckSeen>,
-    /// Present tension, N.
+    /// Tension of the open string at rest, N.
+    pub rest_tension: f32,
+    /// Present tension, N: bends and what stretching adds included.
     pub tension: f32,
-    /// Energy of its motion and stretching, J.
+    /// Energy of its motion and stretching, J; that of bending is left out.
     pub energy: f32,
     /// Newton iterations of a step, on average since the last snapshot.
     pub iterations: f32,
-    /// Contacts with force in the last step.
+    /// Frets and places of the board with force in the last step.
     pub contacts: u32,
-    pub(super) frets: [FretSeen; MOST_FRETS],
+    pub(super) frets: [FretSeen; Neck::MOST_FRETS],
     pub(super) fret_count: usize,
 }
 
@@ -102,6 +104,12 @@ impl Default for Snapshot {
 }
 
 impl Snapshot {
+    /// One of such strings.
+    #[cfg(test)]
+    pub(crate) fn of(strings: Vec<StringSeen>) -> Self {
+        Self { count: strings.len(), strings, ..Self::default() }
+    }
+
     /// The strings, in the set-up's order.
     pub fn strings(&self) -> &[StringSeen] {
         &self.strings[..self.count]
@@ -117,13 +125,15 @@ impl Default for StringSeen {
             highest: [0.0; POINTS],
             board: [f32::NAN; POINTS],
             board_force: [0.0; POINTS],
+            board_hit: [0.0; POINTS],
             fingers: [None; FINGERS_PER_STRING],
             pluck: None,
+            rest_tension: 0.0,
             tension: 0.0,
             energy: 0.0,
             iterations: 0.0,
             contacts: 0,
-            frets: [FretSeen::default(); MOST_FRETS],
+            frets: [FretSeen::default(); Neck::MOST_FRETS],
             fret_count: 0,
         }
     }

@@ -22,8 +22,8 @@ pub struct Engine {
 /// What is shown of each string.
 const COLUMNS: [(&str, &str); 5] = [
     ("ITERATIONS", "Newton iterations of a step: how hard its contacts are to solve."),
-    ("ENERGY", "Energy of its motion and stretching."),
-    ("TENSION", "Tension now; the bar is what stretching adds to it, full at 5 %."),
+    ("ENERGY", "Energy of its motion and stretching, without that of bending."),
+    ("TENSION", "Tension now; the bar is what bends and stretching add to it, full at 5 %."),
     ("CONTACTS", "Frets and places of the board that it touches now."),
     ("FINGERS", "Force of the fingers on it."),
 ];
@@ -31,7 +31,7 @@ const COLUMNS: [(&str, &str); 5] = [
 const FULL: [f32; 3] = [10.0, 24.0, 20.0];
 /// Energies at the ends of its bar, J: from what is not heard any more to the hardest pluck.
 const ENERGIES: [f32; 2] = [1e-9, 1e-1];
-/// Stretching that fills a bar, as a part of the tension at rest.
+/// What fills a bar more than the tension at rest, as a part of it.
 const STRETCH: f32 = 0.05;
 /// Time in which a shown number comes near the true one, s.
 const SLOW: f32 = 0.15;
@@ -52,7 +52,7 @@ impl Engine {
         self.show_load(ui, last.with_min_x(last.right() - half));
         cells.group(ui, "", 3);
         if let Some(setup) = given.plan.setup() {
-            self.show_strings(ui, cells.rest(), setup);
+            self.show_strings(ui, cells.rest(), setup, given.snapshot.strings());
         }
     }
 
@@ -83,7 +83,7 @@ impl Engine {
     }
 
     /// A row for each string, under the names of the columns.
-    fn show_strings(&self, ui: &mut Ui, area: Rect, setup: &Setup) {
+    fn show_strings(&self, ui: &mut Ui, area: Rect, setup: &Setup, strings: &[StringSeen]) {
         let row = bar::row_height(area, setup.string.len());
         let left = area.left() + bar::LEFT;
         let width = ((area.right() - left + GAP) / COLUMNS.len() as f32 - GAP).max(8.0);
@@ -97,20 +97,13 @@ impl Engine {
         for (index, string) in setup.string.iter().enumerate() {
             let middle = area.top() + (index as f32 + 0.5) * row;
             bar::paint_name(ui, pos2(area.left(), middle), &string.name);
-            let Some(shown) = self.strings.get(index) else { continue };
-            let rest = string.linear_density as f32 * wave_speed(setup, index).powi(2);
-            for (column, (part, number, colour)) in bars(shown, rest).into_iter().enumerate() {
+            let Some((shown, seen)) = self.strings.get(index).zip(strings.get(index)) else { continue };
+            for (column, (part, number, colour)) in bars(shown, seen.rest_tension).into_iter().enumerate() {
                 let from = pos2(left + column as f32 * (width + GAP), middle - 0.5 * row);
                 bar::paint(ui, Rect::from_min_size(from, vec2(width, row)), part, &number, colour);
             }
         }
     }
-}
-
-/// Speed of waves on an open string, m/s.
-fn wave_speed(setup: &Setup, string: usize) -> f32 {
-    let frequency = low_action_dsp::setup::frequency(setup.string[string].pitch + setup.tuning);
-    (2.0 * setup.neck.scale_length * frequency) as f32
 }
 
 /// What is shown of a string, in the order of the columns.

@@ -66,8 +66,9 @@ impl Glow {
                 // What presses all the time does not flash.
                 *light = light.max(brightness(fret.hit - fret.force));
             }
-            for (light, force) in self.board[index].iter_mut().zip(string.board_force) {
-                *light = light.max(brightness(force));
+            let board = string.board_hit.iter().zip(&string.board_force);
+            for (light, (hit, force)) in self.board[index].iter_mut().zip(board) {
+                *light = light.max(brightness(hit - force));
             }
             if let Some(pluck) = string.pluck {
                 let size = (pluck.force.abs() / HARDEST).sqrt().clamp(0.2, 1.0);
@@ -128,4 +129,22 @@ fn halo(painter: &Painter, middle: Pos2, radius: f32, light: f32) {
         mesh.add_triangle(0, 1 + step as u32, 1 + ((step + 1) % RIM) as u32);
     }
     painter.add(Shape::mesh(mesh));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Glow;
+    use crate::display::{POINTS, Snapshot, StringSeen};
+
+    /// Fingers press strings on the board for as long as a note is held.
+    #[test]
+    fn only_what_hits_the_board_flashes() {
+        let mut string = StringSeen::default();
+        (string.board_force[40], string.board_hit[40]) = (6.0, 6.01);
+        (string.board_force[90], string.board_hit[90]) = (0.0, 6.0);
+        let mut glow = Glow::default();
+        glow.light_up(&Snapshot::of(vec![string]));
+        let lit: Vec<usize> = (0..POINTS).filter(|&point| glow.board[0][point] > 0.0).collect();
+        assert_eq!(lit, [90]);
+    }
 }
