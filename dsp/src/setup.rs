@@ -157,6 +157,8 @@ const BRIDGE_PIECES: usize = 32;
 /// any string swings.
 const EDGE: f64 = 1e-6;
 const ABYSS: f64 = -0.05;
+/// The least between board and bridge, m: both edges, and a bottom between them.
+const GAP: f64 = 3.0 * EDGE;
 
 /// The most strings an instrument may have.
 pub const MOST_STRINGS: usize = 32;
@@ -231,9 +233,10 @@ impl Setup {
         ranged("blend", self.blend, BLEND, "")?;
         self.neck.check()?;
         if let Some(Bridge { length, radius }) = self.bridge {
-            let (least, room) = (1e-4, self.neck.scale_length - self.neck.board_end());
-            if !(least..=room.max(least)).contains(&length) {
-                let most = plain(at_most(room).max(least));
+            // (There is always room: with all its frets the shortest neck ends 4.5 mm before the saddle.)
+            let (least, room) = (1e-4, self.neck.scale_length - self.neck.board_end() - GAP);
+            if !(least..=room).contains(&length) {
+                let most = plain(at_most(room));
                 let accepted =
                     format!("it must lie between {} and {most} m, clear of the board", plain(least));
                 return Err(Error::range("bridge.length", plain(length), accepted));

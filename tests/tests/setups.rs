@@ -2,7 +2,7 @@
 //! refused in one line that names the key, its value and what is accepted. What is written is read again bit for bit.
 
 use low_action_dsp::intonation::{finger_place, intonate};
-use low_action_dsp::setup::{Intonation, Pickup, frequency};
+use low_action_dsp::setup::{Bridge, Intonation, Pickup, frequency};
 use low_action_dsp::{Instrument, Model, Quality, Setup, SolverSettings, Stencil};
 use low_action_tests::numbers::largest;
 
@@ -350,4 +350,19 @@ fn what_is_limited_is_accepted() {
             }
         }
     }
+}
+
+/// Between board and bridge both drop, and what is too long for that is refused by its own name, before anything is built.
+#[test]
+fn a_bridge_leaves_room_for_the_edges_of_both() {
+    let setup = builtin("bass");
+    let room = setup.neck.scale_length - setup.neck.board_end();
+    let with = |length: f64| Setup { bridge: Some(Bridge { length, radius: 1.0 }), ..setup.clone() };
+    for length in [room, room - 1e-6, room - 2e-6] {
+        let error = with(length).check().expect_err("it is too long").to_string();
+        assert!(error.starts_with("bridge.length"), "{error}");
+    }
+    let longest = with(room - 3.1e-6);
+    longest.check().expect("there is room");
+    Instrument::new(&longest, &Quality::Draft.settings(RATE)).expect("it can be built");
 }
