@@ -48,7 +48,7 @@ fn untouchable(scene: &Scene, simulation: &Simulation) -> Option<String> {
 /// Plucks that push nothing, and those that begin when all is over.
 fn unheard(scene: &Scene) -> Vec<String> {
     let why = |pluck: &low_action_dsp::scene::PluckSpec| {
-        if pluck.duration == 0.0 || pluck.force == 0.0 {
+        if pluck.force == 0.0 || pluck.duration + pluck.release == 0.0 {
             let (duration, force) = (plain(pluck.duration), plain(pluck.force));
             Some(format!("pushes nothing: force {force} N for {duration} s"))
         } else if pluck.start >= scene.duration {
