@@ -85,7 +85,11 @@ impl ContactLaw {
     /// force goes on as a straight line. With α = 1 that is a smaller stiffness.
     pub fn no_steeper_than(&self, slope: f64) -> Self {
         if self.exponent == 1.0 {
-            return self.with_stiffness(self.stiffness.min(slope));
+            if self.knee == f64::INFINITY {
+                return self.with_stiffness(self.stiffness.min(slope));
+            }
+            // With a knee it is straight from the start, and less steep than its stiffness.
+            return if slope < self.at_knee.slope { self.straight_at_once(slope) } else { *self };
         }
         let knee = libm::pow(slope / (self.exponent * self.stiffness), 1.0 / (self.exponent - 1.0));
         if knee < LEAST_KNEE {
@@ -140,9 +144,13 @@ impl ContactLaw {
         self.exponent
     }
 
-    /// The same law with another stiffness.
+    /// The same law with another stiffness: every force and energy in proportion to it, beyond the knee too, which stays
+    /// where it is.
     pub fn with_stiffness(&self, stiffness: f64) -> Self {
-        ContactLaw { stiffness, ..*self }
+        let times = stiffness / self.stiffness;
+        let Knee { force, energy, slope } = self.at_knee;
+        let at_knee = Knee { force: force * times, energy: energy * times, slope: slope * times };
+        ContactLaw { stiffness, at_knee, ..*self }
     }
 
     /// φ(η) = Φ′(η), K\[η\]₊^α up to the knee: the static force, N.
@@ -263,6 +271,35 @@ mod tests {
                     assert!(
                         slope <= 1e8 * (1.0 + 1e-12),
                         "{stiffness}, {exponent}: {slope} at {penetration}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// Before the knee and beyond it, whatever the knee came from.
+    #[test]
+    fn another_stiffness_changes_all_forces_alike() {
+        let law = |exponent| ContactLaw::new("test", 1e9, exponent).expect("it is in range");
+        let laws = [
+            law(1.5),
+            law(1.5).no_steeper_than(1e6),
+            law(1.0001).no_steeper_than(1e6),
+            law(1.0).giving_way(1e-6),
+        ];
+        for law in laws {
+            assert_eq!(law.with_stiffness(law.stiffness()), law);
+            let stiffer = law.with_stiffness(8.0 * law.stiffness());
+            for penetration in [1e-12, 1e-6, 1e-4, 1e-2] {
+                let pairs = [
+                    (law.force(penetration), stiffer.force(penetration)),
+                    (law.energy(penetration), stiffer.energy(penetration)),
+                    (law.slope(penetration), stiffer.slope(penetration)),
+                ];
+                for (before, now) in pairs {
+                    assert!(
+                        (now / before - 8.0).abs() < 1e-12,
+                        "{law:?} at {penetration}: {before} to {now}"
                     );
                 }
             }
