@@ -30,8 +30,12 @@ pub struct Ledger {
     pub initial: f64,
     /// The largest total energy so far, J.
     pub largest: f64,
-    /// Energy put in so far, J, the initial energy included.
+    /// Energy put in so far, J, the initial energy included and what was taken out again counted off: what is stored is never
+    /// more.
     pub put_in: f64,
+    /// The same with what was taken out again not counted off, J: all that has gone through the balance, of which so many last
+    /// digits are lost.
+    pub put_in_gross: f64,
     /// Sum of the residuals, J.
     pub residual_sum: f64,
     /// The largest |residual| over the largest energy up to its sample.
@@ -53,6 +57,7 @@ impl Ledger {
             initial: 0.0,
             largest: 0.0,
             put_in: 0.0,
+            put_in_gross: 0.0,
             residual_sum: 0.0,
             worst_residual: 0.0,
             rounding: 0.0,
@@ -60,7 +65,7 @@ impl Ledger {
         };
         ledger.look(model, state, tension);
         let initial = ledger.energies.total();
-        Ledger { initial, largest: initial, put_in: initial, ..ledger }
+        Ledger { initial, largest: initial, put_in: initial, put_in_gross: initial, ..ledger }
     }
 
     /// Looks at what there is, without a step that would lead to it.
@@ -153,6 +158,7 @@ impl Ledger {
         self.energies = energies;
         self.largest = self.largest.max(energies.total());
         self.put_in += k * input;
+        self.put_in_gross += (k * input).max(0.0);
         self.residual_sum += residual;
         self.worst_residual = self.worst_residual.max(residual.abs() / self.largest.max(f64::MIN_POSITIVE));
         Entry { energies, power_loss: loss, losses, power_solver: solver, power_in: input, inputs, residual }
@@ -165,6 +171,7 @@ impl Ledger {
         self.look(model, state, tension);
         let entered = self.energies.total() - before;
         self.put_in += entered;
+        self.put_in_gross += entered.max(0.0);
         self.largest = self.largest.max(self.energies.total());
         entered
     }

@@ -354,6 +354,29 @@ fn each_term_is_booked_by_its_name() {
     books(&format!("{string}{PLUCK}"), braked, &["hand"], &["pluck"]);
 }
 
+/// What is taken out again is counted off what was put in, and not off what has gone through the balance.
+#[test]
+fn what_is_taken_out_again_was_put_in() {
+    let bent = STRING.replace("duration = 10.0", "duration = 0.3").replace(
+        "tension = 60.0",
+        "tension = [[0.1, 60.0], [0.15, 66.0], [0.2, 60.0], [0.25, 66.0], [0.3, 60.0]]",
+    );
+    let scene = Scene::from_toml(&format!("{bent}{PLUCK}")).expect("the scene is valid");
+    let mut simulation = Simulation::new(&scene).expect("the scene can be built");
+    simulation.open_ledger();
+    let (mut net, mut gross) = (0.0, 0.0);
+    for _ in 0..simulation.samples() {
+        let put_in = simulation.step().expect("the ledger is open").power_in / simulation.sample_rate();
+        net += put_in;
+        gross += put_in.max(0.0);
+    }
+    let ledger = &simulation.ledgers()[0];
+    for (booked, sum) in [(ledger.put_in, net), (ledger.put_in_gross, gross)] {
+        assert!((booked - sum).abs() <= 1e-12 * sum, "{booked} J of {sum} J");
+    }
+    assert!(gross > 1.05 * net, "{gross} J went in, {net} J of it to stay");
+}
+
 /// What is not there holds 0 J, and not the negative zero that a sum of nothing is.
 #[test]
 fn nothing_holds_no_energy() {

@@ -165,12 +165,14 @@ the energies half a sample later.
   power_loss_0, power_loss_1, power_loss_contact,
   power_loss_hand              W; the terms of power_loss
   power_in_pluck, power_in_hand, power_in_slide,
-  power_in_tension             W; the terms of power_in
+  power_in_tension             W; the terms of power_in, all but in the first sample of a
+                               string that is thrown and begins inside board or frets
   residual                     J in that sample: what the balance leaves over
   scene                        the text of the scene
 
 The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to \
-1e-9 of the largest energy, or of what was put in where that is more, beside what rounding can do.
+1e-9 of the largest energy, or of all that was put in where that is more (what was taken out again is not \
+counted off), beside what rounding can do.
 
 Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check. \
 Told to stop, it leaves nothing half written and ends by the very signal (130 for Ctrl+C, 143 for SIGTERM, as \

@@ -35,8 +35,10 @@ struct FingerArrays {
 /// What an array of the ledger holds of an entry.
 type Part = fn(&Entry) -> f64;
 
-/// The ledger's arrays, without what only instruments do: moving frets, placing fingers. Readers add up all whose names
-/// begin with `energy_`: no other may.
+/// The ledger's arrays, without what only instruments do: moving frets, placing fingers. (There is an
+/// exception: under a string that is thrown and begins inside board or frets these count as risen in the first sample, by
+/// `inputs.barrier`, and there the terms of `power_in` here are less than all of it.) Readers add up all whose names begin with
+/// `energy_`: no other may.
 const LEDGER: [(&str, Part); 16] = [
     ("energy_string", |entry| entry.energies.string),
     ("energy_tension", |entry| entry.energies.tension),

@@ -116,7 +116,7 @@ fn in_all(ledgers: &[Ledger]) -> String {
     let Some(worst) = ledgers.iter().max_by(|a, b| open_part(a).total_cmp(&open_part(b))) else {
         return String::new();
     };
-    let (part, put_in, largest) = (open_part(worst), worst.put_in, worst.largest);
+    let (part, put_in, largest) = (open_part(worst), worst.put_in_gross, worst.largest);
     let (of, what) = if put_in > largest { (put_in, "put in") } else { (largest, "that there was at most") };
     format!("and in all at the end by {part:.1e} of the {of:.3e} J {what}")
 }
