@@ -93,14 +93,41 @@ impl Scratch {
     /// the clearances, `yielding`, `tried` and `finger_energy` whenever they are asked for, stiffness, loss and what follows from
     /// them where the drive has others than the step before.
     pub fn reset(&mut self) {
-        self.active.clear();
-        self.held.fill(0);
-        self.products = Products::default();
-        self.string_energy = 0.0;
-        self.stretching = 0.0;
-        self.fingers.fill(None);
-        self.motion.fill(0.0);
-        self.displacement.fill(0.0);
+        let Self {
+            instructions: _,
+            kernel: _,
+            // The next step makes them anew where its drive has another tension or loss; they stay true of each other.
+            stiffness: _,
+            loss: _,
+            coasting: _,
+            weights: _,
+            products,
+            string_energy,
+            // Every step writes it before anything reads it.
+            yielding: _,
+            stretching,
+            prediction: _,
+            motion,
+            displacement,
+            // It keeps nothing from one step to the next but room.
+            solver: _,
+            active,
+            // A step that may touch something finds anew what it reads of these, and no other reads them.
+            near: _,
+            held,
+            clearances: _,
+            tried: _,
+            fingers,
+            finger_energy: _,
+        } = self;
+        active.clear();
+        held.fill(0);
+        *products = Products::default();
+        *string_energy = 0.0;
+        *stretching = 0.0;
+        fingers.fill(None);
+        motion.fill(0.0);
+        displacement.fill(0.0);
     }
 
     /// How near to the skyline, m, a grid point must have come where the string can have come within `near` of a contact.
