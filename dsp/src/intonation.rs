@@ -22,7 +22,7 @@ use crate::neck::Neck;
 use crate::scene::{SolverSettings, Stencil};
 use crate::setup::{Fretting, Intonation, Setup, SetupString, frequency};
 use equilibrium::Equilibrium;
-use mode::{Resting, open_frequency, stopped_oscillation};
+use mode::{Resting, open_frequency, stopped_frequency};
 
 /// A string ready to be modelled.
 #[derive(Debug, Clone, PartialEq)]
@@ -293,9 +293,9 @@ impl<'a> Bench<'a> {
         let finger = Resting { at, law, fretting: self.fretting };
         // Behind a fret a finger lies between both parts of the string, and swallows what the one behind does. On a bare board it
         // does not: at semitones 12, 19 and 24, where that has a partial of the same pitch, it would be found as well.
-        let still = self.neck.fretless;
-        let sound = stopped_oscillation(&model, &rest, &finger, frets[fret], target, still);
-        Ok((sound.frequency, rest.displacement))
+        let still_to = if self.neck.fretless { frets[fret] } else { 0.0 };
+        let sound = stopped_frequency(&model, &rest, &finger, frets[fret], target, still_to);
+        Ok((sound, rest.displacement))
     }
 
     /// The string as straight pieces from nut to finger, crown and saddle, bent as far under the

@@ -9,15 +9,6 @@ use crate::grid::Reading;
 use crate::model::{Model, Stiffness};
 use crate::setup::Fretting;
 
-/// A decaying oscillation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Oscillation {
-    /// Angular frequency, 1/s.
-    pub frequency: f64,
-    /// Decay rate of the amplitude that the finger causes, 1/s.
-    pub decay: f64,
-}
-
 /// Angular frequency of a partial of the open string on its grid, 1/s: the scheme turns a stiffness Λ
 /// (1/s²) into the frequency with 4/k² sin²(ωk/2) = Λ.
 pub(super) fn open_frequency(model: &Model, partial: usize) -> f64 {
@@ -62,17 +53,17 @@ impl Resting<'_> {
     }
 }
 
-/// The oscillation about `rest` that is nearest to `near` (1/s) and lives beyond `stop` (m from the nut).
+/// Angular frequency, 1/s, of the oscillation about `rest` that is nearest to `near` (1/s) and lives beyond `stop` (m from the nut).
 ///
-/// With `still` the string has no mass up to there, and so no oscillations of its own: one of the part behind may be as near.
-pub(super) fn stopped_oscillation(
+/// As far as `still_to`, m from the nut, the string has no mass, and so no oscillations of its own there.
+pub(super) fn stopped_frequency(
     model: &Model,
     rest: &Equilibrium,
     finger: &Resting,
     stop: f64,
     near: f64,
-    still: bool,
-) -> Oscillation {
+    still_to: f64,
+) -> f64 {
     let (grid, k) = (&model.grid, model.grid.time_step);
     let node_mass = model.string.linear_density * grid.spacing;
     let mean = libm::cos(near * k);
@@ -85,8 +76,7 @@ pub(super) fn stopped_oscillation(
     }
     matrix.add_spring(&finger.at, finger.stiffness(near, k));
     let shift = node_mass * chord * chord;
-    let behind = (1..grid.intervals).take_while(|&node| grid.place(node) <= stop).count();
-    let massless = if still { behind } else { 0 };
+    let massless = (1..grid.intervals).take_while(|&node| grid.place(node) <= still_to).count();
     matrix.shift_from(massless, Complex::from(-shift));
     let unit = Stiffness { tension: 1.0, kappa_squared: 0.0, kappa_6: 0.0 };
     let curvature = Band::of_string(grid, 0.0, &unit).times(&rest.displacement);
@@ -110,8 +100,7 @@ pub(super) fn stopped_oscillation(
         shape = next.into_iter().map(|x| x * scale).collect();
     }
     let stiffness = (offset + shift) / node_mass;
-    let frequency = realised(stiffness.re, k);
-    Oscillation { frequency, decay: stiffness.im / (2.0 * frequency) }
+    realised(stiffness.re, k)
 }
 
 /// |x|. (That of `Complex` asks the machine's own mathematics, whose last digits differ.)
