@@ -106,8 +106,7 @@ impl Source<'_> {
                 pitch,
                 frequency: frequency(pitch),
                 length: geometry.length,
-                // Z² = Tρ.
-                tension: geometry.wave_impedance * geometry.wave_impedance / string.linear_density,
+                tension: placed.string.tension,
                 frets: placed.frets,
                 fret_frequencies: stopped,
             })
