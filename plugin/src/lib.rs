@@ -32,6 +32,7 @@ mod files;
 pub mod midi_file;
 pub mod params;
 pub mod performance;
+mod pitch_wheel;
 pub mod plugin;
 pub mod pointer;
 pub mod setups;

@@ -12,6 +12,7 @@ mod timing;
 use midly::{EventIter, MetaMessage, MidiMessage, TrackEventKind};
 
 use crate::performance::{Expression, PlayerEvent, announces_mpe};
+use crate::pitch_wheel;
 use chunks::Chunks;
 pub use messages::{MidiFileError, SongWarning};
 pub use timing::SongTime;
@@ -287,10 +288,7 @@ fn player_event(channel: u8, message: MidiMessage) -> Option<PlayerEvent> {
             Some(PlayerEvent::Controller { channel, number: controller.as_int(), value: unit(value) })
         }
         MidiMessage::PitchBend { bend } => {
-            // 0 to 8192 to 16383: the upper half is one step shorter, and both ends are full turns.
-            let steps = f32::from(bend.0.as_int()) - 8192.0;
-            let value = if steps < 0.0 { steps / 8192.0 } else { steps / 8191.0 };
-            Some(PlayerEvent::PitchBend { channel, value })
+            Some(PlayerEvent::PitchBend { channel, value: pitch_wheel::turn(f32::from(bend.0.as_int())) })
         }
         MidiMessage::Aftertouch { key, vel } => {
             let expression = Expression::Pressure(unit(vel));

@@ -11,6 +11,7 @@ use nice_plug::prelude::*;
 use super::voices::Voices;
 use crate::params::{LowActionParams, poly};
 use crate::performance::{Expression, PlayerEvent};
+use crate::pitch_wheel;
 
 /// The softest note there is, as a velocity: the smallest of MIDI's that is not a note-off.
 const SOFTEST: f32 = 1.0 / 127.0;
@@ -72,18 +73,10 @@ pub(super) fn translate(
     mut send: impl FnMut(u32, PlayerEvent),
 ) {
     let at = event.timing();
-    let mut express = |voices: &Voices, address: Address, expression| {
-        let Some((channels, keys)) = address.present(voices) else { return };
-        let [channel, key] = [single(&channels), single(&keys)];
-        // One event, however many notes are meant: there is room for so many.
-        send(
-            at,
-            match (channel, key) {
-                (Some(channel), Some(key)) => PlayerEvent::Note { channel, key, expression },
-                _ => PlayerEvent::Notes { channel, key, expression },
-            },
-        );
-    };
+    let mut send = |event| send(at, event);
+    if let Some((address, expression)) = expression(&event) {
+        return express(address, expression, voices, send);
+    }
     match event {
         NoteEvent::NoteOn { voice_id, channel, key: Key::Number(key), velocity, .. } => {
             let channel = channel.number().unwrap_or(0);
@@ -93,7 +86,7 @@ pub(super) fn translate(
             // A host's velocity of 0 is a very soft note; only in MIDI's bytes it lifts the key, and
             // the framework has turned those into note-offs. `max` also catches what is not a number.
             let velocity = velocity.max(SOFTEST);
-            send(at, PlayerEvent::NoteOn { channel, key, velocity });
+            send(PlayerEvent::NoteOn { channel, key, velocity });
         }
         NoteEvent::NoteOff {
             voice_id: VoiceID::Wildcard,
@@ -108,57 +101,27 @@ pub(super) fn translate(
             ..
         } => {
             voices.lift_all();
-            send(at, PlayerEvent::AllNotesOff);
+            send(PlayerEvent::AllNotesOff);
         }
         NoteEvent::NoteOff { voice_id: voice, channel, key, .. } => {
-            let lifted = voice.id().and_then(|id| voices.lift(id));
-            let address = Address { voice, channel, key };
-            let Some((channels, keys)) = address.notes(voices, lifted) else { return };
-            for channel in channels {
-                keys.clone().for_each(|key| send(at, PlayerEvent::NoteOff { channel, key }));
-            }
+            lift(Address { voice, channel, key }, voices, send);
         }
-        // A string has no faster way to stop than a finger put on it, so a choke is a note-off for every press, and for pedals.
         NoteEvent::Choke { voice_id: voice, channel, key, .. } => {
-            let address = Address { voice, channel, key };
-            if let Some((channels, keys)) = address.present(voices) {
-                voices.lift_keys(&channels, &keys);
-                for channel in channels {
-                    keys.clone().for_each(|key| send(at, PlayerEvent::NoteEnd { channel, key }));
-                }
-            } else if let Some((channel, key)) = voice.id().and_then(|id| voices.lift(id)) {
-                // It was struck again: what sounds is another note's.
-                send(at, PlayerEvent::NoteOff { channel, key });
-            }
-        }
-        NoteEvent::PolyPressure { voice_id: voice, channel, key, pressure, .. } => {
-            express(voices, Address { voice, channel, key }, Expression::Pressure(pressure));
-        }
-        NoteEvent::PolyTuning { voice_id: voice, channel, key, tuning, .. } => {
-            express(voices, Address { voice, channel, key }, Expression::Tuning(tuning));
-        }
-        NoteEvent::PolyVibrato { voice_id: voice, channel, key, vibrato, .. } => {
-            express(voices, Address { voice, channel, key }, Expression::Vibrato(vibrato));
-        }
-        NoteEvent::PolyBrightness { voice_id: voice, channel, key, brightness, .. } => {
-            express(voices, Address { voice, channel, key }, Expression::Brightness(brightness));
-        }
-        NoteEvent::PolyExpression { voice_id: voice, channel, key, expression, .. } => {
-            express(voices, Address { voice, channel, key }, Expression::PluckForce(expression));
+            choke(Address { voice, channel, key }, voices, send);
         }
         NoteEvent::PolyModulation { voice_id, poly_modulation_id, normalized_offset, .. } => {
             let address =
                 Address { voice: VoiceID::ID(voice_id), channel: Channel::Wildcard, key: Key::Wildcard };
             voices.modulate(voice_id, poly_modulation_id, normalized_offset);
             if let Some(expression) = modulated(params, poly_modulation_id, normalized_offset) {
-                express(voices, address, expression);
+                express(address, expression, voices, send);
             }
         }
         // What holds for all has changed, and with it what the same offset means for one.
         NoteEvent::MonoAutomation { poly_modulation_id, .. } => {
             for (channel, key, offset) in voices.modulated(poly_modulation_id) {
                 if let Some(expression) = modulated(params, poly_modulation_id, offset) {
-                    send(at, PlayerEvent::Note { channel, key, expression });
+                    send(PlayerEvent::Note { channel, key, expression });
                 }
             }
         }
@@ -167,16 +130,72 @@ pub(super) fn translate(
             if matches!(number, 120 | 123..=127) {
                 voices.lift_keys(&(channel..=channel), &(0..=127));
             }
-            send(at, PlayerEvent::Controller { channel, number, value });
+            send(PlayerEvent::Controller { channel, number, value });
         }
         NoteEvent::MidiPitchBend { channel, value, .. } => {
-            send(at, PlayerEvent::PitchBend { channel, value: signed_bend(value) });
+            send(PlayerEvent::PitchBend { channel, value: signed_bend(value) });
         }
         NoteEvent::MidiChannelPressure { channel, pressure, .. } => {
-            send(at, PlayerEvent::ChannelPressure { channel, pressure });
+            send(PlayerEvent::ChannelPressure { channel, pressure });
         }
         _ => {}
     }
+}
+
+/// Lifts the keys meant.
+fn lift(address: Address, voices: &mut Voices, mut send: impl FnMut(PlayerEvent)) {
+    let lifted = address.voice.id().and_then(|id| voices.lift(id));
+    let Some((channels, keys)) = address.notes(voices, lifted) else { return };
+    for channel in channels {
+        keys.clone().for_each(|key| send(PlayerEvent::NoteOff { channel, key }));
+    }
+}
+
+/// Ends the notes meant. A string has no faster way to stop than a finger put on it, so a choke is a note-off for every press,
+/// and for pedals.
+fn choke(address: Address, voices: &mut Voices, mut send: impl FnMut(PlayerEvent)) {
+    if let Some((channels, keys)) = address.present(voices) {
+        voices.lift_keys(&channels, &keys);
+        for channel in channels {
+            keys.clone().for_each(|key| send(PlayerEvent::NoteEnd { channel, key }));
+        }
+    } else if let Some((channel, key)) = address.voice.id().and_then(|id| voices.lift(id)) {
+        // It was struck again: what sounds is another note's.
+        send(PlayerEvent::NoteOff { channel, key });
+    }
+}
+
+/// What an event says of notes that there are, and of which.
+fn expression(event: &NoteEvent<()>) -> Option<(Address, Expression)> {
+    let (voice, channel, key, expression) = match *event {
+        NoteEvent::PolyPressure { voice_id, channel, key, pressure, .. } => {
+            (voice_id, channel, key, Expression::Pressure(pressure))
+        }
+        NoteEvent::PolyTuning { voice_id, channel, key, tuning, .. } => {
+            (voice_id, channel, key, Expression::Tuning(tuning))
+        }
+        NoteEvent::PolyVibrato { voice_id, channel, key, vibrato, .. } => {
+            (voice_id, channel, key, Expression::Vibrato(vibrato))
+        }
+        NoteEvent::PolyBrightness { voice_id, channel, key, brightness, .. } => {
+            (voice_id, channel, key, Expression::Brightness(brightness))
+        }
+        NoteEvent::PolyExpression { voice_id, channel, key, expression, .. } => {
+            (voice_id, channel, key, Expression::PluckForce(expression))
+        }
+        _ => return None,
+    };
+    Some((Address { voice, channel, key }, expression))
+}
+
+/// Says something of the notes meant, in one event however many they are: there is room for so many.
+fn express(address: Address, expression: Expression, voices: &Voices, mut send: impl FnMut(PlayerEvent)) {
+    let Some((channels, keys)) = address.present(voices) else { return };
+    let [channel, key] = [single(&channels), single(&keys)];
+    send(match (channel, key) {
+        (Some(channel), Some(key)) => PlayerEvent::Note { channel, key, expression },
+        _ => PlayerEvent::Notes { channel, key, expression },
+    });
 }
 
 /// What a note has for itself when a parameter is moved by `offset` (of the host's 0 to 1) for it alone.
@@ -201,9 +220,8 @@ fn modulated(params: &LowActionParams, id: u32, offset: f32) -> Option<Expressio
 
 /// A pitch bend of −1 to 1 out of the framework's 0 to 1.
 ///
-/// MIDI's 14 bits have their centre at 8192 of 0 to 16383, which is not the middle of 0 to 1: going back to
-/// the 14 bits makes the centre exactly no bend, and every position the same number as in a MIDI file.
+/// The centre of MIDI's 14 bits is not the middle of 0 to 1: going back to them makes it exactly no bend, and every position
+/// the same number as in a MIDI file.
 fn signed_bend(value: f32) -> f32 {
-    let steps = (value * 16383.0).round() - 8192.0;
-    if steps < 0.0 { steps / 8192.0 } else { steps / 8191.0 }
+    pitch_wheel::turn((value * 16383.0).round())
 }

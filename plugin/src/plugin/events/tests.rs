@@ -190,9 +190,7 @@ fn automation_moves_what_a_note_has_for_itself_along() {
 #[test]
 fn bends_are_those_of_a_midi_file() {
     for raw in 0..16384_u16 {
-        let steps = f32::from(raw) - 8192.0;
-        let expected = if steps < 0.0 { steps / 8192.0 } else { steps / 8191.0 };
-        assert_eq!(signed_bend(f32::from(raw) / 16383.0), expected);
+        assert_eq!(signed_bend(f32::from(raw) / 16383.0), pitch_wheel::turn(f32::from(raw)));
     }
     // A VST3 host's centre.
     assert_eq!(signed_bend(0.5), 0.0);
