@@ -10,6 +10,7 @@ mod sink;
 
 use std::collections::VecDeque;
 use std::num::NonZeroUsize;
+use std::ops::RangeInclusive;
 
 pub use low_action_dsp::Quality;
 use low_action_dsp::setup::{MOST_STRINGS, SetupString};
@@ -63,6 +64,10 @@ impl EngineOptions {
     pub const VARIATION: f64 = 0.25;
     /// Usual reach of the pitch wheel, semitones: what General MIDI files are written for.
     pub const BEND_RANGE: f64 = 2.0;
+    /// Farthest it may be asked to reach, semitones.
+    pub const WIDEST_BEND_RANGE: f64 = 96.0;
+    /// Sample rates of sound that is played to a host, a device or a file, Hz.
+    pub const SAMPLE_RATES: RangeInclusive<u32> = 8_000..=384_000;
 
     /// A set-up played at a rate (Hz) with everything else as usual.
     pub fn new(setup: Setup, sample_rate: f64) -> Self {

@@ -23,12 +23,13 @@ mod workshop;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use low_action_dsp::setup::MOST_STRINGS;
 use nice_plug::prelude::*;
 
 use crate::display::{Health, Writer, display};
 #[cfg(feature = "editor")]
 use crate::editor::Link;
-use crate::engine::Engine;
+use crate::engine::{Engine, EngineOptions};
 use crate::params::{LowActionParams, start};
 use crate::performance::Announced;
 use crate::pointer::{Played, pointer};
@@ -40,13 +41,6 @@ use playing::Playing;
 
 /// Strings that have an output of their own, where a host asks for them.
 const STRING_OUTPUTS: usize = crate::params::TUNED_STRINGS;
-
-/// Sample rates at which there is sound, Hz. At others the plugin is silent: a host that asks for one is better
-/// off with a silent instrument, which says so in the log, than with one that cannot be activated.
-const RATES: std::ops::RangeInclusive<f32> = 8_000.0..=384_000.0;
-
-/// Notes that can sound at once at most: one a string, and set-ups have at most so many.
-const MOST_VOICES: u32 = 32;
 
 /// The plugin as a host sees it.
 pub struct LowAction {
@@ -177,12 +171,13 @@ impl Plugin for LowAction {
         self.transport_ran = false;
         self.played.clear();
         self.announced = self.playing.as_ref().and_then(Playing::announced).or(self.announced);
-        if !RATES.contains(&buffers.sample_rate) {
+        // A host that asks for another rate is better off with a silent instrument, which says so in the log, than with one that
+        // cannot be activated.
+        let (lowest, highest) = EngineOptions::SAMPLE_RATES.into_inner();
+        if !(lowest as f32..=highest as f32).contains(&buffers.sample_rate) {
             nice_error!(
-                "nothing sounds at {} Hz: the sample rate must be {} to {} Hz",
-                buffers.sample_rate,
-                RATES.start(),
-                RATES.end()
+                "nothing sounds at {} Hz: the sample rate must be {lowest} to {highest} Hz",
+                buffers.sample_rate
             );
             self.playing = None;
             return true;
@@ -280,7 +275,8 @@ impl ClapPlugin for LowAction {
         &[ClapFeature::Instrument, ClapFeature::Synthesizer, ClapFeature::Stereo];
 
     const CLAP_POLY_MODULATION_CONFIG: Option<PolyModulationConfig> = Some(PolyModulationConfig {
-        max_voice_capacity: MOST_VOICES,
+        // One note a string.
+        max_voice_capacity: MOST_STRINGS as u32,
         // A key struck again is the same string plucked again.
         supports_overlapping_voices: false,
     });

@@ -197,7 +197,7 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     warn_of(*doubled, "one with another: the same key of the same channel at the same moment");
     warn_of(*bent_short, "bent less far than asked: string or finger goes no farther (max_bend)");
     if *lost_events > 0 {
-        warn(arguments, &format!("{lost_events} events were lost: too many at once"));
+        warn(arguments, &format!("{lost_events} events or gestures of theirs were lost: too many at once"));
     }
     if *seconds == 0.0 {
         warn(arguments, "the sound has no samples: the song ends as it begins (--tail SECONDS goes on)");

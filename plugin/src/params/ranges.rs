@@ -125,12 +125,12 @@ impl Default for PlayerParams {
 impl Default for ControlParams {
     fn default() -> Self {
         let range = EngineOptions::BEND_RANGE as i32;
+        let reach = IntRange::Linear { min: 0, max: EngineOptions::WIDEST_BEND_RANGE as i32 };
         Self {
             input_mode: EnumParam::new("Input mode", InputChoice::Auto),
             first_channel: IntParam::new("First channel", 1, IntRange::Linear { min: 1, max: 16 }),
             string_order: EnumParam::new("String order", StringOrder::FirstFirst),
-            bend_range: IntParam::new("Bend range", range, IntRange::Linear { min: 0, max: 96 })
-                .with_unit(" semitones"),
+            bend_range: IntParam::new("Bend range", range, reach).with_unit(" semitones"),
             ignore_rpn: BoolParam::new("Ignore announced bend range", false),
             tremolo_arm: shift("Tremolo arm", -12.0, 3.0, " semitones", PART_STEP),
             legato: EnumParam::new("Legato", LegatoChoice::Pedal),

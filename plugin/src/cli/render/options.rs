@@ -6,6 +6,8 @@ use std::str::FromStr;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use nice_plug::prelude::Enum;
 
+use crate::engine::EngineOptions;
+
 /// Longest tail that `auto` waits for, s; open strings of a guitar are down 60 dB after 10 to 20 s.
 const LONGEST_TAIL: f64 = 30.0;
 
@@ -55,8 +57,11 @@ impl FromStr for Tail {
 /// Reads `--sample-rate`.
 pub(in crate::cli) fn parse_rate(text: &str) -> Result<u32, String> {
     match text.parse::<u32>() {
-        Ok(rate) if (8_000..=384_000).contains(&rate) => Ok(rate),
-        _ => Err("must be a whole number of Hz from 8000 to 384000".into()),
+        Ok(rate) if EngineOptions::SAMPLE_RATES.contains(&rate) => Ok(rate),
+        _ => {
+            let (lowest, highest) = EngineOptions::SAMPLE_RATES.into_inner();
+            Err(format!("must be a whole number of Hz from {lowest} to {highest}"))
+        }
     }
 }
 
@@ -70,9 +75,10 @@ pub(in crate::cli) fn parse_minutes(text: &str) -> Result<f64, String> {
 
 /// Reads `--bend-range`.
 pub(in crate::cli) fn parse_bend(text: &str) -> Result<f64, String> {
+    let widest = EngineOptions::WIDEST_BEND_RANGE;
     match text.parse::<f64>() {
-        Ok(semitones) if (0.0..=96.0).contains(&semitones) => Ok(semitones),
-        _ => Err("must be 0 to 96 semitones".into()),
+        Ok(semitones) if (0.0..=widest).contains(&semitones) => Ok(semitones),
+        _ => Err(format!("must be 0 to {widest} semitones")),
     }
 }
 
