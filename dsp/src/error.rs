@@ -208,3 +208,12 @@ pub(crate) fn within(name: &str, value: f64, low: f64, high: f64, unit: &str) ->
 pub(crate) fn ranged(name: &str, value: f64, [low, high]: [f64; 2], unit: &str) -> Result<f64, Error> {
     within(name, value, low, high, unit)
 }
+
+/// Refuses a place, m from the nut, that is not strictly between the ends of a string.
+pub(crate) fn on_string(name: &str, place: f64, length: f64) -> Result<f64, Error> {
+    if place.is_finite() && place > 0.0 && place < length {
+        return Ok(place);
+    }
+    let accepted = format!("it must lie on the string, above 0 and below {} m", plain(length));
+    Err(Error::range(name, plain(place), accepted))
+}

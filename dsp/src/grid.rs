@@ -2,8 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::digits::plain;
-use crate::error::Error;
+use crate::error::{Error, on_string};
 use crate::field::{BEFORE, Field, cell};
 
 /// A string of `intervals` equal spacings in space and a step in time.
@@ -53,12 +52,7 @@ impl Grid {
 
     /// Refuses a point that is not strictly between the ends of the string.
     pub fn check_place(&self, name: &str, position: f64) -> Result<f64, Error> {
-        if position.is_finite() && position > 0.0 && position < self.length {
-            Ok(position)
-        } else {
-            let accepted = format!("it must lie on the string, above 0 and below {} m", plain(self.length));
-            Err(Error::range(name, plain(position), accepted))
-        }
+        on_string(name, position, self.length)
     }
 }
 

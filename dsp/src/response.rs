@@ -225,6 +225,8 @@ impl Response {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// aᵀb.
+#[inline(always)]
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

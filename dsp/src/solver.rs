@@ -12,7 +12,7 @@ mod many;
 
 use crate::active::Active;
 use crate::instructions::Instructions;
-use crate::response::{Few, Response};
+use crate::response::{Few, Response, dot};
 use crate::roomy::Roomy;
 use crate::scene::SolverSettings;
 use early_stop::{bounded, stop_early};
@@ -317,11 +317,6 @@ fn newton_step(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) -
 #[inline(always)]
 fn created(rows: &[Active], forces: &[f64]) -> f64 {
     rows.iter().zip(forces).map(|(row, force)| (row.lambda - (row.base + force)) * row.change).sum()
-}
-
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[inline(always)]

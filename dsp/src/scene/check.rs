@@ -5,8 +5,7 @@ use std::ops::RangeInclusive;
 use super::{FingerSpec, FretboardSpec, ListeningPoint, Scene, SolverSettings, StringSpec};
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, MOST_COUNTED, MOST_FRETS, OneOrEach};
-use crate::digits::plain;
-use crate::error::{Error, within};
+use crate::error::{Error, on_string, within};
 use crate::gesture::Touch;
 use crate::model::Model;
 
@@ -164,7 +163,7 @@ impl FingerSpec {
         within(&format!("{name}.velocity"), self.velocity, -1e3, 1e3, "m/s")?;
         self.force.check(&format!("{name}.force"), "time", -1e6, 1e6, "N")?;
         match &self.position {
-            Curve::Constant(place) => on_string(&format!("{name}.position"), *place, length)?,
+            Curve::Constant(place) => on_string(&format!("{name}.position"), *place, length).map(drop)?,
             Curve::Points(points) => {
                 self.position.check(&format!("{name}.position"), "time", f64::MIN, f64::MAX, "m")?;
                 for (i, point) in points.iter().enumerate() {
@@ -199,13 +198,4 @@ impl Touch {
         ranged("damping", self.damping, Self::DAMPING, "s/m")?;
         ranged("hand_damping", self.hand_damping, Self::DAMPING, "N s/m").map(drop)
     }
-}
-
-/// Refuses a place that is not strictly between the ends of a string.
-fn on_string(name: &str, place: f64, length: f64) -> Result<(), Error> {
-    if place.is_finite() && place > 0.0 && place < length {
-        return Ok(());
-    }
-    let accepted = format!("it must lie on the string, above 0 and below {} m", plain(length));
-    Err(Error::range(name, plain(place), accepted))
 }
