@@ -79,6 +79,11 @@ const FIGURES: &[Figure] = &[
 /// The page, in `docs`.
 const PAGE: &str = "paper.md";
 
+/// Names of the figures, in the order of the page.
+pub fn names() -> Vec<&'static str> {
+    FIGURES.iter().map(|figure| figure.name).collect()
+}
+
 /// Draws the figures named, or all of them, and writes their sections of the page; with `--quick` writes
 /// nothing, and compares those that are computed quickly with what is there.
 ///
@@ -88,8 +93,7 @@ pub fn run(arguments: &[String]) -> Result<()> {
     let is_quick = arguments.iter().any(|word| word == "--quick");
     let names: Vec<_> = arguments.iter().filter(|word| *word != "--quick").collect();
     if let Some(unknown) = names.iter().find(|name| FIGURES.iter().all(|figure| figure.name != **name)) {
-        let known: Vec<_> = FIGURES.iter().map(|figure| figure.name).collect();
-        bail!("unknown figure `{unknown}`: there are {}", known.join(", "));
+        bail!("unknown figure `{unknown}`: there are {}", self::names().join(", "));
     }
     let repository = Repository::find();
     let page = repository.docs().join(PAGE);

@@ -23,6 +23,8 @@ struct Command {
     summary: &'static str,
     /// How it is called, for the help of its own; none where it says more by itself.
     examples: &'static [&'static str],
+    /// What its arguments may be, where that is a list of names.
+    names: fn() -> Vec<&'static str>,
     /// Does it.
     run: fn(Arguments) -> Result<()>,
 }
@@ -36,6 +38,10 @@ impl Command {
             let line = format!("  cargo xtask {name} {example}");
             text += line.trim_end();
             text.push('\n');
+        }
+        let names = (self.names)();
+        if !names.is_empty() {
+            text += &format!("\nnames:\n  {}\n", names.join("\n  "));
         }
         text
     }
@@ -54,6 +60,7 @@ const COMMANDS: &[Command] = &[
         summary: "builds the plugin and lays out target/bundled/Low Action.clap and Low Action.vst3, with the notices of \
                   the libraries in them",
         examples: &["low-action --release", "low-action --release --no-default-features"],
+        names: Vec::new,
         run: |arguments| bundle("bundle", arguments),
     },
     Command {
@@ -61,6 +68,7 @@ const COMMANDS: &[Command] = &[
         arguments: "low-action [--release]",
         summary: "bundles for both processors of macOS in one binary (on macOS only)",
         examples: &["low-action --release"],
+        names: Vec::new,
         run: |arguments| bundle("bundle-universal", arguments),
     },
     Command {
@@ -69,6 +77,7 @@ const COMMANDS: &[Command] = &[
         summary: "draws the pictures of the documentation, or those named, and writes docs/paper.md; \
                   with --quick compares them with what is there",
         examples: &["--quick", "paper_figure_2 paper_figure_3"],
+        names: figures::names,
         run: |arguments| figures::run(&arguments),
     },
     Command {
@@ -76,6 +85,7 @@ const COMMANDS: &[Command] = &[
         arguments: "[dawdreamer] [pedalboard]",
         summary: "bundles the plugin and compares what hosts play through it with what is rendered",
         examples: &["", "pedalboard"],
+        names: Vec::new,
         run: |names| hosts::run(&names),
     },
     Command {
@@ -83,6 +93,7 @@ const COMMANDS: &[Command] = &[
         arguments: "NAME [ARGUMENTS]",
         summary: "measures what the documentation states; `measure help` lists what there is",
         examples: &[],
+        names: Vec::new,
         run: xtask::measure::run,
     },
 ];
@@ -160,6 +171,8 @@ mod tests {
             assert!(usage.starts_with(&format!("usage: cargo xtask {} ", command.name)), "{usage}");
             assert!(usage.contains(command.summary), "{usage}");
         }
+        let figures = COMMANDS.iter().find(|command| command.name == "figures").expect("there are figures");
+        assert!(figures.usage().contains("\n  paper_figure_5_minute\n"), "{}", figures.usage());
         // Wherever it stands, and nothing is built.
         assert!(run(words("bundle low-action --release --help")).is_ok());
     }
