@@ -27,11 +27,11 @@ mod contact;
 mod setup;
 
 pub use contact::Law;
-pub use setup::{Finger, Fret, Fretboard, Pluck, Setup, Stencil, Table, weights};
+pub use setup::{Finger, Fret, Fretboard, Placement, Pluck, Setup, Stencil, Table, straight_weights, weights};
 
 use contact::Contact;
 use nalgebra::{DMatrix, DVector};
-use setup::at;
+use setup::{at, mean};
 use std::f64::consts::PI;
 
 /// A point of board or fret.
@@ -45,6 +45,8 @@ pub struct Barrier {
     pub law: Law,
     /// Hunt–Crossley damping β, s/m.
     pub damping: f64,
+    /// 2√(Tρ) of a kinked fret, which meets a contact that has just been made, N s/m; else 0.
+    pub resistance: f64,
 }
 
 /// The simulation itself, moved on one sample at a time.
@@ -74,7 +76,12 @@ pub struct Reference {
     pub forces: DVector<f64>,
     /// Power dissipated minus power supplied in the last sample, W.
     pub net_loss: f64,
+    /// How many samples ago each barrier's contact was made: none if it never was.
+    since_made: Vec<Option<i32>>,
 }
+
+/// For how many samples a contact that has just been made is met by the resistance, a part less in each.
+const MET: i32 = 5;
 
 impl Reference {
     /// At rest in the shape and heights the scene gives.
@@ -91,8 +98,7 @@ impl Reference {
         let heights = DVector::from_iterator(setup.fingers.len(), setup.fingers.iter().map(|f| f.height));
         let travel = setup.fingers.iter().map(|f| f.velocity * time_step);
         let finger_change = DVector::from_iterator(heights.len(), travel);
-        let barriers = barriers(setup, spacing, intervals);
-        Self {
+        let mut new = Self {
             setup: setup.clone(),
             intervals,
             spacing,
@@ -100,13 +106,73 @@ impl Reference {
             slope,
             sample: 0,
             now: start,
-            change: DVector::zeros(points),
+            change: DVector::from_fn(points, |i, _| {
+                let node = (i + 1) as f64;
+                mean(&setup.velocity, (node - 0.5) * spacing, (node + 0.5) * spacing) * time_step
+            }),
             finger_now: heights,
             finger_change,
-            forces: DVector::zeros(barriers.len() + setup.fingers.len()),
-            barriers,
+            forces: DVector::zeros(0),
+            barriers: Vec::new(),
             net_loss: 0.0,
+            since_made: Vec::new(),
+        };
+        new.barriers = new.barriers();
+        new.since_made = vec![None; new.barriers.len()];
+        new.forces = DVector::zeros(new.barriers.len() + setup.fingers.len());
+        new
+    }
+
+    /// A board point at every interior node and a fret at each place; a fret on a node replaces the board there.
+    fn barriers(&self) -> Vec<Barrier> {
+        let Some(fretboard) = &self.setup.fretboard else { return Vec::new() };
+        let (spacing, intervals) = (self.spacing, self.intervals);
+        let place = |fret: &Fret| match fretboard.placement {
+            Placement::Nearest => (fret.position / spacing).round() * spacing,
+            Placement::Exact | Placement::Kinked => fret.position,
+        };
+        let exact = |position: f64, height, stiffness| Barrier {
+            column: weights(position, spacing, intervals) / spacing,
+            height,
+            law: Law::new(stiffness, fretboard.exponent),
+            damping: fretboard.damping,
+            resistance: 0.0,
+        };
+        let mut all = Vec::new();
+        for node in 1..intervals {
+            let position = node as f64 * spacing;
+            let fretted = fretboard.frets.iter().any(|f| (place(f) - position).abs() < 1e-9 * spacing);
+            if let (Some(board), false) = (&fretboard.board, fretted) {
+                let share = fretboard.board_reference_spacing.map_or(1.0, |reference| spacing / reference);
+                all.push(exact(position, at(board, position), fretboard.stiffness * share));
+            }
         }
+        for fret in &fretboard.frets {
+            let plain = exact(place(fret), fret.top, fretboard.stiffness);
+            let bent = (fretboard.placement == Placement::Kinked).then(|| self.bent_round(fret, &plain));
+            all.push(bent.flatten().unwrap_or(plain));
+        }
+        all
+    }
+
+    /// A fret round which the string bends within a cell of the grid, if the grid gives way there by so much less than the
+    /// string that it matters: by more than a tenth of h/T.
+    fn bent_round(&self, fret: &Fret, exact: &Barrier) -> Option<Barrier> {
+        let tension = at(&self.setup.tension, 0.0);
+        let weights = straight_weights(fret.position, self.spacing, self.intervals);
+        let points = weights.len();
+        // A force f at the place is f w/h per length: 0 = ρ S u + f w/h.
+        let unit = |j: usize| DVector::from_fn(points, |i, _| f64::from(i == j));
+        let columns: Vec<_> = (0..points).map(|j| self.acceleration(0.0, &unit(j))).collect();
+        let stiffness = DMatrix::from_columns(&columns) * (-self.setup.linear_density * self.spacing);
+        let of_grid = weights.dot(&stiffness.lu().solve(&weights).expect("a taut string is stiff"));
+        let lacking = self.setup.flexibility(fret.position, tension) - of_grid;
+        (lacking > 0.1 * self.spacing / tension).then(|| Barrier {
+            column: weights / self.spacing,
+            law: exact.law.giving_way(lacking),
+            resistance: 2.0 * (tension * self.setup.linear_density).sqrt(),
+            ..exact.clone()
+        })
     }
 
     /// D_xx v = −D_xᵀ D_x v. Taken one difference after the other, as here, it loses no digits of a smooth v;
@@ -153,10 +219,15 @@ impl Reference {
         self.barriers.get(i).map_or_else(
             || {
                 let finger = &self.setup.fingers[i - self.barriers.len()];
-                Law { stiffness: finger.stiffness, exponent: finger.exponent }
+                Law::new(finger.stiffness, finger.exponent)
             },
             |barrier| barrier.law,
         )
+    }
+
+    /// What a hand laid along the string adds to σ₀ in the next sample, 1/s.
+    pub fn stilling(&self) -> f64 {
+        at(&self.setup.stilling, self.sample as f64 * self.time_step)
     }
 
     /// One sample.
@@ -167,13 +238,14 @@ impl Reference {
         let (u, d) = (&self.now, &self.change);
         let u_before = &(u - d);
         let (fingers, fixed) = (setup.fingers.len(), self.barriers.len());
+        let loss = setup.loss_0 + self.stilling();
 
         let a = self.curvature(u) * (k / 2.0 * (self.stretch_stiffness() * h).sqrt());
         let stretch = &a * a.transpose();
         let one = DMatrix::<f64>::identity(u.len(), u.len());
         let second = -self.slope.transpose() * &self.slope;
-        let matrix_a = (&one * (1.0 + setup.loss_0 * k) + &stretch).lu();
-        let matrix_c = &one * (setup.loss_0 * k - 1.0) - &stretch - second * (2.0 * setup.loss_1 * k);
+        let matrix_a = (&one * (1.0 + loss * k) + &stretch).lu();
+        let matrix_c = &one * (loss * k - 1.0) - &stretch - second * (2.0 * setup.loss_1 * k);
         let invert = |right: &DMatrix<f64>| matrix_a.solve(right).expect("A has eigenvalues above 1");
 
         // Without contacts: the string, then the fingers, (M̃ + R k/2) e⁺ = (M̃ − R k/2) e − k² f₀ with e = u_f − u_f⁻.
@@ -204,12 +276,25 @@ impl Reference {
             c[fixed + i] += e[i] + e_free[i];
             m[(fixed + i, fixed + i)] += k * k / (mass(i) + hand(i));
         }
+        let since_made: Vec<_> = (0..fixed)
+            .map(|i| {
+                let made = eta[i] > 0.0 && eta_before[i] <= 0.0;
+                if made { Some(0) } else { self.since_made[i].map(|samples| samples + 1) }
+            })
+            .collect();
         let contacts: Vec<Contact> = (0..eta.len())
             .map(|i| {
                 let law = self.law(i);
-                let finger = i.checked_sub(fixed);
-                let beta = finger.map_or_else(|| self.barriers[i].damping, |i| setup.fingers[i].damping);
-                Contact { law, before: eta_before[i], damping: beta * law.force(eta[i]) / (2.0 * k) }
+                let resistance = match i.checked_sub(fixed) {
+                    Some(finger) => setup.fingers[finger].damping * law.force(eta[i]),
+                    None => {
+                        let barrier = &self.barriers[i];
+                        let met = since_made[i].map_or(0, |samples| (MET - samples).max(0));
+                        let met = if eta[i] > 0.0 { f64::from(met) / f64::from(MET) } else { 0.0 };
+                        barrier.damping * law.force_at_most_of_the_knee(eta[i]) + barrier.resistance * met
+                    }
+                };
+                Contact { law, before: eta_before[i], damping: resistance / (2.0 * k) }
             })
             .collect();
         let forces = contact::solve(&contacts, &c, &m);
@@ -222,7 +307,7 @@ impl Reference {
         let r = -c - m * &forces;
         let rho = setup.linear_density;
         let retuned = self.acceleration(time, u_before) - self.acceleration((time - k).max(0.0), u_before);
-        let mut net = 2.0 * rho * h * setup.loss_0 * velocity.norm_squared()
+        let mut net = 2.0 * rho * h * loss * velocity.norm_squared()
             - 2.0 * rho * h * setup.loss_1 * velocity.dot(&self.curvature(&velocity))
             - h * pluck.dot(&velocity)
             // Whoever turns the peg, and whoever moves a finger along the string, works as well.
@@ -237,6 +322,7 @@ impl Reference {
         }
 
         self.net_loss = net;
+        self.since_made = since_made;
         self.forces = forces;
         self.now += &d_next;
         self.change = d_next;
@@ -245,42 +331,52 @@ impl Reference {
         self.sample += 1;
     }
 
-    /// Σ g_e f_e, N/m, in the mean from half a sample before to half a sample after: f_e = f_p sin²(πt/2t_p) by Simpson's rule
-    /// in many pieces.
+    /// Σ g_e f_e, N/m, in the mean from half a sample before to half a sample after: f_e = f_p sin²(πt/2t_p) while it grows, and
+    /// f_p cos²(πt/2t_r) from then on while it falls, each by Simpson's rule in many pieces.
     fn plucks(&self, time: f64) -> DVector<f64> {
         const PIECES: usize = 1000;
         let k = self.time_step;
         let mut sum = DVector::zeros(self.now.len());
         for pluck in &self.setup.plucks {
             let since = time - pluck.start;
-            let (from, to) = ((since - k / 2.0).max(0.0), (since + k / 2.0).min(pluck.duration));
-            let length = to - from;
-            if length <= 0.0 {
-                continue;
-            }
-            let push = |part: f64| (PI * (from + part * length) / (2.0 * pluck.duration)).sin().powi(2);
-            let ends = (0..=PIECES).map(|i| push(i as f64 / PIECES as f64)).collect::<Vec<_>>();
-            let middles = (0..PIECES).map(|i| push((i as f64 + 0.5) / PIECES as f64));
-            let even = ends.iter().sum::<f64>() - 0.5 * (ends[0] + ends[PIECES]);
-            let mean = (even + 2.0 * middles.sum::<f64>()) / (3.0 * PIECES as f64);
-            let force = pluck.force * mean * length / k;
+            // ∫ push over what of the sample lies between 0 and `until`.
+            let pushed = |since: f64, until: f64, push: &dyn Fn(f64) -> f64| {
+                let (from, to) = ((since - k / 2.0).max(0.0), (since + k / 2.0).min(until));
+                let length = to - from;
+                if length <= 0.0 {
+                    return 0.0;
+                }
+                let push = |part: f64| push(from + part * length);
+                let ends = (0..=PIECES).map(|i| push(i as f64 / PIECES as f64)).collect::<Vec<_>>();
+                let middles = (0..PIECES).map(|i| push((i as f64 + 0.5) / PIECES as f64));
+                let even = ends.iter().sum::<f64>() - 0.5 * (ends[0] + ends[PIECES]);
+                (even + 2.0 * middles.sum::<f64>()) / (3.0 * PIECES as f64) * length
+            };
+            let (rise, fall) = (pluck.duration, pluck.release);
+            let grown = pushed(since, rise, &|t| (PI * t / (2.0 * rise)).sin().powi(2));
+            let fallen = pushed(since - rise, fall, &|t| (PI * t / (2.0 * fall)).cos().powi(2));
+            let force = pluck.force * (grown + fallen) / k;
             sum += weights(pluck.position, self.spacing, self.intervals) * (force / self.spacing);
         }
         sum
     }
 
-    /// Lets go of what `new` holds: it moved as far to where it is as it will move from there, but for what a finger is thrown with.
-    /// Nothing is plucked or slid on meanwhile.
+    /// Lets go of what `new` holds, or throws it: the mean of how it moved to where it is and will move from there is what it is
+    /// thrown with, and nothing else at rest. Nothing is plucked, stilled or slid on meanwhile, and no barrier is near what is
+    /// thrown.
     pub fn let_go(&mut self) {
         let mut after = self.clone();
         after.setup.plucks.clear();
+        after.setup.stilling.clear();
         for finger in &mut after.setup.fingers {
             finger.position = vec![[0.0, at(&finger.position, 0.0)]];
         }
         after.step();
-        // d⁺ = decay d + q from d = 0, and d⁺ + d = 0.
+        // d⁺ = decay d + q from d = kv, and d⁺ + d = 2kv.
         let (k, sigma) = (self.time_step, self.setup.loss_0);
-        self.change = -after.change / (1.0 + (1.0 - sigma * k) / (1.0 + sigma * k));
+        let decay = (1.0 - sigma * k) / (1.0 + sigma * k);
+        let thrown = &self.change;
+        self.change = (thrown * 2.0 - (after.change - thrown * decay)) / (1.0 + decay);
         for (i, finger) in self.setup.fingers.iter().enumerate() {
             let (mass, hand) = (finger.mass_in_steps_of(k), finger.hand_damping * k / 2.0);
             let decay = (mass - hand) / (mass + hand);
@@ -313,27 +409,4 @@ impl Reference {
         }
         energy
     }
-}
-
-/// A board point at every interior node and a fret at each place; a fret on a node replaces the board there.
-fn barriers(setup: &Setup, spacing: f64, intervals: usize) -> Vec<Barrier> {
-    let Some(fretboard) = &setup.fretboard else { return Vec::new() };
-    let mut all = Vec::new();
-    for node in 1..intervals {
-        let position = node as f64 * spacing;
-        let fretted = fretboard.frets.iter().any(|f| (f.position - position).abs() < 1e-9 * spacing);
-        if let (Some(board), false) = (&fretboard.board, fretted) {
-            let share = fretboard.board_reference_spacing.map_or(1.0, |reference| spacing / reference);
-            all.push((position, at(board, position), fretboard.stiffness * share));
-        }
-    }
-    all.extend(fretboard.frets.iter().map(|fret| (fret.position, fret.top, fretboard.stiffness)));
-    all.into_iter()
-        .map(|(position, height, stiffness)| Barrier {
-            column: weights(position, spacing, intervals) / spacing,
-            height,
-            law: Law { stiffness, exponent: fretboard.exponent },
-            damping: fretboard.damping,
-        })
-        .collect()
 }

@@ -1,6 +1,6 @@
 //! The plain string that the fast one is compared with gives the numbers worked by hand on three points.
 
-use low_action_tests::dense::{Finger, Fretboard, Law, Pluck, Reference, Setup, Stencil, weights};
+use low_action_tests::dense::{Finger, Fret, Fretboard, Law, Placement, Pluck, Reference, Setup, Stencil, straight_weights, weights};
 use low_action_tests::numbers::largest;
 use std::f64::consts::{LN_2, PI};
 
@@ -29,10 +29,12 @@ fn three_points() -> Setup {
         loss_0: 0.25,
         loss_1: 1.0 / 128.0,
         tension_modulation: true,
+        stilling: vec![],
+        velocity: vec![],
         shape: vec![[1.0, 0.0], [2.0, 8.0], [3.0, 0.0]],
         fretboard: None,
         // Ends at t = 0: from −1/2 to 1/2 it pushes by 6 N in the mean, for ∫ (1 − cos πτ)/2 dτ from 1/2 to 1 is 1/4 + 1/(2π).
-        plucks: vec![Pluck { start: -1.0, duration: 1.0, position: 1.0, force: 6.0 / (0.25 + 0.5 / PI) }],
+        plucks: vec![Pluck { start: -1.0, duration: 1.0, release: 0.0, position: 1.0, force: 6.0 / (0.25 + 0.5 / PI) }],
         fingers: vec![],
     }
 }
@@ -77,6 +79,47 @@ fn two_steps_by_hand() {
     assert_near(string.now.as_slice(), &expected);
 }
 
+/// What pushes half as hard but takes as long to let go as it took to grow pushes as much in that step: as much after t = 0 as
+/// before it.
+#[test]
+fn a_pluck_that_takes_a_while_to_let_go_by_hand() {
+    let mut setup = three_points();
+    (setup.plucks[0].force, setup.plucks[0].release) = (0.5 * setup.plucks[0].force, 1.0);
+    let mut string = Reference::new(&setup);
+    string.step();
+    assert_near(string.now.as_slice(), &FREE);
+}
+
+/// A hand laid along the string takes as the string itself does, while it is there.
+#[test]
+fn a_stilling_hand_by_hand() {
+    let setup = Setup { loss_0: 0.125, stilling: vec![[0.0, 0.125], [1.0, 0.625]], ..three_points() };
+    let mut string = Reference::new(&setup);
+    string.step();
+    assert_near(string.now.as_slice(), &FREE);
+    assert_near(&[string.stilling()], &[0.625]);
+}
+
+/// Velocities are those of a moment, the mean of the motions before it and after it, and of a spacing about each point.
+#[test]
+fn a_thrown_string_by_hand() {
+    // Without σ₁, which damps what moves before. A triangle over point 2: from 3/2 to 5/2 it is 3 in the mean, from 1/2 to 3/2 it
+    // is 0 in the first half and 1 in the second.
+    let setup = Setup {
+        loss_1: 0.0,
+        shape: vec![],
+        plucks: vec![],
+        velocity: vec![[1.0, 0.0], [2.0, 4.0], [3.0, 0.0]],
+        ..three_points()
+    };
+    let mut string = Reference::new(&setup);
+    assert_near(string.change.as_slice(), &[0.5, 3.0, 0.5]);
+    string.let_go();
+    let before = string.change.clone();
+    string.step();
+    assert_near((before + &string.change).as_slice(), &[1.0, 6.0, 1.0]);
+}
+
 #[test]
 fn better_stencils_by_hand() {
     // κ₂² = 1/16 + (1/2)(1/12)(1 − 1/2) = 1/12
@@ -117,6 +160,7 @@ fn board_and_finger_by_hand() {
             board: Some(vec![[1.0, -1e3], [2.0, 0.0], [3.0, -1e3]]),
             board_reference_spacing: None,
             frets: vec![],
+            placement: Placement::Exact,
         }),
         fingers: vec![Finger {
             mass: 1.0 / LN_2,
@@ -154,6 +198,7 @@ fn a_lossy_board_by_hand() {
             board: Some(vec![[1.0, -1e3], [2.0, 1.0], [3.0, -1e3]]),
             board_reference_spacing: None,
             frets: vec![],
+            placement: Placement::Exact,
         }),
         ..three_points()
     };
@@ -161,6 +206,52 @@ fn a_lossy_board_by_hand() {
     string.step();
     assert_near(string.forces.as_slice(), &[0.0, 1.0, 0.0]);
     assert_near(string.now.as_slice(), &[0.0, 0.8, 0.0]);
+}
+
+#[test]
+fn a_kinked_fret_by_hand() {
+    // No bending, σ₁ = 0, T = 1: half way between points 1 and 2 the string gives way by Γ = (3/2)(5/2)/4 = 15/16, and read and
+    // pushed by w = (1/2, 1/2, 0) on the grid by (3/4 + 2/2 + 1)/4 = 11/16: by p(1 − p)h/T = 1/4 less.
+    // K = 2, α = 2: the knee is where 4η = 4, φ = 2 and Φ = 2/3 there, and from there on φ′ = 4. √(Tρ) = 1.
+    // The string is at 0 and fell by 2 there: η⁻¹ = 3/2 − 2 = −1/2 and η⁰ = 3/2, contact has been made just now and
+    // P = 2β/2 + 1 (5/5), with φ no more than at the knee.
+    // Left alone d¹ = (3/5)(−2, −2, 0). With f = 4, d¹ = (4/5)(4/2 − 3/2) = 2/5 at points 1 and 2, η¹ = 3/2 − 2/5 = 11/10,
+    // r = 8/5, λ = (2/3 + 2/10 + 2/100)/r = 2.66/4.8; that is the answer if P = (4 − λ)/r.
+    let beta = (4.0 - 2.66 / 4.8) / 1.6 - 1.0;
+    let setup = Setup {
+        tension: vec![[0.0, 1.0]],
+        youngs_modulus: 0.0,
+        loss_1: 0.0,
+        shape: vec![],
+        plucks: vec![],
+        fretboard: Some(Fretboard {
+            stiffness: 2.0,
+            exponent: 2.0,
+            damping: beta,
+            board: None,
+            board_reference_spacing: None,
+            frets: vec![Fret { position: 1.5, top: 1.5 }, Fret { position: 3.05, top: -1e3 }],
+            placement: Placement::Kinked,
+        }),
+        ..three_points()
+    };
+    let mut string = Reference::new(&setup);
+    assert_near(&[string.barriers[0].law.knee, string.barriers[0].resistance], &[1.0, 2.0]);
+    // The other one stands so near to a point that nothing is made up for.
+    assert_eq!(string.barriers[1].law.knee, f64::INFINITY);
+    string.change.copy_from_slice(&[-2.0, -2.0, 0.0]);
+    string.step();
+    assert_near(&string.forces.as_slice()[..1], &[4.0]);
+    assert_near(string.now.as_slice(), &[0.4, 0.4, 0.0]);
+
+    // In the next step four fifths of the resistance are left: η⁻¹ = 3/2, η⁰ = 11/10, and the string comes up to where η¹ is
+    // before the knee, λ = (2η³/3 − 2/3 − 1 − 1/2)/r.
+    string.step();
+    let after = 1.5 - 0.5 * (string.now[0] + string.now[1]);
+    let r = after - 1.5;
+    let force = (2.0 / 3.0 * after.powi(3) - 13.0 / 6.0) / r + (beta + 0.8) * r;
+    assert!(after < 1.0 && force > 1.0, "{after} {force}");
+    assert_near(&string.forces.as_slice()[..1], &[force]);
 }
 
 #[test]
@@ -200,14 +291,26 @@ fn interpolation_by_hand() {
     assert_near(weights(0.5, 1.0, 6).as_slice(), &[10.0, -1.0, 0.0, 0.0, 0.0].map(|w| w / 16.0));
     assert_near(weights(5.5, 1.0, 6).as_slice(), &[0.0, 0.0, 0.0, -1.0, 10.0].map(|w| w / 16.0));
     assert_near(weights(0.75, 0.25, 6).as_slice(), &[0.0, 0.0, 1.0, 0.0, 0.0]);
+    // By a straight line, and where one of its ends is that of the string.
+    assert_near(straight_weights(2.25, 1.0, 6).as_slice(), &[0.0, 0.75, 0.25, 0.0, 0.0]);
+    assert_near(straight_weights(5.25, 1.0, 6).as_slice(), &[0.0, 0.0, 0.0, 0.0, 0.75]);
 }
 
 #[test]
 fn contact_law_by_hand() {
-    let law = Law { stiffness: 3.0, exponent: 2.0 };
+    let law = Law::new(3.0, 2.0);
     // Φ(η) = η³ for η > 0: (27 − 8)/1, (0 − 8)/(−4), (8 − 0)/3, and Φ′(2) = 12 as r → 0.
     assert_near(&[law.quotient(2.0, 1.0)], &[19.0]);
     assert_near(&[law.quotient(2.0, -4.0)], &[2.0]);
     assert_near(&[law.quotient(-1.0, 3.0)], &[8.0 / 3.0]);
     assert_near(&[law.quotient(2.0, 1e-14), law.quotient(2.0, 0.0)], &[12.0, 12.0]);
+    // With a spring of 1/12 m/N behind it the force goes on from η = 2 by 12 N/m, where it is 12 N and Φ = 8: Φ(3) = 8 + 12 + 6,
+    // Φ(4) = 8 + 24 + 24. (56 − 1)/3 across, 12 + 12 (3/2) beyond, (0 − 26)/(−4) out of it, and nothing else before.
+    let bent = law.giving_way(1.0 / 12.0);
+    assert_near(&[bent.knee], &[2.0]);
+    assert_near(&[bent.quotient(1.0, 3.0), bent.quotient(4.0, -3.0)], &[55.0 / 3.0; 2]);
+    assert_near(&[bent.quotient(3.0, 1.0), bent.quotient(3.0, 0.0)], &[30.0, 24.0]);
+    assert_near(&[bent.quotient(3.0, -4.0)], &[6.5]);
+    assert_near(&[bent.quotient(2.0, 1e-14), bent.quotient(2.0, -1e-14)], &[12.0, 12.0]);
+    assert_near(&[bent.quotient(1.0, 0.5)], &[19.0 / 4.0]);
 }

@@ -4,42 +4,100 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::numbers::largest;
 
-/// A power-law contact, Φ(η) = K/(α+1) \[η\]₊^(α+1).
+/// A power-law contact, Φ(η) = K/(α+1) \[η\]₊^(α+1), that may go on along its tangent from some penetration on.
 #[derive(Clone, Copy, Debug)]
 pub struct Law {
     /// Stiffness K, N/m^α.
     pub stiffness: f64,
     /// Exponent α, at least 1.
     pub exponent: f64,
+    /// The penetration from which the force is a straight line, m; infinite of a plain law.
+    pub knee: f64,
 }
 
 impl Law {
+    /// A plain law of stiffness K, N/m^α, and exponent α.
+    pub fn new(stiffness: f64, exponent: f64) -> Self {
+        Law { stiffness, exponent, knee: f64::INFINITY }
+    }
+
+    /// In series with a spring that gives way by so much, m/N: the force follows the law to where φ′ = αKη^(α−1) is that of the
+    /// spring, and its tangent from there on. Of an exponent above 1.
+    pub fn giving_way(self, flexibility: f64) -> Self {
+        let Law { stiffness, exponent, .. } = self;
+        Law { knee: (exponent * stiffness * flexibility).powf(-1.0 / (exponent - 1.0)), ..self }
+    }
+
+    /// Φ′ and Φ″ of the power, N and N/m.
+    fn power(&self, penetration: f64) -> (f64, f64) {
+        let (deep, alpha) = (penetration.max(0.0), self.exponent);
+        (self.stiffness * deep.powf(alpha), self.stiffness * alpha * deep.powf(alpha - 1.0))
+    }
+
+    /// The part of a penetration before the knee, and the part beyond it, m.
+    fn parts(&self, penetration: f64) -> (f64, f64) {
+        (penetration.min(self.knee), (penetration - self.knee).max(0.0))
+    }
+
     /// The static force Φ′(η), N.
     pub(super) fn force(&self, penetration: f64) -> f64 {
-        self.stiffness * penetration.max(0.0).powf(self.exponent)
+        let (bent, beyond) = self.parts(penetration);
+        let (force, slope) = self.power(bent);
+        if beyond > 0.0 { force + slope * beyond } else { force }
+    }
+
+    /// The same, but no more than at the knee, N.
+    pub(super) fn force_at_most_of_the_knee(&self, penetration: f64) -> f64 {
+        self.power(penetration.min(self.knee)).0
+    }
+
+    /// Φ of the power, J.
+    fn energy_of_power(&self, penetration: f64) -> f64 {
+        self.stiffness / (self.exponent + 1.0) * penetration.max(0.0).powf(self.exponent + 1.0)
     }
 
     /// The stored energy Φ(η), J.
     pub(super) fn energy(&self, penetration: f64) -> f64 {
-        self.stiffness / (self.exponent + 1.0) * penetration.max(0.0).powf(self.exponent + 1.0)
+        let (bent, beyond) = self.parts(penetration);
+        self.energy_of_power(bent) + self.work_beyond(0.0, beyond)
+    }
+
+    /// What pressing in from `x` to `y` beyond the knee stores, J: (y − x)(φ + φ′ (x + y)/2) with φ and φ′ of the knee.
+    fn work_beyond(&self, x: f64, y: f64) -> f64 {
+        if x == y {
+            return 0.0;
+        }
+        let (force, slope) = self.power(self.knee);
+        (y - x) * (force + slope * (x + y) / 2.0)
     }
 
     /// λ = (Φ(η⁻ + r) − Φ(η⁻))/r, written so that nothing cancels however small r is: with both ends in
-    /// contact Φ(η⁻ + r)/Φ(η⁻) − 1 = exp((α+1) ln(1 + r/η⁻)) − 1.
+    /// contact and before the knee Φ(η⁻ + r)/Φ(η⁻) − 1 = exp((α+1) ln(1 + r/η⁻)) − 1, and the work beyond the knee adds to that
+    /// of the way to it.
     pub fn quotient(&self, before: f64, change: f64) -> f64 {
         if change == 0.0 {
-            self.force(before)
-        } else if before > 0.0 && before + change > 0.0 {
-            self.energy(before) * ((self.exponent + 1.0) * (change / before).ln_1p()).exp_m1() / change
-        } else {
-            (self.energy(before + change) - self.energy(before)) / change
+            return self.force(before);
         }
+        let ((bent, beyond), (bent_after, beyond_after)) = (self.parts(before), self.parts(before + change));
+        if beyond > 0.0 && beyond_after > 0.0 {
+            let (force, slope) = self.power(self.knee);
+            return force + slope * (beyond + beyond_after) / 2.0;
+        }
+        // Where both are before the knee; across it the ways on both sides are differences without an error, and so is their sum.
+        let bending = if beyond + beyond_after == 0.0 { change } else { bent_after - bent };
+        let way = bending + (beyond_after - beyond);
+        let work = if bent > 0.0 && bent_after > 0.0 {
+            self.energy_of_power(bent) * ((self.exponent + 1.0) * (bending / bent).ln_1p()).exp_m1()
+        } else {
+            self.energy_of_power(bent_after) - self.energy_of_power(bent)
+        };
+        (work + self.work_beyond(beyond, beyond_after)) / way
     }
 
     /// dλ/dr = (Φ′(η⁻ + r) − λ)/r; for tiny r its limit Φ″(η⁻)/2 (only Newton's speed depends on it).
     fn quotient_slope(&self, before: f64, change: f64) -> f64 {
-        if before > 0.0 && change.abs() < 1e-4 * before {
-            self.stiffness * self.exponent * before.powf(self.exponent - 1.0) / 2.0
+        if before > 0.0 && change.abs() < 1e-4 * before || before.min(before + change) > self.knee {
+            self.power(before.min(self.knee)).1 / 2.0
         } else if change == 0.0 {
             0.0
         } else {

@@ -28,6 +28,17 @@ pub struct Fret {
     pub top: f64,
 }
 
+/// Where frets act on the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Placement {
+    /// At their places, by interpolation.
+    Exact,
+    /// Each on the grid point next to it.
+    Nearest,
+    /// At their places, the string bending round them within a cell of the grid.
+    Kinked,
+}
+
 /// What lies under the string.
 #[derive(Clone, Debug)]
 pub struct Fretboard {
@@ -43,15 +54,19 @@ pub struct Fretboard {
     pub board_reference_spacing: Option<f64>,
     /// The frets.
     pub frets: Vec<Fret>,
+    /// Where they act.
+    pub placement: Placement,
 }
 
-/// One pluck: a raised cosine that lets go at its top.
+/// One pluck: a raised cosine that lets go at its top, at once or by another one.
 #[derive(Clone, Copy, Debug)]
 pub struct Pluck {
     /// Start t₀, s.
     pub start: f64,
     /// Duration t_p, s.
     pub duration: f64,
+    /// How long it takes to let go, t_r, s.
+    pub release: f64,
     /// Distance from the nut, m.
     pub position: f64,
     /// Largest force f_p, N, up is positive.
@@ -112,8 +127,12 @@ pub struct Setup {
     pub loss_1: f64,
     /// Whether stretching raises the tension.
     pub tension_modulation: bool,
+    /// What a hand laid along the string adds to σ₀ over time (s, 1/s); empty is no hand.
+    pub stilling: Table,
     /// Height over place (m, m) at the start; empty is a straight string.
     pub shape: Table,
+    /// Velocity over place (m, m/s) at the start, up is positive; empty is a string at rest.
+    pub velocity: Table,
     /// Board and frets, if any.
     pub fretboard: Option<Fretboard>,
     /// All plucks.
@@ -153,6 +172,19 @@ impl Setup {
         }
     }
 
+    /// Γ(x, x): by how much the string itself gives way under one newton at a place x from the nut, m/N, at a tension.
+    pub fn flexibility(&self, place: f64, tension: f64) -> f64 {
+        let far = self.length - place;
+        let straight = place * far / (self.length * tension);
+        let rounding = (self.kappa_squared() * self.linear_density / tension).sqrt();
+        if rounding == 0.0 {
+            return straight;
+        }
+        // sinh(x) sinh(y)/sinh(x + y) = 1/(coth x + coth y).
+        let coth = |x: f64| 1.0 / (x / rounding).tanh();
+        straight - rounding / (tension * (coth(place) + coth(far)))
+    }
+
     /// Whether `intervals` grid intervals keep the energy non-negative at the largest tension.
     fn is_stable(&self, intervals: usize) -> bool {
         let (h, k) = (self.length / intervals as f64, 1.0 / self.sample_rate);
@@ -184,6 +216,19 @@ pub(super) fn at(table: &Table, argument: f64) -> f64 {
             y0 + (y1 - y0) * (argument - x0) / (x1 - x0)
         }
     }
+}
+
+/// The table's mean from one argument to another.
+pub(super) fn mean(table: &Table, from: f64, to: f64) -> f64 {
+    let between = table.iter().map(|point| point[0]).filter(|&x| from < x && x < to);
+    let ends: Vec<_> = [from].into_iter().chain(between).chain([to]).collect();
+    let area = |x: f64, y: f64| (at(table, x) + at(table, y)) / 2.0 * (y - x);
+    ends.windows(2).map(|pair| area(pair[0], pair[1])).sum::<f64>() / (to - from)
+}
+
+/// Weights of the interior points in a straight interpolation at `position`: of the two nodes beside it.
+pub fn straight_weights(position: f64, spacing: f64, intervals: usize) -> DVector<f64> {
+    DVector::from_fn(intervals - 1, |i, _| (1.0 - (position / spacing - (i + 1) as f64).abs()).max(0.0))
 }
 
 /// Weights of the interior points in a cubic interpolation at `position` on `intervals` intervals of width
