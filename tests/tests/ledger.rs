@@ -27,6 +27,9 @@ const BOARD: &str = "[fretboard]\nstiffness = 1e13\nexponent = 2.3\nboard = -0.0
 const FRETS: &str = "[fretboard]\nstiffness = 1e15\nexponent = 2.3\nfrets = 12\nfret_top = -0.0012\n";
 const ALL: &str =
     "[fretboard]\nstiffness = 1e15\nexponent = 2.3\nboard = -0.0022\nfrets = 12\nfret_top = -0.0012\n";
+/// Of frets that a thin string bends round, softer than steel, so that they are pressed in as far as their knees and farther.
+const KINKED: &str = "[fretboard]\nstiffness = 4e11\nexponent = 2.3\nboard = -0.0022\n\
+    board_reference_spacing = 0.005\nfrets = 12\nfret_top = -0.0012\nfret_placement = \"kinked\"\n";
 const PLUCK: &str = "[[pluck]]\nduration = 0.002\nposition = 0.52\nforce = -3.0\n";
 const TAP: &str = "[[finger]]\nmass = 5e-3\nstiffness = 1e10\nexponent = 2.3\nposition = 0.638\n\
                    height = 0.001\nvelocity = -3.0\n";
@@ -104,6 +107,28 @@ fn lossy_frets_alone_without_other_losses() {
 #[test]
 fn a_sliding_finger_over_a_lossy_fretboard() {
     closes(&format!("{STRING}{LOSSES}{PLUCK}{SLIDE}{}", lossy(ALL, 0.3)), "wide");
+}
+
+/// Of what is kinked there is enough, and both parts of its law are asked.
+#[test]
+fn a_sliding_finger_over_kinked_frets() {
+    let thin = STRING.replace("core_radius = 4.3e-4", "core_radius = 6e-5");
+    let scene = format!("{thin}{LOSSES}{PLUCK}{SLIDE}{}", lossy(KINKED, 0.3));
+    let mut simulation = Simulation::new(&Scene::from_toml(&scene).expect("the scene is valid"))
+        .expect("the scene can be built");
+    let mut touched = [0; 2];
+    for _ in 0..88_200 {
+        simulation.step();
+        let SceneString { model, state, .. } = simulation.string(0);
+        for contact in model.contacts.iter().filter(|contact| contact.radiation > 0.0) {
+            let inside = contact.height - state.displacement_at(&contact.reading);
+            touched[0] += u32::from(inside > 0.0 && inside < contact.law.knee());
+            touched[1] += u32::from(inside > contact.law.knee());
+        }
+    }
+    println!("touched {touched:?} times before the knee and beyond it");
+    assert!(touched.iter().all(|&times| times > 1000), "{touched:?}");
+    closes(&scene, "wide");
 }
 
 #[test]
