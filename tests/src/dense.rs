@@ -27,7 +27,9 @@ mod contact;
 mod setup;
 
 pub use contact::Law;
-pub use setup::{Finger, Fret, Fretboard, Placement, Pluck, Setup, Stencil, Table, straight_weights, weights};
+pub use setup::{
+    Finger, Fret, Fretboard, Placement, Pluck, Setup, Stencil, Table, straight_weights, weights,
+};
 
 use contact::Contact;
 use nalgebra::{DMatrix, DVector};

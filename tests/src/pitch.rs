@@ -2,6 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use crate::hands::RATE;
+use crate::stage::hertz;
+
 /// Part of the samples that one window covers; the rest is how far the second window lies behind.
 const WINDOW: f64 = 0.64;
 
@@ -43,6 +46,11 @@ pub fn frequency_near(samples: &[f32], rate: f64, near: f64) -> f64 {
 /// How far `frequency` is above `target`, cents.
 pub fn cents(frequency: f64, target: f64) -> f64 {
     1200.0 * (frequency / target).log2()
+}
+
+/// How far a sound at 48 kHz is above a MIDI key, cents.
+pub fn off_key(sound: &[f32], key: f64) -> f64 {
+    cents(frequency_near(sound, RATE, hertz(key)), hertz(key))
 }
 
 /// A complex amplitude.

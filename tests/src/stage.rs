@@ -89,6 +89,11 @@ impl Stage {
     }
 }
 
+/// So many samples are so many seconds.
+pub fn at(seconds: f64) -> usize {
+    (seconds * RATE) as usize
+}
+
 /// A key goes down on channel 1; velocity 0 to 127.
 pub fn on(key: u8, velocity: u8) -> PlayerEvent {
     PlayerEvent::NoteOn { channel: 0, key, velocity: f32::from(velocity) / 127.0 }

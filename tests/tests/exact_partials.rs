@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use low_action_tests::pitch::cents;
 use low_action_tests::plain_string::{LOW_E, PlainString, STENCILS};
 
 /// Angular frequency (rad/s) and decay rate (1/s) of a partial.
@@ -76,10 +77,6 @@ fn discrete(string: &PlainString, stencil: &str, beta: f64, h: f64) -> Partial {
     Partial::from_recurrence(p, -(1.0 - string.loss_0 * k - loss) / scale, k)
 }
 
-fn cents(ratio: f64) -> f64 {
-    1200.0 * ratio.log2()
-}
-
 #[test]
 fn partials_of_a_stiff_lossy_string() {
     let string = &LOW_E;
@@ -129,12 +126,12 @@ fn partials_of_a_stiff_lossy_string() {
                 "{stencil:9} mode {mode:2}: {:7.2} Hz, scheme's {off:8.1e}, exact {:8.4} cents (predicted {:8.4}); \
                  decay {:.4}/s, scheme's {decay_off:8.1e}, exact {decay_error:8.1e}",
                 got.frequency / 2.0 / PI,
-                cents(1.0 + error),
-                cents(1.0 + leading),
+                cents(1.0 + error, 1.0),
+                cents(1.0 + leading, 1.0),
                 got.decay
             );
             if mode == 43.0 {
-                near_4_khz.push(cents(1.0 + error));
+                near_4_khz.push(cents(1.0 + error, 1.0));
             }
         }
     }

@@ -4,23 +4,13 @@
 
 use low_action::performance::PlayerEvent;
 use low_action_dsp::{FINGERS_PER_STRING, Gesture, TimedGesture};
-use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{Stage, amplitude, cc, decibels, hertz, off, on, peak};
+use low_action_tests::pitch::off_key;
+use low_action_tests::stage::{Stage, amplitude, at, cc, decibels, hertz, off, on, peak};
 
 const RATE: f64 = 48_000.0;
 
-fn at(seconds: f64) -> usize {
-    (seconds * RATE) as usize
-}
-
 fn plucks(gestures: &[TimedGesture]) -> usize {
     gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).count()
-}
-
-/// How far a sound is off a key, cents.
-fn off_pitch(sound: &[f32], key: u8) -> f64 {
-    let pitch = hertz(f64::from(key));
-    cents(frequency_near(sound, RATE, pitch), pitch)
 }
 
 /// Set-up, string, its open key.
@@ -38,7 +28,10 @@ fn a_finger_that_taps_sounds_by_its_own_speed() {
             let sound = &played.strings[0];
             let loud = peak(&sound[..at(0.3)]);
             assert!(loud > 1.2 * before, "{setup} {string} at {velocity}: {loud} after {before}");
-            assert!(off_pitch(&sound[at(0.2)..], open + 7).abs() < 3.0, "{setup} {string} at {velocity}");
+            assert!(
+                off_key(&sound[at(0.2)..], f64::from(open + 7)).abs() < 3.0,
+                "{setup} {string} at {velocity}"
+            );
             before = loud;
         }
     }
@@ -102,7 +95,7 @@ fn a_hammer_and_a_pull_connect_two_notes() {
             assert!(hammered.iter().all(|g| !matches!(g.gesture, Gesture::Pluck { .. })), "{hammered:?}");
             let sound = &played.strings[0];
             for (from, to, key) in [(0.2, 0.5, 5), (0.65, 1.0, 7), (1.1, 1.6, 5)] {
-                let cents = off_pitch(&sound[at(from)..at(to)], open + key);
+                let cents = off_key(&sound[at(from)..at(to)], f64::from(open + key));
                 assert!(cents.abs() < 4.0, "{setup} {string} from {from} s: {cents} cents");
             }
         }
@@ -130,7 +123,7 @@ fn a_pull_off_reaches_the_open_string_and_a_trill_never_needs_a_pluck() {
     // The first note and one for each finger that pulls off.
     assert_eq!(plucks(&played.gestures), 6);
     let sound = &played.strings[0];
-    assert!(off_pitch(&sound[at(1.4)..], 55).abs() < 3.0);
+    assert!(off_key(&sound[at(1.4)..], 55.0).abs() < 3.0);
     assert!(peak(&sound[at(1.9)..]) > 0.01, "it rings on");
 }
 
@@ -175,7 +168,7 @@ fn a_slide_crosses_each_semitone_where_the_fret_is() {
             let within = late.is_some_and(|late| (-window..2.0 * window + 0.01).contains(&late));
             assert!(within, "{setup} {string} fret {fret}: {late:?} s, window {window} s");
         }
-        assert!(off_pitch(&sound[at(1.2)..], open + 8).abs() < 4.0);
+        assert!(off_key(&sound[at(1.2)..], f64::from(open + 8)).abs() < 4.0);
     }
 }
 
@@ -237,7 +230,7 @@ fn a_note_struck_again_while_its_finger_leaves_is_stopped() {
         }
         let sound = &played.strings[0][at(again + 0.1)..];
         let [stopped, open] = [60.0, 55.0].map(|key| amplitude(sound, RATE, hertz(key)));
-        assert!(off_pitch(sound, 60).abs() < 3.0 && stopped > 10.0 * open, "struck again after {again} s");
+        assert!(off_key(sound, 60.0).abs() < 3.0 && stopped > 10.0 * open, "struck again after {again} s");
     }
 }
 
@@ -251,11 +244,11 @@ fn a_finger_held_behind_is_in_nobodys_way() {
         let hammered = [(0.0, cc(68, 127)), (0.0, on(open + 5, 90)), (0.3, on(open + 8, 90))];
         let down = PlayerEvent::PitchBend { channel: 0, value: -5.0 / 12.0 };
         let sound = &stage.play(&[&octave[..], &hammered, &[(0.6, down)]].concat(), 1.4).strings[0];
-        let cents = off_pitch(&sound[at(0.8)..], open + 3);
+        let cents = off_key(&sound[at(0.8)..], f64::from(open + 3));
         assert!(cents.abs() < 8.0, "{setup} {string}, down to fret 3: {cents} cents");
         let ended = [(0.6, off(open + 5)), (0.6, off(open + 8)), (0.7, on(open, 90))];
         let sound = &stage.play(&[&hammered[..], &ended].concat(), 1.4).strings[0];
-        let cents = off_pitch(&sound[at(0.75)..at(0.95)], open);
+        let cents = off_key(&sound[at(0.75)..at(0.95)], f64::from(open));
         assert!(cents.abs() < 6.0, "{setup} {string}, open: {cents} cents");
     }
 }
@@ -276,7 +269,7 @@ fn a_pedal_that_goes_up_leaves_the_key_below() {
         let sound = &Stage::alone("electric", 2).play(&events, 1.6).strings[0];
         for (from, to, key) in [(0.4, 0.8, 57), (0.9, 1.6, 55)] {
             let part = &sound[at(from)..at(to)];
-            let cents = off_pitch(part, key);
+            let cents = off_key(part, f64::from(key));
             assert!(cents.abs() < 4.0 && peak(part) > 0.01, "pedal {pedal} from {from} s: {cents} cents");
         }
     }

@@ -1,8 +1,8 @@
-//! The promise: a muted note is a knock. What it has of a pitch is gone before it is heard as one, wherever the hand lies.
+//! The promise: a muted note is a knock. What it has of a pitch is gone before it is heard as one, wherever the hand lies, and the
+//! hand leaves for what comes next.
 
-use low_action_tests::stage::{Stage, cc, level, off, on};
-
-const RATE: f64 = 48_000.0;
+use low_action_tests::pitch::off_key;
+use low_action_tests::stage::{Stage, at, cc, decibels, level, off, on, peak};
 
 /// Set-up, string, its open key, and how far it falls from its first 20 ms to the time from 60 to 100 ms, dB. (The longer a
 /// string's period, the fewer times it has met the fingers by then.)
@@ -25,9 +25,31 @@ fn a_muted_note_is_a_knock() {
             let key = open + fret;
             let sound =
                 &stage.play(&[(0.0, cc(23, 2)), (0.0, on(key, 100)), (0.4, off(key))], 0.2).strings[0];
-            let heard = |from: f64, to: f64| level(&sound[(from * RATE) as usize..(to * RATE) as usize]);
+            assert!(peak(sound) > 0.01, "{setup} {string}, fret {fret}: a knock of {}", peak(sound));
+            let heard = |from: f64, to: f64| level(&sound[at(from)..at(to)]);
             let fallen = heard(0.0, 0.02) - heard(0.06, 0.1);
             assert!(fallen > falls, "{setup} {string}, fret {fret}: only {fallen} dB down");
         }
+    }
+}
+
+/// The open string after a muted note: the finger that rests on it leaves, and it sounds.
+#[test]
+fn an_open_string_sounds_after_a_muted_note() {
+    for (fret, capo) in [(1, 0), (5, 3)] {
+        let events = [
+            (0.0, cc(26, capo)),
+            (0.0, cc(23, 2)),
+            (0.0, on(59 + fret, 100)),
+            (0.3, cc(23, 0)),
+            (0.3, cc(68, 127)),
+            (0.4, on(59 + capo, 100)),
+        ];
+        let sound = &Stage::alone("electric", 1).play(&events, 1.2).strings[0];
+        let heard = &sound[at(0.6)..];
+        let level = decibels(peak(heard));
+        assert!(level > -30.0, "capo {capo}: {level} dB");
+        let off = off_key(heard, f64::from(59 + capo));
+        assert!(off.abs() < 8.0, "capo {capo}: {off} cents");
     }
 }

@@ -4,14 +4,8 @@
 use low_action::performance::{PlayerEvent, StringDeed};
 use low_action_dsp::Gesture;
 use low_action_tests::hands::any_left;
-use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{Stage, cc, hertz, off, on, peak};
-
-const RATE: f64 = 48_000.0;
-
-fn at(seconds: f64) -> usize {
-    (seconds * RATE) as usize
-}
+use low_action_tests::pitch::off_key;
+use low_action_tests::stage::{Stage, at, cc, off, on, peak};
 
 fn touched(deed: StringDeed) -> PlayerEvent {
     PlayerEvent::Touched { string: 0, deed }
@@ -32,11 +26,6 @@ fn string() -> (Stage, f32) {
     (stage, place)
 }
 
-/// How far a sound is above a key, cents.
-fn above(sound: &[f32], key: f64) -> f64 {
-    cents(frequency_near(sound, RATE, hertz(key)), hertz(key))
-}
-
 #[test]
 fn a_pluck_falls_where_it_is_pointed() {
     let (mut stage, _) = string();
@@ -47,7 +36,7 @@ fn a_pluck_falls_where_it_is_pointed() {
     assert_eq!(only.time, 4800);
     let Gesture::Pluck { position, force, .. } = only.gesture else { unreachable!("they are all plucks") };
     assert!((position - 0.4).abs() < 1e-6 && (force - 0.7).abs() < 1e-6);
-    assert!(above(&played.strings[0][at(0.3)..], 50.0).abs() < 5.0, "the open string");
+    assert!(off_key(&played.strings[0][at(0.3)..], 50.0).abs() < 5.0, "the open string");
 }
 
 #[test]
@@ -65,7 +54,7 @@ fn a_finger_stops_the_string_slides_and_leaves() {
     let played = stage.play(&events, 3.4);
     let sound = &played.strings[0];
     for (from, to, key) in [(0.3, 1.0, 55.0), (1.5, 2.2, 57.0), (2.5, 3.4, 50.0)] {
-        let off = above(&sound[at(from)..at(to)], key);
+        let off = off_key(&sound[at(from)..at(to)], key);
         assert!(off.abs() < 8.0, "{off} cents from key {key}");
     }
     let placed = played.gestures.iter().filter(|g| matches!(g.gesture, Gesture::Throw { .. })).count();
@@ -99,10 +88,10 @@ fn a_note_takes_the_string_back() {
         3.0,
     );
     let sound = &played.strings[0];
-    let off = above(&sound[at(0.6)..at(1.2)], 52.0);
+    let off = off_key(&sound[at(0.6)..at(1.2)], 52.0);
     assert!(off.abs() < 8.0, "{off} cents from its key");
     // Plucked while the note was being damped: the dampers and the note's finger leave, and it rings open.
-    assert!(above(&sound[at(1.8)..], 50.0).abs() < 5.0);
+    assert!(off_key(&sound[at(1.8)..], 50.0).abs() < 5.0);
     assert!(peak(&sound[at(2.8)..]) > 0.02);
 }
 
@@ -125,20 +114,20 @@ fn nonsense_does_no_harm() {
     events.push((3.0, pluck(place, 0.8)));
     let sound = &stage.play(&events, 4.0).strings[0];
     assert!(sound.iter().all(|sample| sample.is_finite()));
-    assert!(above(&sound[at(3.2)..], 50.0).abs() < 5.0);
+    assert!(off_key(&sound[at(3.2)..], 50.0).abs() < 5.0);
 }
 
 #[test]
 fn a_capo_is_a_nut_for_those_who_point_too() {
     let (mut stage, place) = string();
     let sound = &stage.play(&[(0.0, cc(26, 3)), (0.1, pluck(place, 0.7))], 1.0).strings[0];
-    let off = above(&sound[at(0.2)..], 53.0);
+    let off = off_key(&sound[at(0.2)..], 53.0);
     assert!(off.abs() < 8.0, "{off} cents");
     // A finger that comes and goes leaves it there.
     let finger = stage.instrument.geometry(0).finger_position(7);
     let events = [(0.0, cc(26, 3)), (0.1, press(finger)), (0.8, touched(StringDeed::Lift))];
     let sound = &stage.play(&[&events[..], &[(0.9, pluck(place, 0.7))]].concat(), 1.8).strings[0];
-    let off = above(&sound[at(1.0)..], 53.0);
+    let off = off_key(&sound[at(1.0)..], 53.0);
     assert!(off.abs() < 8.0, "{off} cents");
 }
 
@@ -157,7 +146,7 @@ fn a_capo_that_is_leaving_comes_back() {
         ];
         for (pointed, from) in [(&plucked[..], 0.6), (&pressed[..], 0.8)] {
             let sound = &stage.play(&[&note[..], pointed].concat(), from + wait + 0.9).strings[0];
-            let off = above(&sound[at(from + wait)..], 53.0);
+            let off = off_key(&sound[at(from + wait)..], 53.0);
             assert!(off.abs() < 8.0, "after {wait} s: {off} cents");
         }
     }

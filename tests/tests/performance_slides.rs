@@ -4,22 +4,13 @@
 use low_action::performance::{InputMode, PlayerEvent};
 use low_action_dsp::Gesture;
 use low_action_tests::hands::{EXACT, Neck, play};
-use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{LOOK, Stage, cc, decibels, hertz, off, on, peak};
+use low_action_tests::pitch::off_key;
+use low_action_tests::stage::{LOOK, Stage, at, cc, decibels, off, on, peak};
 
 const RATE: f64 = 48_000.0;
 
-fn at(seconds: f64) -> usize {
-    (seconds * RATE) as usize
-}
-
 fn wheel(value: f32) -> PlayerEvent {
     PlayerEvent::PitchBend { channel: 0, value }
-}
-
-/// How far a sound is off a key, cents.
-fn off_pitch(sound: &[f32], key: f64) -> f64 {
-    cents(frequency_near(sound, RATE, hertz(key)), hertz(key))
 }
 
 /// The wheel has slid the finger to the very fret of the next note, which is then that note's own.
@@ -31,29 +22,8 @@ fn a_note_where_the_wheel_has_slid_the_finger_counts_from_there() {
     let mut stage = Stage::alone("electric", 1);
     let sound = &stage.play(&[&octave[..], &slid, &back].concat(), 2.4).strings[0];
     for (from, to, key) in [(0.5, 0.8, 65.0), (1.0, 1.3, 70.0), (1.5, 1.8, 65.0), (2.0, 2.4, 60.0)] {
-        let off = off_pitch(&sound[at(from)..at(to)], key);
+        let off = off_key(&sound[at(from)..at(to)], key);
         assert!(off.abs() < 8.0, "from {from} s: {off} cents off {key}");
-    }
-}
-
-/// The open string after a muted note: the finger that rests on it leaves, and it sounds.
-#[test]
-fn an_open_string_sounds_after_a_muted_note() {
-    for (fret, capo) in [(1, 0), (5, 3)] {
-        let events = [
-            (0.0, cc(26, capo)),
-            (0.0, cc(23, 2)),
-            (0.0, on(59 + fret, 100)),
-            (0.3, cc(23, 0)),
-            (0.3, cc(68, 127)),
-            (0.4, on(59 + capo, 100)),
-        ];
-        let sound = &Stage::alone("electric", 1).play(&events, 1.2).strings[0];
-        let heard = &sound[at(0.6)..];
-        let level = decibels(peak(heard));
-        assert!(level > -30.0, "capo {capo}: {level} dB");
-        let off = off_pitch(heard, f64::from(59 + capo));
-        assert!(off.abs() < 8.0, "capo {capo}: {off} cents");
     }
 }
 

@@ -6,13 +6,9 @@ use low_action::performance::PlayerEvent;
 use low_action_dsp::{Gesture, Setup};
 use low_action_tests::numbers::{largest, smallest};
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{Stage, amplitude, cc, decibels, hertz, off, on, peak};
+use low_action_tests::stage::{Stage, amplitude, at, cc, decibels, hertz, off, on, peak};
 
 const RATE: f64 = 48_000.0;
-
-fn at(seconds: f64) -> usize {
-    (seconds * RATE) as usize
-}
 
 /// Time in which a partial (Hz) falls by 60 dB, s, from its level in 60 ms after two moments.
 fn t60(sound: &[f32], frequency: f64, [from, to]: [f64; 2]) -> f64 {
@@ -138,17 +134,6 @@ fn the_palm_shortens_notes_tenfold() {
         let sound = &stage.play(&later, 3.0).strings[0];
         assert!(t60(sound, pitch, [0.6, 0.7]) < 0.2 * plain, "{setup} {string}");
         assert!(t60(sound, pitch, [1.4, 2.9]) > 0.7 * plain, "{setup} {string}");
-    }
-}
-
-#[test]
-fn a_resting_finger_leaves_a_knock() {
-    for (setup, string, open) in &STRINGS[..5] {
-        let mut stage = Stage::alone(setup, *string);
-        let sound = &stage.play(&[(0.0, cc(23, 2)), (0.0, on(open + 5, 100))], 0.5).strings[0];
-        assert!(peak(sound) > 0.01);
-        let down = decibels(peak(&sound[at(0.15)..at(0.25)]) / peak(&sound[..at(0.05)]));
-        assert!(down < -20.0, "{setup} {string}: {down} dB after 150 ms");
     }
 }
 
