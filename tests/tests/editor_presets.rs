@@ -54,12 +54,15 @@ fn one_is_chosen_as_its_maker_left_it() {
 fn nothing_of_the_last_one_is_left() {
     let mut desk = Desk::new();
     let setter = ParamSetter::new(&*desk.host);
+    let mut changed = 0;
     for (_, param, group) in desk.params.param_map() {
         if ["Set-up", "Strings", "Player"].iter().any(|of| group.starts_with(of)) {
             // SAFETY: the pointers lead into the parameters, which the desk keeps.
             unsafe { setter.raw_context.raw_set_parameter_normalized(param, 0.3) };
+            changed += 1;
         }
     }
+    assert!(changed > 20, "only {changed} belong to the last one");
     desk.click(desk.named("›"));
     desk.wait(0.1);
     save(&mut desk, "As it comes");

@@ -69,6 +69,9 @@ fn nothing_subnormal_comes_out() {
         let mut host = Host::new();
         host.choose_ports(1);
         let found = host.perform(RATE, &score, 96_000, &[512], 8);
+        // (What is asked for comes after the first note has begun.)
+        assert!(found.stereo[0].iter().any(|&sample| sample != 0.0), "nothing sounds: {settings:?}");
+        assert_eq!(found.stems.len(), 8);
         let all = found.stereo.iter().chain(&found.stems).flatten();
         assert!(all.into_iter().all(|sample| !sample.is_subnormal()), "{settings:?}");
     }

@@ -106,6 +106,9 @@ fn without_loss_all_of_it_comes_back() {
         let taken = 2.0 * MASS * rate / (TENSION * DENSITY).sqrt();
         let [least, most, _] = range(&come_back(rate, 1.0, 0.0));
         println!("{rate} Hz: {least:.5} to {most:.5}, of which the string may have taken {taken:.1e}");
-        assert!(least > 1.0 - 1.01 * taken && most < 1.0, "{rate} Hz: {least} to {most}, {taken} taken at most");
+        assert!(
+            least > 1.0 - 1.01 * taken && most < 1.0,
+            "{rate} Hz: {least} to {most}, {taken} taken at most"
+        );
     }
 }
