@@ -1,6 +1,8 @@
 //! The plain string that the fast one is compared with gives the numbers worked by hand on three points.
 
-use low_action_tests::dense::{Finger, Fret, Fretboard, Law, Placement, Pluck, Reference, Setup, Stencil, straight_weights, weights};
+use low_action_tests::dense::{
+    Finger, Fret, Fretboard, Law, Placement, Pluck, Reference, Setup, Stencil, straight_weights, weights,
+};
 use low_action_tests::numbers::largest;
 use std::f64::consts::{LN_2, PI};
 
@@ -34,7 +36,13 @@ fn three_points() -> Setup {
         shape: vec![[1.0, 0.0], [2.0, 8.0], [3.0, 0.0]],
         fretboard: None,
         // Ends at t = 0: from −1/2 to 1/2 it pushes by 6 N in the mean, for ∫ (1 − cos πτ)/2 dτ from 1/2 to 1 is 1/4 + 1/(2π).
-        plucks: vec![Pluck { start: -1.0, duration: 1.0, release: 0.0, position: 1.0, force: 6.0 / (0.25 + 0.5 / PI) }],
+        plucks: vec![Pluck {
+            start: -1.0,
+            duration: 1.0,
+            release: 0.0,
+            position: 1.0,
+            force: 6.0 / (0.25 + 0.5 / PI),
+        }],
         fingers: vec![],
     }
 }

@@ -24,11 +24,12 @@ fn the_palm_comes_back_after_the_thumb() {
         let bare = fallen(&note, 0.0);
         let muted = fallen(&[&[(0.0, cc(20, 100))], &note[..]].concat(), 0.0);
         println!("stroke {stroke}: {muted:.1} dB under the palm, {bare:.1} dB without");
-        assert!(muted > bare + 15.0, "stroke {stroke}: {muted} dB under the palm, {bare} dB without");
+        // 85 dB more of a slap, 106 of a pinch.
+        assert!(muted > bare + 70.0, "stroke {stroke}: {muted} dB under the palm, {bare} dB without");
         // The same for one that is laid on while the thumb is there.
         let later = fallen(&[&note[..], &[(0.003, cc(20, 100))]].concat(), 0.0);
         println!("stroke {stroke}: {later:.1} dB under one that comes later");
-        assert!(later > bare + 15.0, "stroke {stroke}: {later} dB, {bare} dB without");
+        assert!(later > bare + 70.0, "stroke {stroke}: {later} dB, {bare} dB without");
     }
 }
 
@@ -59,8 +60,9 @@ fn no_partial_rings_on_under_a_palm() {
             let rings = |n: u32| decibels(amplitude(&sound[at(0.45)..at(0.95)], RATE, above(n)));
             let loudest = (0..1500).map(rings).fold(f64::NEG_INFINITY, f64::max);
             println!("{setup} {string}, palm {palm}: {:.1} dB below the stroke", stroke - loudest);
+            // 56 dB below it or more on the bass, 90 on guitars.
             assert!(
-                loudest < stroke - 50.0,
+                loudest < stroke - 54.0,
                 "{setup} {string}, palm {palm}: a partial of {loudest} dB after a stroke of {stroke} dB"
             );
         }
@@ -75,6 +77,7 @@ fn a_tremolo_of_pinches_or_slaps_stays_muted() {
         let last = 3.0 / (3.0 + 17.0 * 30.0 / 127.0);
         let bare = fallen(&tremolo, last);
         let muted = fallen(&[&[(0.0, cc(20, 100))], &tremolo[..]].concat(), last);
+        println!("stroke {stroke}: {muted:.1} dB under the palm, {bare:.1} dB without");
         assert!(muted > bare + 12.0, "stroke {stroke}: {muted} dB under the palm, {bare} dB without");
     }
 }

@@ -124,11 +124,15 @@ fn open_and_stopped_strings_follow_velocity_alike() {
     everywhere(|mut string| {
         let name = string.name.clone();
         let mut loudness = |fret, velocity| decibels(peak(&string.note(fret, velocity, 0.1, 0.0)));
-        for (velocity, most) in [(20, 6.0), (64, 9.0), (110, 9.0)] {
+        // The place of the pluck is another part of a shorter string, and frets give some of it back. That is 4.7 dB at most either
+        // way, of 12 strings at three frets each.
+        let most = 6.0;
+        for velocity in [20, 64, 110] {
             let open = loudness(0, velocity);
             for fret in [1, 5, 12] {
                 let stopped = loudness(fret, velocity);
                 let difference = stopped - open;
+                println!("{name} fret {fret} at {velocity}: {difference:.1} dB louder than the open string");
                 assert!(difference.abs() < most, "{name} fret {fret} at {velocity}: {difference:.1} dB");
             }
         }

@@ -50,8 +50,10 @@ fn a_short_note_ends_without_a_click() {
                     let here = format!(
                         "{setup} {string}, fret {fret} after {before}, velocity {velocity}, {length} s"
                     );
-                    assert!(soon < note + 9.0, "{here}: {soon} dB soon after a note of {note} dB");
-                    assert!(late < note - 12.0, "{here}: {late} dB later, after a note of {note} dB");
+                    println!("{here}: {:.1} dB soon, {:.1} dB later", soon - note, late - note);
+                    // At most 6.6 dB, of the bass's E1, whose finger comes down after its key is up; and later −16.7 dB.
+                    assert!(soon < note + 8.0, "{here}: {soon} dB soon after a note of {note} dB");
+                    assert!(late < note - 15.0, "{here}: {late} dB later, after a note of {note} dB");
                 }
             }
         }
@@ -79,8 +81,13 @@ fn a_quick_figure_is_as_loud_as_a_slow_one() {
                 let slow = third(0.6);
                 for length in [0.04, 0.06, 0.08, 0.125] {
                     let quick = third(length);
+                    println!(
+                        "{setup} {string}, {frets:?}, velocity {velocity}, {length} s: {:.1} dB louder",
+                        quick - slow
+                    );
+                    // At most 5.5 dB either way: what is left of the note before is in step with this one or against it.
                     assert!(
-                        (quick - slow).abs() < 9.0,
+                        (quick - slow).abs() < 7.0,
                         "{setup} {string}, frets {frets:?}, velocity {velocity}, {length} s each: {quick} dB, slowly {slow} dB"
                     );
                 }

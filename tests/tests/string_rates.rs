@@ -178,8 +178,9 @@ fn one_multiple_takes_over_from_another() {
         let off = rms(&difference[..960]) / rms(&expected[..960]);
         let level = 20.0 * (rms(&found[9600..]) / rms(&expected[9600..])).log10();
         println!("{from} to {to}: {off:.3} off at first, {level:+.2} dB later");
-        assert!(off < 0.25, "{from} to {to}: {off}");
-        assert!(level.abs() < 3.0, "{from} to {to}: {level} dB");
+        // Found are 0.10 at most, of what turns by so much of a radian in 20 ms from `live` to `studio`, and 0.10 dB.
+        assert!(off < 0.13, "{from} to {to}: {off}");
+        assert!(level.abs() < 0.3, "{from} to {to}: {level} dB");
         for string in 0..instrument.string_count() {
             let ledger = instrument.ledger(string).expect("it is open");
             let worst = ledger.worst_residual;
