@@ -276,9 +276,12 @@ mod tests {
             let places = (0.45 / model.grid.spacing) as usize;
             let [here, next] = [places, places + 1].map(|node| scratch.displacement[model.grid.cell(node)]);
             let slope = -string.tension * (next - here) / model.grid.spacing;
-            assert!(wrapped < 0.3 * slope && slope < -0.1, "it lies on the bridge: {wrapped} of {slope} N");
+            // Nine tenths of the force and more are the bridge's: 0.906 at 48 kHz, where the end sees the most of what bends it close by.
+            assert!(wrapped < 0.9 * slope && slope < -0.4, "it lies on the bridge: {wrapped} of {slope} N");
+            // Straight pieces leave nothing out, and after 60 times 1/σ₀ nothing moves. The solver stops at penetrations of 1e-15 m,
+            // T/h times which are some 1e-11 N at each point.
             assert!(
-                (end + wrapped - slope).abs() < 1e-6,
+                (end + wrapped - slope).abs() < 1e-10,
                 "{rate} Hz: {end} and {wrapped}, {slope} N before it"
             );
         }
