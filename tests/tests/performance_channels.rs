@@ -250,11 +250,11 @@ fn a_strum_goes_no_farther_than_silence() {
 
 /// Tension in semitones, as it was last asked for before a sample.
 fn bent_by(gestures: &[TimedGesture], time: u64) -> f64 {
-    let ratios = gestures.iter().filter(|g| g.time < time).filter_map(|g| match g.gesture {
+    let mut ratios = gestures.iter().filter(|g| g.time < time).filter_map(|g| match g.gesture {
         Gesture::Bend { tension_ratio, .. } => Some(tension_ratio),
         _ => None,
     });
-    6.0 * ratios.last().unwrap_or(1.0).log2()
+    6.0 * ratios.next_back().unwrap_or(1.0).log2()
 }
 
 /// An open string.

@@ -80,11 +80,11 @@ fn capo_and_keyswitches_stay_where_they_are() {
 
 /// Force of the finger on the string, N, as last asked for.
 fn pressed(gestures: &[TimedGesture]) -> Option<f64> {
-    let forces = gestures.iter().filter_map(|g| match g.gesture {
+    let mut forces = gestures.iter().filter_map(|g| match g.gesture {
         Gesture::Press { force, .. } => Some(force),
         _ => None,
     });
-    forces.last()
+    forces.next_back()
 }
 
 /// Where strings go on, so do the fingers: with the new hands, and under a capo as far as the new neck goes.
