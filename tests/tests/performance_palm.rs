@@ -78,7 +78,7 @@ fn a_tremolo_of_pinches_or_slaps_stays_muted() {
         let bare = fallen(&tremolo, last);
         let muted = fallen(&[&[(0.0, cc(20, 100))], &tremolo[..]].concat(), last);
         println!("stroke {stroke}: {muted:.1} dB under the palm, {bare:.1} dB without");
-        assert!(muted > bare + 12.0, "stroke {stroke}: {muted} dB under the palm, {bare} dB without");
+        assert!(muted > bare + 70.0, "stroke {stroke}: {muted} dB under the palm, {bare} dB without");
     }
 }
 

@@ -30,14 +30,15 @@ const STRINGS: [(&str, usize, u8); 5] =
 
 /// The way down takes from a third of a period to six of them; where it took whole ones at constant speed, harder taps were up
 /// to 14 dB softer. What is left comes from where partials stand: what is thrown at the string strikes it where the finger is,
-/// what gathers speed where the fret is.
+/// what gathers speed where the fret is. From the softest to the hardest they become louder by 9.3 dB (`classical`, fret 12) to
+/// 28.7 dB (D3 of `electric`, fret 12).
 #[test]
 fn a_harder_tap_is_louder() {
     for (setup, string, open) in STRINGS {
         let mut stage = Stage::alone(setup, string);
         for fret in [2, 5, 9, 12] {
-            let mut loudest = f64::NEG_INFINITY;
-            for velocity in (7..=127).step_by(12) {
+            let (mut softest, mut hardest, mut loudest) = (None, 0.0, f64::NEG_INFINITY);
+            for velocity in [1].into_iter().chain((7..=127).step_by(12)) {
                 let events = [(0.0, cc(22, 7)), (0.02, on(open + fret, velocity))];
                 let sound = &stage.play(&events, 0.14).strings[0];
                 let heard = level(&sound[(0.03 * RATE) as usize..(0.13 * RATE) as usize]);
@@ -46,7 +47,15 @@ fn a_harder_tap_is_louder() {
                     "{setup} {string}, fret {fret}: {heard} dB at {velocity}, {loudest} before"
                 );
                 loudest = loudest.max(heard);
+                softest = softest.or(Some(heard));
+                hardest = heard;
             }
+            let range = hardest - softest.expect("it has been tapped");
+            println!("{setup} {string}, fret {fret}: {range:.2} dB from the softest to the hardest");
+            assert!(
+                (9.0..29.0).contains(&range),
+                "{setup} {string}, fret {fret}: {range} dB from the softest to the hardest"
+            );
         }
     }
 }
