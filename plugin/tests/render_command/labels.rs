@@ -1,10 +1,11 @@
 //! Labels stand alone, are the same on every run, and change nothing.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use low_action::engine::{Engine, EngineOptions, Record};
 use low_action::midi_file::{Selection, Song};
-use low_action_dsp::{Gesture, Setup};
+use low_action_dsp::{Gesture, Setup, Touch};
 use serde_json::Value;
 
 use crate::room::{Room, midi, song};
@@ -123,12 +124,27 @@ fn what_could_not_be_played_as_written_is_counted() {
     assert_eq!(pitches.collect::<Vec<_>>(), [(Some(20), Some(44.0)), (Some(64), Some(64.0))]);
 }
 
-/// The song as the program plays it, kept.
-fn record(rate: u32, seconds: f64) -> Record {
+/// All kinds of notes and gestures, in five eighths of a second.
+const ALL: [(u8, &[u8]); 11] = [
+    (0, &[0xB0, 68, 127]),
+    (0, &[0x90, 57, 90]),
+    (24, &[0x90, 59, 90]),
+    (24, &[0xB0, 65, 127]),
+    (0, &[0x90, 62, 90]),
+    (24, &[0xE0, 0, 80]),
+    (24, &[0x80, 62, 0]),
+    (0, &[0x80, 59, 0]),
+    (0, &[0x80, 57, 0]),
+    (24, &[0xB0, 22, 4]),
+    (0, &[0x90, 40, 90]),
+];
+
+/// A song as the program plays it, kept.
+fn record(song: &[u8], rate: u32, seconds: f64) -> Record {
     let options = EngineOptions::new(Setup::shipped("electric").unwrap(), f64::from(rate));
     let mut engine = Engine::new(&options).unwrap();
     engine.record();
-    for event in Song::from_midi(&song(), Selection::default()).unwrap().events {
+    for event in Song::from_midi(song, Selection::default()).unwrap().events {
         engine.event(event.time.sample(rate) as u32, event.event);
     }
     let [mut left, mut right] = [(); 2].map(|()| vec![0.0; (seconds * f64::from(rate)) as usize]);
@@ -139,42 +155,74 @@ fn record(rate: u32, seconds: f64) -> Record {
 #[test]
 fn numbers_are_to_the_last_bit_what_the_strings_are_given() {
     let room = Room::new();
-    room.renders(&["song.mid", "--tail", "2", "--labels", "song.json"]);
-    let text = read(&room, "song.json").0;
-    let mut given = record(48_000, 2.25).gestures;
-    given.sort_by_key(|gesture| (gesture.time, gesture.string));
-    let (_, written) = text.split_once("\"gestures\":[").unwrap();
-    let lines: Vec<&str> = written.lines().filter(|line| line.starts_with("{\"string\"")).collect();
-    assert!(lines.len() > 15 && lines.len() == given.len(), "{} and {}", lines.len(), given.len());
+    fs::write(room.path("all.mid"), midi(&ALL)).unwrap();
     let number = |line: &str, key: &str| {
         let (_, rest) = line.split_once(&format!("\"{key}\":"))?;
         rest.split([',', '}']).next()?.parse::<f64>().ok()
     };
-    for (line, given) in lines.iter().zip(&given) {
-        assert_eq!(number(line, "sample"), Some(given.time as f64), "{line}");
-        assert_eq!(number(line, "string"), Some(given.string as f64 + 1.0), "{line}");
-        let numbers: &[(&str, f64)] = &match given.gesture {
-            Gesture::Pluck { position, force, duration, release } => {
-                vec![("position", position), ("force", force), ("duration", duration), ("release", release)]
+    let mut kinds = BTreeSet::new();
+    for (name, song, seconds) in [("song.mid", song(), 2.25), ("all.mid", midi(&ALL), 2.625)] {
+        room.renders(&[name, "--tail", "2", "--labels", "song.json"]);
+        let text = read(&room, "song.json").0;
+        let mut given = record(&song, 48_000, seconds).gestures;
+        given.sort_by_key(|gesture| (gesture.time, gesture.string));
+        let (_, written) = text.split_once("\"gestures\":[").unwrap();
+        let lines: Vec<&str> = written.lines().filter(|line| line.starts_with("{\"string\"")).collect();
+        assert!(lines.len() > 15 && lines.len() == given.len(), "{} and {}", lines.len(), given.len());
+        for (line, given) in lines.iter().zip(&given) {
+            assert_eq!(number(line, "sample"), Some(given.time as f64), "{line}");
+            assert_eq!(number(line, "string"), Some(given.string as f64 + 1.0), "{line}");
+            let (kind, numbers) = said_of(given.gesture);
+            assert!(line.contains(&format!("\"gesture\":\"{kind}\"")), "{kind}: {line}");
+            for (key, value) in numbers {
+                assert_eq!(number(line, key).map(f64::to_bits), Some(value.to_bits()), "{key} of {line}");
             }
-            Gesture::Place { finger, touch, position, clearance } => vec![
-                ("finger", finger as f64 + 1.0),
-                ("mass", touch.mass),
-                ("stiffness", touch.stiffness),
-                ("exponent", touch.exponent),
-                ("damping", touch.damping),
-                ("hand_damping", touch.hand_damping),
-                ("position", position),
-                ("clearance", clearance),
-            ],
-            Gesture::Press { finger, force, duration } | Gesture::Lift { finger, force, duration } => {
-                vec![("finger", finger as f64 + 1.0), ("force", force), ("duration", duration)]
-            }
-            Gesture::Still { loss, duration } => vec![("loss", loss), ("duration", duration)],
-            other => panic!("{other:?} is not in this song"),
-        };
-        for &(key, value) in numbers {
-            assert_eq!(number(line, key).map(f64::to_bits), Some(value.to_bits()), "{key} of {line}");
+            kinds.insert(kind);
+        }
+    }
+    assert!(kinds.into_iter().eq(KINDS), "not all kinds of gestures");
+}
+
+/// All kinds of gestures.
+const KINDS: [&str; 8] = ["bend", "lift", "place", "pluck", "press", "slide", "still", "throw"];
+
+/// What labels call a gesture, and its numbers as they have them.
+fn said_of(gesture: Gesture) -> (&'static str, Vec<(&'static str, f64)>) {
+    let finger = |finger| ("finger", finger as f64 + 1.0);
+    let touched = |touch: Touch| {
+        [
+            ("mass", touch.mass),
+            ("stiffness", touch.stiffness),
+            ("exponent", touch.exponent),
+            ("damping", touch.damping),
+            ("hand_damping", touch.hand_damping),
+        ]
+    };
+    match gesture {
+        Gesture::Pluck { position, force, duration, release } => (
+            "pluck",
+            vec![("position", position), ("force", force), ("duration", duration), ("release", release)],
+        ),
+        Gesture::Place { finger: slot, touch, position, clearance } => {
+            let where_it_is = [finger(slot), ("position", position), ("clearance", clearance)];
+            ("place", [&where_it_is[..], &touched(touch)].concat())
+        }
+        Gesture::Throw { finger: slot, touch, position, clearance, speed } => {
+            let thrown = [finger(slot), ("position", position), ("clearance", clearance), ("speed", speed)];
+            ("throw", [&thrown[..], &touched(touch)].concat())
+        }
+        Gesture::Press { finger: slot, force, duration } => {
+            ("press", vec![finger(slot), ("force", force), ("duration", duration)])
+        }
+        Gesture::Lift { finger: slot, force, duration } => {
+            ("lift", vec![finger(slot), ("force", force), ("duration", duration)])
+        }
+        Gesture::Slide { finger: slot, position, duration } => {
+            ("slide", vec![finger(slot), ("position", position), ("duration", duration)])
+        }
+        Gesture::Still { loss, duration } => ("still", vec![("loss", loss), ("duration", duration)]),
+        Gesture::Bend { tension_ratio, duration } => {
+            ("bend", vec![("tension_ratio", tension_ratio), ("duration", duration)])
         }
     }
 }
@@ -182,21 +230,7 @@ fn numbers_are_to_the_last_bit_what_the_strings_are_given() {
 #[test]
 fn every_key_is_documented() {
     let room = Room::new();
-    // All kinds of notes and gestures.
-    let events: [(u8, &[u8]); 11] = [
-        (0, &[0xB0, 68, 127]),
-        (0, &[0x90, 57, 90]),
-        (24, &[0x90, 59, 90]),
-        (24, &[0xB0, 65, 127]),
-        (0, &[0x90, 62, 90]),
-        (24, &[0xE0, 0, 80]),
-        (24, &[0x80, 62, 0]),
-        (0, &[0x80, 59, 0]),
-        (0, &[0x80, 57, 0]),
-        (24, &[0xB0, 22, 4]),
-        (0, &[0x90, 40, 90]),
-    ];
-    fs::write(room.path("all.mid"), midi(&events)).unwrap();
+    fs::write(room.path("all.mid"), midi(&ALL)).unwrap();
     room.renders(&["all.mid", "--labels", "all.json"]);
     let labels = read(&room, "all.json").1;
     let page = include_str!("../../../docs/formats.md");
@@ -216,10 +250,7 @@ fn every_key_is_documented() {
     let mut used = words("gestures", "gesture");
     used.sort();
     used.dedup();
-    assert_eq!(
-        used,
-        ["bend", "lift", "place", "pluck", "press", "slide", "still", "throw"].map(String::from).as_slice()
-    );
+    assert_eq!(used, KINDS);
     let told = [words("notes", "technique"), words("notes", "stop"), words("notes", "end_by"), used].concat();
     told.iter()
         .for_each(|word| assert!(documented(word) || section.contains(&format!("`\"{word}\"`")), "{word}"));
