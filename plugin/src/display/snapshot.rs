@@ -105,7 +105,7 @@ impl Default for Snapshot {
 
 impl Snapshot {
     /// One of such strings.
-    #[cfg(test)]
+    #[cfg(all(test, feature = "editor"))]
     pub(crate) fn of(strings: Vec<StringSeen>) -> Self {
         Self { count: strings.len(), strings, ..Self::default() }
     }
