@@ -225,6 +225,11 @@ fn fingers_energy(fingers: &[Option<Finger>], next: &Field, now: &Field) -> f64 
         .fold(0.0, add)
 }
 
+/// Energy of tension modulation at the sample the last step led from, J: EA/(8L)·(∫(∂ₓu)² dx)².
+pub fn stretch_energy(model: &Model, scratch: &Scratch) -> f64 {
+    string::stretch_energy(model, scratch.stretching())
+}
+
 /// ΣM̃/2(δu_f)², J.
 fn fingers_motion(model: &Model, fingers: &[Option<Finger>]) -> f64 {
     let k = model.grid.time_step;

@@ -61,15 +61,6 @@ pub fn stretch_tension(model: &Model, scratch: &Scratch) -> f64 {
     string.axial_stiffness() / (2.0 * string.length * model.grid.spacing) * scratch.stretching()
 }
 
-/// Energy stored by it at n, J: EA/(8L)·(∫(∂ₓu)² dx)², likewise.
-pub fn stretch_energy(model: &Model, scratch: &Scratch) -> f64 {
-    if model.coasting.stretch == 0.0 {
-        return 0.0;
-    }
-    let (string, squares) = (&model.string, scratch.stretching() / model.grid.spacing);
-    string.axial_stiffness() / (8.0 * string.length) * squares * squares
-}
-
 /// The pickups of a set-up over one string, and how much of each is heard.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PickupMix {

@@ -33,6 +33,24 @@ fn a_muted_note_is_a_knock() {
     }
 }
 
+#[test]
+fn nothing_of_it_is_left_after_150_milliseconds() {
+    let strings = [
+        ("electric", 0, 64),
+        ("electric", 2, 55),
+        ("electric", 5, 40),
+        ("classical", 0, 64),
+        ("steel", 5, 40),
+    ];
+    for (setup, string, open) in strings {
+        let mut stage = Stage::alone(setup, string);
+        let sound = &stage.play(&[(0.0, cc(23, 2)), (0.0, on(open + 5, 100))], 0.5).strings[0];
+        assert!(peak(sound) > 0.01);
+        let down = decibels(peak(&sound[at(0.15)..at(0.25)]) / peak(&sound[..at(0.05)]));
+        assert!(down < -20.0, "{setup} {string}: {down} dB after 150 ms");
+    }
+}
+
 /// The open string after a muted note: the finger that rests on it leaves, and it sounds.
 #[test]
 fn an_open_string_sounds_after_a_muted_note() {

@@ -1,8 +1,6 @@
 //! Promise: where the sound takes more time than there is, contacts are solved less exactly, in real time alone and
 //! only if allowed, and the sound never breaks; offline it is as exact as was asked for, however long it takes.
 
-use std::time::Instant;
-
 use low_action_dsp::Setup;
 use low_action_tests::host::{Action, Host, Score, parameter};
 use low_action_tests::session::{packed, unpacked};
@@ -59,16 +57,13 @@ fn play(mut host: Host, relax: f64) -> Vec<f32> {
 
 #[test]
 fn only_in_real_time_and_only_if_allowed() {
-    let begun = Instant::now();
     let exact = play(Host::new(), 0.0);
-    let times = begun.elapsed().as_secs_f64() / (LENGTH as f64 / RATE);
     assert!(level(&exact[9600..]) > -60.0, "nothing sounds");
     assert!(exact == play(Host::new(), 1.0), "relaxed offline");
     assert!(exact == play(Host::in_real_time(), 0.0), "relaxed though it is not allowed");
     let relaxed = play(Host::in_real_time(), 1.0);
-    // That it is relaxed, and what it sounds like then, is tested with a clock that can be set in
-    // `plugin/src/plugin/playing/tests.rs`. Here it is only where this machine has taken far longer than there was.
-    println!("it takes {times:.1} times as long as it lasts");
-    assert!(times < 4.0 || exact != relaxed, "never relaxed");
+    // No machine is ten times as fast as one of today. (What it sounds like then depends on when it begins: with a clock that
+    // can be set that is tested in `plugin/src/plugin/playing/tests.rs`.)
+    assert!(exact != relaxed, "never relaxed");
     assert!(relaxed.iter().all(|sample| sample.is_finite()));
 }

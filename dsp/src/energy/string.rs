@@ -42,12 +42,17 @@ pub(super) fn string_energy(model: &Model, stiffness: &Stiffness, shapes: &Shape
         let shear = slopes(motion, motion);
         energy -= 0.5 * string.linear_density * string.loss_1 / (h * k) * shear;
     }
-    let stretched = if string.tension_modulation {
-        string.axial_stiffness() / (8.0 * string.length * h * h) * slope * slope
+    (energy, stretch_energy(model, slope))
+}
+
+/// Energy of tension modulation, J, where the squared differences between neighbours sum up to so much, m².
+pub(super) fn stretch_energy(model: &Model, squares: f64) -> f64 {
+    let (string, h) = (&model.string, model.grid.spacing);
+    if string.tension_modulation {
+        string.axial_stiffness() / (8.0 * string.length * h * h) * squares * squares
     } else {
         0.0
-    };
-    (energy, stretched)
+    }
 }
 
 /// Energy of tension, bending and the stencil's correction between two displacements, J.

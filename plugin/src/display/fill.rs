@@ -1,7 +1,8 @@
 //! How a snapshot is filled from an engine.
 
+use low_action_dsp::energy::stretch_energy;
 use low_action_dsp::model::ContactKind;
-use low_action_dsp::pickup::{stretch_energy, stretch_tension};
+use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::{FINGERS_PER_STRING, Instrument};
 
 use super::Health;

@@ -56,7 +56,12 @@ impl PlayedString {
     /// stops it, N.
     pub(crate) fn pull(&self, depth: f64, stopped: usize, fret: usize) -> f64 {
         let place = self.geometry.finger_position(fret);
-        let (near, beyond) = (place - self.geometry.finger_position(stopped), self.geometry.length - place);
-        self.tension * depth * (1.0 / near + 1.0 / beyond)
+        let near = place - self.geometry.finger_position(stopped);
+        self.stiffness(near, self.geometry.length - place) * depth
+    }
+
+    /// How stiff the string is at a place with so much of it on either side, m, in N/m.
+    pub(crate) fn stiffness(&self, near: f64, beyond: f64) -> f64 {
+        self.tension * (1.0 / near + 1.0 / beyond)
     }
 }

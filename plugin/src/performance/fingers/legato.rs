@@ -121,7 +121,7 @@ impl Fingers {
             Some(anchor) => at.does(anchor.gives_way()),
             None => {}
         }
-        let pluck = self.pull(self.pressed(&old), fret, strength);
+        let pluck = self.pull_off_pluck(self.pressed(&old), fret, strength);
         at.does(pluck);
         at.does(old.lets_go(self.letting_go(pulling::letting_go(strength))));
         Some(pluck)

@@ -9,17 +9,17 @@ impl Fingers {
     /// The pluck of a finger that pulls off a place (m from the nut) to a fret, 0 for the open string: how hard, 0 to 1.
     ///
     /// It takes the string along as far as a pluck of the right hand would. Near to where the string is stopped then that asks for
-    /// more force: a string of tension T and length L, pushed at d from one end, gives way by d(L − d)/(TL) for each newton.
-    pub(super) fn pull(&self, place: f64, fret: usize, strength: f64) -> Gesture {
+    /// more force.
+    pub(super) fn pull_off_pluck(&self, place: f64, fret: usize, strength: f64) -> Gesture {
         let geometry = &self.string.geometry;
         let stop = fret.max(self.capo[1]).checked_sub(1).and_then(|index| geometry.frets.get(index));
         let stop = stop.copied().unwrap_or(0.0);
         let length = geometry.length - stop;
-        let gives_way = |d: f64| d * (length - d) / length;
-        let usual = gives_way(self.hands.pluck_position.min(FARTHEST_PLUCK * length));
-        let here = gives_way((place - stop).max(NEAREST_PLUCK));
+        let stiffness = |from_end: f64| self.string.stiffness(from_end, length - from_end);
+        let usual = stiffness(self.hands.pluck_position.min(FARTHEST_PLUCK * length));
+        let here = stiffness((place - stop).max(NEAREST_PLUCK));
         let Pull { part, hardest, duration, release } = PULL_OFF;
-        let force = part * (usual / here).clamp(1.0, hardest) * strength * self.hands.pluck_force;
+        let force = part * (here / usual).clamp(1.0, hardest) * strength * self.hands.pluck_force;
         Gesture::Pluck { position: place, force, duration, release }
     }
 }
