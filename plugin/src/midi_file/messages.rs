@@ -3,10 +3,7 @@
 use std::fmt;
 
 use super::{LARGEST_FILE, SongEvent};
-use crate::performance::PlayerEvent;
-
-/// A registered parameter that is none: both halves 127.
-const NO_PARAMETER: (u8, u8) = (127, 127);
+use crate::performance::{ChosenParameter, PlayerEvent};
 
 /// Why bytes are not a song.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -184,21 +181,19 @@ fn with_notes(events: &[SongEvent]) -> [bool; 16] {
 /// parameters and 0 in the lower one. (The lower half of parameter 2 means nothing.)
 pub(super) fn tuning_not_followed(events: &[SongEvent]) -> Option<SongWarning> {
     let has_notes = with_notes(events);
-    let mut parameters = [NO_PARAMETER; 16];
+    let mut parameters = [ChosenParameter::NONE; 16];
     let mut asked = false;
     for event in events {
         let PlayerEvent::Controller { channel, number, value } = event.event else { continue };
         let channel = usize::from(channel & 15);
-        let parameter = &mut parameters[channel];
         let value = (127.0 * value).round() as u8;
-        match (number, *parameter) {
-            (101, _) => parameter.0 = value,
-            (100, _) => parameter.1 = value,
-            (98 | 99 | 121, _) => *parameter = NO_PARAMETER,
-            (6, (0, 1 | 2)) => asked |= has_notes[channel] && value != 64,
-            (38, (0, 1)) => asked |= has_notes[channel] && value != 0,
-            _ => {}
-        }
+        parameters[channel].hear(number, value);
+        asked |= has_notes[channel]
+            && match (number, parameters[channel].number()) {
+                (6, Some(ChosenParameter::FINE_TUNING | ChosenParameter::COARSE_TUNING)) => value != 64,
+                (38, Some(ChosenParameter::FINE_TUNING)) => value != 0,
+                _ => false,
+            };
     }
     asked.then_some(SongWarning::TuningNotFollowed)
 }

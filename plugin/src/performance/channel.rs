@@ -2,6 +2,7 @@
 //! controllers say of notes to come.
 
 use super::articulation::Articulation;
+use super::parameter::ChosenParameter;
 use super::string::Manner;
 use super::technique::{BRIGHTNESS_REACH, FIRMEST};
 
@@ -12,14 +13,13 @@ const WIDEST_RANGE: f64 = 96.0;
 pub(super) mod controller {
     /// Data entry, upper half.
     pub const DATA_ENTRY: u8 = 6;
+    /// Its lower half.
+    pub const DATA_ENTRY_LOWER: u8 = 38;
     /// Fret of the capo.
     pub const CAPO: u8 = 26;
     /// First of the keyswitches.
     pub const SWITCHES: u8 = 27;
 }
-
-/// A parameter number with nothing behind it: both halves 127.
-const NO_PARAMETER: (u8, u8) = (127, 127);
 
 /// State of one channel.
 #[derive(Debug, Clone)]
@@ -48,8 +48,8 @@ pub(crate) struct Channel {
     range: (f64, f64),
     /// Whether that was announced: what is announced counts in MPE, too, even if it is what was set up.
     announced: bool,
-    /// The registered parameter that data entry sets: upper and lower half.
-    parameter: (u8, u8),
+    /// The registered parameter that data entry sets.
+    parameter: ChosenParameter,
 }
 
 /// What a controller asks of the strings.
@@ -99,7 +99,7 @@ impl Channel {
             usual_range: range,
             range: (range, 0.0),
             announced: false,
-            parameter: NO_PARAMETER,
+            parameter: ChosenParameter::NONE,
         }
     }
 
@@ -174,6 +174,7 @@ impl Channel {
 
     /// Moves a controller (value 0 to 127).
     pub(crate) fn set_controller(&mut self, number: u8, value: u8) -> Request {
+        self.parameter.hear(number, value);
         match number {
             1 => {
                 self.manner.vibrato = f64::from(value) / 127.0;
@@ -196,39 +197,10 @@ impl Channel {
                 self.manner.place = (64.0 - f64::from(value)) / 64.0 * BRIGHTNESS_REACH;
                 Request::None
             }
-            // Data entry for the MPE configuration message: so many member channels, 0 for none.
-            controller::DATA_ENTRY if self.parameter == (0, 6) => {
-                self.members = Some(value.min(15));
-                Request::None
-            }
-            controller::DATA_ENTRY | 38 if self.ignores_range => Request::None,
-            // Data entry: the reach of the wheel is registered parameter 0, in semitones and cents.
-            controller::DATA_ENTRY if self.parameter == (0, 0) => {
-                self.range = (f64::from(value).min(WIDEST_RANGE), 0.0);
-                self.announced = true;
-                Request::Bend
-            }
-            38 if self.parameter == (0, 0) => {
-                self.range.1 = f64::from(value).min(99.0);
-                self.announced = true;
-                Request::Bend
-            }
+            controller::DATA_ENTRY | controller::DATA_ENTRY_LOWER => self.enter_data(number, value),
             64 => {
                 let was_down = std::mem::replace(&mut self.pedal, value >= 64);
                 if was_down && !self.pedal { Request::PedalUp } else { Request::None }
-            }
-            // A non-registered parameter takes data entry away from the registered one.
-            98 | 99 => {
-                self.parameter = NO_PARAMETER;
-                Request::None
-            }
-            100 => {
-                self.parameter.1 = value;
-                Request::None
-            }
-            101 => {
-                self.parameter.0 = value;
-                Request::None
             }
             20 | 25 => {
                 self.articulation.set_controller(number, value);
@@ -245,7 +217,6 @@ impl Channel {
                 self.articulation = Articulation::PLAIN;
                 self.swell = [1.0; 2];
                 self.wheel = 0.0;
-                self.parameter = NO_PARAMETER;
                 Request::Reset
             }
             // All notes off, and the four mode messages that imply it.
@@ -255,6 +226,25 @@ impl Channel {
                 Request::None
             }
         }
+    }
+
+    /// Takes the upper or the lower half of what the chosen parameter is set to.
+    fn enter_data(&mut self, half: u8, value: u8) -> Request {
+        match (self.parameter.number(), half) {
+            // So many member channels, 0 for none.
+            (Some(ChosenParameter::MEMBERS), controller::DATA_ENTRY) => {
+                self.members = Some(value.min(15));
+                return Request::None;
+            }
+            _ if self.ignores_range => return Request::None,
+            (Some(ChosenParameter::WHEEL), controller::DATA_ENTRY) => {
+                self.range = (f64::from(value).min(WIDEST_RANGE), 0.0);
+            }
+            (Some(ChosenParameter::WHEEL), _) => self.range.1 = f64::from(value).min(99.0),
+            _ => return Request::None,
+        }
+        self.announced = true;
+        Request::Bend
     }
 }
 
