@@ -14,7 +14,7 @@ use midly::{EventIter, MetaMessage, MidiMessage, TrackEventKind};
 use crate::performance::{Expression, PlayerEvent, announces_mpe};
 use crate::pitch_wheel;
 use chunks::Chunks;
-pub use messages::{MidiFileError, SongWarning};
+pub use messages::{CutOff, MidiFileError, SongWarning};
 pub use timing::SongTime;
 use timing::{Clock, Division};
 
@@ -38,6 +38,8 @@ pub struct Selection {
     /// Whether the drum channel is one like any other: a string's, or in MPE a note's. In a song that announces
     /// MPE it always is.
     pub tenth: bool,
+    /// Whether what is there of a last track that is cut off is played, with a warning; else such a file is refused.
+    pub truncated: bool,
 }
 
 /// An event at its exact time.
@@ -72,11 +74,9 @@ impl Song {
             return Err(MidiFileError::NoSuchTrack { asked, count: chunks.tracks.len() });
         }
         let (division, song) = (chunks.division, Song::empty());
-        let cut = chunks.cut.map(|_| chunks.tracks.len() - 1);
-        let mut reader = Reader { selection, division, cut, no_tempos: 0, found: Vec::new(), song };
-        if let Some([expected, found]) = chunks.cut {
-            reader.song.warnings.push(SongWarning::CutOff { track: chunks.tracks.len(), expected, found });
-        }
+        let mut reader =
+            Reader { selection, division, cut: chunks.cut, no_tempos: 0, found: Vec::new(), song };
+        reader.song.warnings.extend(chunks.cut.map(SongWarning::CutOff));
         if chunks.left_out > 0 {
             let (announced, left_out) = (chunks.tracks.len(), chunks.left_out);
             reader.song.warnings.push(SongWarning::TracksLeftOut { announced, left_out });
@@ -150,8 +150,8 @@ fn announces_more(rest: &[u8]) -> bool {
 struct Reader {
     selection: Selection,
     division: Division,
-    /// Index of the track whose end is not there, if there is one.
-    cut: Option<usize>,
+    /// The track whose last bytes are not there, if there is one.
+    cut: Option<CutOff>,
     /// Changes to a tempo that is none, passed over.
     no_tempos: usize,
     /// Everything that is for a player, in order of time, and whether it is selected.
@@ -167,6 +167,7 @@ impl Reader {
     /// Decodes the events of one track.
     fn track(&mut self, index: usize, data: &[u8]) -> Result<Track, MidiFileError> {
         let mut track = Track { ticks: Vec::new(), end: 0 };
+        let cut_off = self.cut.filter(|cut| cut.track == index + 1);
         let mut iterator = EventIter::new(data);
         let mut running_status = None;
         let mut ended = false;
@@ -176,13 +177,12 @@ impl Reader {
                 break;
             }
             let Some(Ok(event)) = iterator.next() else {
-                if self.cut == Some(index) {
-                    ended = true;
+                if cut_off.is_some() {
                     break;
                 }
                 return Err(MidiFileError::BadEvent { track: index + 1, offset });
             };
-            if iterator.unread().is_empty() && announces_more(&data[offset..]) && self.cut != Some(index) {
+            if iterator.unread().is_empty() && announces_more(&data[offset..]) && cut_off.is_none() {
                 return Err(MidiFileError::BadEvent { track: index + 1, offset });
             }
             // Many files carry running status across a meta event, though the standard ends it there.
@@ -208,8 +208,12 @@ impl Reader {
             };
             track.ticks.extend(kind.map(|kind| Tick { at: track.end, kind }));
         }
-        if !ended && self.cut != Some(index) {
-            self.song.warnings.push(SongWarning::NoEndOfTrack { track: index + 1 });
+        // A track that has its end announces too much, and nothing is missing.
+        match cut_off {
+            _ if ended => {}
+            Some(cut) if !self.selection.truncated => return Err(MidiFileError::CutOff(cut)),
+            Some(_) => {}
+            None => self.song.warnings.push(SongWarning::NoEndOfTrack { track: index + 1 }),
         }
         Ok(track)
     }

@@ -1,14 +1,14 @@
 //! The promise: every Standard MIDI File plays, every event at its exact sample; what is no such file is
 //! refused in one line, and no bytes at all make the reader panic or hang.
 
-use low_action::midi_file::{LARGEST_FILE, Selection, Song, SongWarning};
+use low_action::midi_file::{CutOff, LARGEST_FILE, Selection, Song, SongWarning};
 use low_action::performance::PlayerEvent;
 use low_action_tests::cases::cases;
 use low_action_tests::midi::{END, file, tempo, track};
 use proptest::prelude::*;
 
 const RATE: u32 = 48_000;
-const ALL: Selection = Selection { track: None, channel: None, tenth: false };
+const ALL: Selection = Selection { track: None, channel: None, tenth: false, truncated: false };
 
 fn read(bytes: &[u8]) -> Song {
     Song::from_midi(bytes, ALL).expect("the file is good")
@@ -195,17 +195,20 @@ fn what_is_no_midi_file_is_refused() {
     }
 }
 
-/// A download that broke off is the same music up to there, as long as no whole track is missing: it plays, and says that it
-/// is cut off. With a track less it would be other music, and is refused.
+/// Every truncation is refused. A download that broke off is the same music up to there, as long as no whole track is missing:
+/// whoever asks for it hears that, and is told so. With a track less it would be other music.
 #[test]
-fn a_last_track_that_is_cut_off_plays_and_every_other_truncation_is_refused() {
+fn every_truncation_is_refused_and_a_last_track_that_is_cut_off_plays_if_asked_for() {
     let notes = track(&[(0, &[0x90, 60, 100]), (96, &[0x80, 60, 0]), (0, &[0x90, 62, 100])]);
     let data = notes.len();
     let whole = file(1, 96, &[notes.clone(), notes]);
     for length in 0..whole.len() {
         let there = (length + data).saturating_sub(whole.len());
+        let bytes = &whole[..length];
+        let asked_for = Song::from_midi(bytes, Selection { truncated: true, ..ALL });
+        let message = refused(bytes);
         if there > 0 {
-            let song = read(&whole[..length]);
+            let song = asked_for.expect("something is there");
             // The first track, and of the second the events that are whole.
             let keys: Vec<u8> = note_ons(&song).into_iter().map(|(_, key)| key).collect();
             let expected: &[u8] = match there {
@@ -214,14 +217,16 @@ fn a_last_track_that_is_cut_off_plays_and_every_other_truncation_is_refused() {
                 _ => &[60, 60, 62, 62],
             };
             assert_eq!(keys, expected, "{there} bytes of the last track");
-            assert_eq!(song.warnings, [SongWarning::CutOff { track: 2, expected: data, found: there }]);
-            let told = song.warnings[0].to_string();
-            assert!(told.starts_with("truncated MIDI file: track 2 announces"), "{told}");
+            let cut = CutOff { track: 2, expected: data, found: there };
+            assert_eq!(song.warnings, [SongWarning::CutOff(cut)]);
+            let told = format!("truncated MIDI file: track 2 announces {data} bytes, {there} are left");
+            assert!(song.warnings[0].to_string().starts_with(&told), "{}", song.warnings[0]);
+            assert_eq!(message, format!("{told} (--allow-truncated plays what they hold)"));
             continue;
         }
-        let message = refused(&whole[..length]);
         let expected = if length < 4 { "MIDI file" } else { "truncated MIDI file" };
         assert!(message.contains(expected), "{length} bytes: {message}");
+        assert_eq!(asked_for.expect_err("a whole track is missing").to_string(), message);
     }
 }
 

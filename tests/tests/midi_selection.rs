@@ -5,7 +5,7 @@ use low_action::performance::PlayerEvent;
 use low_action_tests::midi::{file, tempo, track};
 
 const RATE: u32 = 48_000;
-const ALL: Selection = Selection { track: None, channel: None, tenth: false };
+const ALL: Selection = Selection { track: None, channel: None, tenth: false, truncated: false };
 
 /// Samples and keys of the note-ons.
 fn note_ons(song: &Song) -> Vec<(u64, u8)> {

@@ -100,10 +100,10 @@ fn penetration_falls_with_stiffness_as_energy_has_it() {
 }
 
 /// The paper's K and exponent give micrometres: a grid point of mass ρh = 26 mg at the speeds that this pluck
-/// has, 1 to 2.5 m/s, sinks in by 1.3 to 2.3 µm. With an exponent of 1, where the same K would be stored within 1e-9 m, a
-/// contact of 1.5e14 N/m is the steepest that is told from rounding at this rate, and not made softer.
+/// has, 1 to 2.5 m/s, sinks in by 1.3 to 2.3 µm. With an exponent of 1 that is 1e-9 m and less, where a wall may be as steep: at four
+/// times the rate walls of 1.5e14 N/m are told from rounding and not made softer.
 #[test]
-fn the_paper_s_limit_is_kept_with_another_exponent() {
+fn the_paper_s_limit_is_kept_with_another_exponent_and_rate() {
     let grid = Simulation::new(&plucked(1.0)).expect("the scene can be built").string(0).model.grid;
     let depth = |speed: f64| (0.5 * 5.25e-3 * grid.spacing * speed * speed * 3.3 / 1e15).powf(1.0 / 3.3);
     let (paper, ..) = sink(&with_law(1e15, 2.3));
@@ -114,7 +114,8 @@ fn the_paper_s_limit_is_kept_with_another_exponent() {
     assert!(laws.clone().count() > 0);
     laws.for_each(|law| assert_eq!(law.stiffness(), 1.5e14));
     let (linear, ..) = sink(&scene);
-    assert!(linear < 2e-9, "{linear} m with an exponent of 1");
+    println!("{linear:.2e} m with an exponent of 1");
+    assert!(linear < 1e-9, "{linear} m with an exponent of 1");
 }
 
 /// With losses the string no longer reaches the frets after a while.

@@ -1,5 +1,5 @@
 //! Promise: the tap of the paper's Figures 4 and 5. The finger pins the string against the board and flies off;
-//! without losses energy is kept to 1e-13 over the paper's span; and what the finger does not bring back is in
+//! without losses energy is kept to 1e-13, over the paper's span and two hundred times as long; and what the finger does not bring back is in
 //! the string.
 
 use low_action_dsp::curve::{Curve, OneOrEach};
@@ -53,10 +53,13 @@ fn the_finger_touches_once_pins_the_string_in_several_pieces_and_flies_off() {
 }
 
 /// What an inexact solution may put in is limited to 1e-12 of the energy in all. Over the 50 ms of the figure
-/// there are some hundred contacts, each to about 1e-15.
+/// there are some hundred contacts, each to about 1e-15. What rounding does later goes to and fro: docs/paper.md has 6.6e-14 after a
+/// minute.
 #[test]
 fn without_losses_energy_is_kept() {
     let scene = scene("figure_5");
+    assert_eq!(scene.duration, 0.05);
+    let scene = shortened(&scene, 10.0);
     let tap = tap(&scene);
     println!("changed by {:.1e} over {} s", tap.change, scene.duration);
     assert!(tap.change <= 1e-13, "changed by {:e}", tap.change);

@@ -1,6 +1,6 @@
 //! Tuning, from rendered sound at 48 kHz, `live`: the first partial between 0.25 and 1.35 s after a note
-//! at velocity 60 lies within 3 cents of equal temperament on every fret of every string of every
-//! set-up, open strings within 1; and every semitone on a bare board within 10.
+//! at velocity 60 lies within a cent of equal temperament on every fret and every open string of every
+//! set-up; and every semitone on a bare board within 10.
 
 use std::f64::consts::TAU;
 
@@ -79,8 +79,7 @@ fn check(name: &str) {
     let setup = Setup::builtin(name).unwrap();
     for (string, errors) in setup.string.iter().zip(all_errors(&setup)) {
         for (fret, error) in errors.iter().enumerate() {
-            let limit = if fret == 0 { 1.0 } else { 3.0 };
-            assert!(error.abs() <= limit, "{name} {} fret {fret}: {error:.2} cents off", string.name);
+            assert!(error.abs() <= 1.0, "{name} {} fret {fret}: {error:.2} cents off", string.name);
         }
     }
 }

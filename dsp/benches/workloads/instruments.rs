@@ -1,9 +1,8 @@
 //! Whole instruments, as they are played.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
-
 use low_action_dsp::{EngineSettings, Instrument, Quality, Setup};
 
+use super::SAMPLES;
 use super::chord::{fret, lowest_strings, pluck, stop};
 
 /// `live`, but every string takes one step in a sample.
@@ -16,8 +15,8 @@ fn instrument(setup: &Setup, settings: &EngineSettings) -> Instrument {
     Instrument::new(setup, settings).expect("it can be built")
 }
 
-/// Frets (0: none) and plucks every string, and plays on for a tenth of a second. Returns the hash of the sound.
-fn begin(setup: &Setup, instrument: &mut Instrument, rate: f64, behind: impl Fn(usize) -> usize) -> u64 {
+/// Frets (0: none) and plucks every string, and plays on for a tenth of a second.
+fn begin(setup: &Setup, instrument: &mut Instrument, rate: f64, behind: impl Fn(usize) -> usize) {
     for string in 0..instrument.string_count() {
         stop(instrument, setup, string, behind(string)).expect("there is room");
         pluck(instrument, setup, string).expect("there is room");
@@ -25,9 +24,15 @@ fn begin(setup: &Setup, instrument: &mut Instrument, rate: f64, behind: impl Fn(
     let samples = (0.1 * rate) as usize;
     let (mut left, mut right) = (vec![0.0f32; samples], vec![0.0; samples]);
     instrument.process(&mut left, &mut right);
-    let mut hasher = DefaultHasher::new();
-    left.iter().chain(&right).for_each(|sample| sample.to_bits().hash(&mut hasher));
-    hasher.finish()
+}
+
+/// The checksum (CRC-32) of what is timed of an instrument: the samples as they are on every machine, left and right.
+fn checksum(mut instrument: Instrument) -> u32 {
+    let (mut left, mut right) = (vec![0.0f32; SAMPLES], vec![0.0; SAMPLES]);
+    instrument.process(&mut left, &mut right);
+    let mut hasher = crc32fast::Hasher::new();
+    left.iter().chain(&right).for_each(|sample| hasher.update(&sample.to_le_bytes()));
+    hasher.finalize()
 }
 
 /// How the strings of the chord are computed.
@@ -39,13 +44,14 @@ pub enum Steps {
     One,
 }
 
-/// Six strings fretted and ringing, and the hash of how they began.
-pub fn chord(rate: f64, steps: Steps) -> (Instrument, u64) {
+/// Six strings fretted and ringing, and the checksum of how they go on.
+pub fn chord(rate: f64, steps: Steps) -> (Instrument, u32) {
     let settings = if steps == Steps::Live { Quality::Live.settings(rate) } else { alike(rate) };
     let setup = lowest_strings(6);
     let mut instrument = instrument(&setup, &settings);
-    let hash = begin(&setup, &mut instrument, rate, fret);
-    (instrument, hash)
+    begin(&setup, &mut instrument, rate, fret);
+    let checksum = checksum(instrument.clone());
+    (instrument, checksum)
 }
 
 /// So many open strings, all ringing: the lowest again and again, so that they are alike.

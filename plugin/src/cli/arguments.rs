@@ -65,6 +65,9 @@ pub struct RenderArgs {
     /// Play only this channel, 1 to 16; registered parameters (bend ranges, MPE) of all channels count.
     #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=16))]
     pub channel: Option<u8>,
+    /// Play what is there of a song whose last track is cut off, instead of refusing it.
+    #[arg(long)]
+    pub allow_truncated: bool,
     /// What channels mean: auto (MPE if the song announces it, or else keyboard), keyboard (string and fret are
     /// chosen for each note), strings (each channel is a string, as guitar controllers send), mpe (each note has a
     /// channel, channel 1 acts on all).

@@ -105,6 +105,7 @@ fn read_song(arguments: &RenderArgs) -> Result<Song> {
         track: arguments.track.map(usize::from),
         channel: arguments.channel,
         tenth: matches!(arguments.input, InputChoice::Strings | InputChoice::Mpe),
+        truncated: arguments.allow_truncated,
     };
     let Some(path) = &arguments.song else {
         return Song::from_midi(demo::MIDI, selection).with_context(|| song_name(arguments));

@@ -1,7 +1,7 @@
 //! The outer shape of a MIDI file: header, tracks, and the ways they can be broken.
 
-use super::MidiFileError;
 use super::timing::Division;
+use super::{CutOff, MidiFileError};
 
 /// The checked parts of a file.
 pub(super) struct Chunks<'a> {
@@ -13,8 +13,8 @@ pub(super) struct Chunks<'a> {
     pub tracks: Vec<&'a [u8]>,
     /// Tracks after those that the header announces.
     pub left_out: usize,
-    /// Bytes that the last track announces and has, where the file ends before it does.
-    pub cut: Option<[usize; 2]>,
+    /// The last track, where the file ends before it does.
+    pub cut: Option<CutOff>,
 }
 
 impl<'a> Chunks<'a> {
@@ -49,7 +49,7 @@ impl<'a> Chunks<'a> {
                     if number == announced && rest.len() > 8 && rest.starts_with(b"MTrk") =>
                 {
                     let (_, data) = std::mem::take(&mut rest).split_at(8);
-                    cut = Some([expected, data.len()]);
+                    cut = Some(CutOff { track: number, expected, found: data.len() });
                     (&b"MTrk"[..], data)
                 }
                 other => other?,

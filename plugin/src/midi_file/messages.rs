@@ -5,6 +5,24 @@ use std::fmt;
 use super::{LARGEST_FILE, SongEvent};
 use crate::performance::{ChosenParameter, PlayerEvent};
 
+/// A last track of which the file does not have all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CutOff {
+    /// Track, counted from 1.
+    pub track: usize,
+    /// Bytes it announces.
+    pub expected: usize,
+    /// Bytes it has.
+    pub found: usize,
+}
+
+impl fmt::Display for CutOff {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { track, expected, found } = self;
+        write!(out, "truncated MIDI file: track {track} announces {expected} bytes, {found} are left")
+    }
+}
+
 /// Why bytes are not a song.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum MidiFileError {
@@ -24,6 +42,9 @@ pub enum MidiFileError {
         /// Bytes found.
         found: usize,
     },
+    /// The file ends before its last track does, and nobody asked for what is there.
+    #[error("{0} (--allow-truncated plays what they hold)")]
+    CutOff(CutOff),
     /// The header counts more tracks than there are.
     #[error("truncated MIDI file: the header's count of tracks is {expected}, and {found} can be found")]
     MissingTracks {
@@ -85,14 +106,7 @@ pub enum SongWarning {
         left_out: usize,
     },
     /// The file ends before its last track does.
-    CutOff {
-        /// Track, counted from 1.
-        track: usize,
-        /// Bytes it announces.
-        expected: usize,
-        /// Bytes it has.
-        found: usize,
-    },
+    CutOff(CutOff),
     /// Volume or pan are set to something, which does nothing.
     NotFollowed {
         /// Whether controller 7 is, on a channel that has notes, to other than 100.
@@ -131,10 +145,7 @@ impl fmt::Display for SongWarning {
                     "the header announces {announced} of {there} tracks: the last {left_out} left out"
                 )
             }
-            Self::CutOff { track, expected, found } => write!(
-                out,
-                "truncated MIDI file: track {track} announces {expected} bytes, {found} are left; what they hold is played"
-            ),
+            Self::CutOff(cut) => write!(out, "{cut}; what they hold is played"),
             Self::NotFollowed { volume, pan } => {
                 let [which, instead] = match (volume, pan) {
                     (true, false) => ["controller 7 (volume) is", "11, or gain in a set-up file"],

@@ -77,6 +77,7 @@ fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
     let room = Room::new();
     let whole = song();
     fs::write(room.path("cut.mid"), &whole[..20]).unwrap();
+    fs::write(room.path("last.mid"), &whole[..whole.len() - 9]).unwrap();
     fs::write(room.path("text.mid"), "not music").unwrap();
     fs::write(room.path("none.mid"), b"MThd\0\0\0\x06\0\x01\0\0\0\x60").unwrap();
     fs::write(room.path("fewer.mid"), b"MThd\0\0\0\x06\0\x01\0\x01\0\x60").unwrap();
@@ -91,6 +92,8 @@ fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
         (&["render", "text.mid"], "not a MIDI file"),
         (&["render", "empty"], "not a MIDI file"),
         (&["render", "cut.mid"], "truncated MIDI file"),
+        (&["render", "cut.mid", "--allow-truncated"], "truncated MIDI file"),
+        (&["render", "last.mid"], "9 are left (--allow-truncated plays what they hold)"),
         (
             &["render", "song.mid", "--track", "2"],
             "no track 2: the file has 1 in all, so --track takes 1 only",

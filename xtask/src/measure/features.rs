@@ -32,7 +32,7 @@ struct Arguments {
     #[arg(long, conflicts_with = "write")]
     quick: bool,
     /// Count an earlier version too and refuse over 5 % more than it takes: a tag or commit, or `auto` for the last
-    /// release, or if there is none the commit before this.
+    /// release, or if there is none where this branch left origin/main, or on that the commit before this.
     #[arg(long, value_name = "VERSION")]
     since: Option<String>,
     /// Put the table into docs/features.md.

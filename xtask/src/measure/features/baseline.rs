@@ -18,7 +18,11 @@ const WORSE: f64 = 0.05;
 /// Where the earlier version is laid out and built.
 const FOLDER: &str = "target/baseline";
 
-/// The version to compare with: the one named, or the last release before this commit, or the commit before it.
+/// The branch that versions are made from, as a clone knows it.
+const TRUNK: &str = "origin/main";
+
+/// The version to compare with: the one named, or the last release before this commit, or where this branch left the trunk, or,
+/// on the trunk itself, the commit before.
 fn version(named: &str) -> Result<String> {
     if named != "auto" {
         return git(&["rev-parse", "--verify", &format!("{named}^{{commit}}")]);
@@ -26,7 +30,11 @@ fn version(named: &str) -> Result<String> {
     if let Ok(tag) = git(&["describe", "--tags", "--abbrev=0", "--match", "v*", "HEAD^"]) {
         return git(&["rev-parse", &format!("{tag}^{{commit}}")]);
     }
-    git(&["rev-parse", "--verify", "HEAD^"])
+    let left_trunk = git(&["merge-base", "HEAD", TRUNK]).ok();
+    match left_trunk.filter(|base| git(&["rev-parse", "HEAD"]).is_ok_and(|head| head != *base)) {
+        Some(base) => Ok(base),
+        None => git(&["rev-parse", "--verify", "HEAD^"]),
+    }
 }
 
 fn git(arguments: &[&str]) -> Result<String> {
