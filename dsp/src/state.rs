@@ -94,7 +94,8 @@ impl State {
         state
     }
 
-    /// Back to rest, without allocating.
+    /// Back to rest, without allocating. The [`Scratch`](crate::Scratch) that steps it is to be reset with it: that knows by
+    /// numbers of steps what touched in the last one.
     pub fn reset(&mut self, model: &Model) {
         self.displacement.fill(0.0);
         self.motion.fill(0.0);

@@ -299,7 +299,7 @@ impl Engine {
         self.performance.announced()
     }
 
-    /// Takes it as announced to this engine, which has not played yet.
+    /// Takes it as announced to this engine, to which nothing has been since it was built or [reset](Self::reset).
     pub fn announce(&mut self, announced: &Announced) {
         self.performance.announce(announced);
     }

@@ -176,15 +176,14 @@ impl Reader {
             if offset == data.len() {
                 break;
             }
-            let Some(Ok(event)) = iterator.next() else {
+            let read = iterator.next().and_then(Result::ok);
+            let whole = |_: &_| !(iterator.unread().is_empty() && announces_more(&data[offset..]));
+            let Some(event) = read.filter(whole) else {
                 if cut_off.is_some() {
                     break;
                 }
                 return Err(MidiFileError::BadEvent { track: index + 1, offset });
             };
-            if iterator.unread().is_empty() && announces_more(&data[offset..]) && cut_off.is_none() {
-                return Err(MidiFileError::BadEvent { track: index + 1, offset });
-            }
             // Many files carry running status across a meta event, though the standard ends it there.
             if iterator.running_status().is_some() {
                 running_status = iterator.running_status();

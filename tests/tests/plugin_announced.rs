@@ -1,5 +1,6 @@
 //! Promise: what a keyboard announces once is known as long as the plugin plays in real time: it outlives another sample rate,
-//! another quality and a rendering in between. A rendering knows nothing of it: it is the same every time.
+//! another quality and a rendering in between. A rendering knows nothing of it: it is the same every time; and what a rendered file
+//! announces is forgotten with the rendering.
 
 use clack_extensions::render::RenderMode;
 use low_action_tests::host::{Action, Host, Score, parameter};
@@ -58,6 +59,26 @@ fn what_was_announced_outlives_another_rate_and_a_rendering() {
                 host.set_mode(RenderMode::Realtime);
             });
             assert!(after_rendering == expected, "announcement {which}, rendered at {quality}");
+            // What the file says itself is for the file alone, also where nothing was announced before or nothing played.
+            let file = |host: &mut Host| {
+                played(host, &vec![(0, Action::Parameter(parameter("render_quality"), quality))]);
+                host.set_mode(RenderMode::Offline);
+                for of_file in announcements() {
+                    played(host, &of_file);
+                }
+                host.set_mode(RenderMode::Realtime);
+            };
+            assert!(
+                heard(announced, file) == expected,
+                "announcement {which} and others, rendered at {quality}"
+            );
+            let mut host = Host::new();
+            played(&mut host, &vec![(0, Action::Parameter(parameter("render_quality"), quality))]);
+            for of_file in announcements() {
+                played(&mut host, &of_file);
+            }
+            host.set_mode(RenderMode::Realtime);
+            assert!(played(&mut host, &notes()) == nothing, "announced in a rendering before anything else");
         }
     }
 }

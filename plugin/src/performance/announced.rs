@@ -34,7 +34,7 @@ impl Performance {
         }
     }
 
-    /// Takes it as announced to this player, who has not played yet.
+    /// Takes it as announced to this player, to whom nothing has been since the last [reset](Performance::reset).
     pub fn announce(&mut self, announced: &Announced) {
         for (channel, &Channel { reach, members }) in self.channels.iter_mut().zip(&announced.channels) {
             channel.take_reach(reach);

@@ -142,12 +142,21 @@ pub(super) fn translate(
     }
 }
 
-/// Lifts the keys meant.
+/// Controller by which a channel lets go of all its keys.
+const ALL_NOTES_OFF: u8 = 123;
+
+/// Lifts the keys meant: of one key a press, of all keys of a channel every one.
 fn lift(address: Address, voices: &mut Voices, mut send: impl FnMut(PlayerEvent)) {
     let lifted = address.voice.id().and_then(|id| voices.lift(id));
     let Some((channels, keys)) = address.notes(voices, lifted) else { return };
+    if single(&keys).is_none() {
+        voices.lift_keys(&channels, &keys);
+    }
     for channel in channels {
-        keys.clone().for_each(|key| send(PlayerEvent::NoteOff { channel, key }));
+        send(match single(&keys) {
+            Some(key) => PlayerEvent::NoteOff { channel, key },
+            None => PlayerEvent::Controller { channel, number: ALL_NOTES_OFF, value: 0.0 },
+        });
     }
 }
 

@@ -82,9 +82,13 @@ impl Playing {
         self.order == best && self.asked.is_none()
     }
 
-    /// Silence, as if just built.
+    /// Silence, as if just built, but for what was announced where it has played in real time and is to go on so.
     pub fn reset(&mut self, offline: bool) {
-        self.offline = offline;
+        let has_rendered = std::mem::replace(&mut self.offline, offline);
+        if has_rendered {
+            // What a file has announced is for that file.
+            self.engine.reset();
+        }
         self.reset_sound();
         self.budget.reset();
         self.meters.see_load(0.0, false);
@@ -169,7 +173,12 @@ impl Playing {
         while done < left.len() {
             self.retire();
             let left_over = (left.len() - done) as u64;
+            let before = self.order;
             let run = self.exchange(wanted).map_or(left_over, |until| until.min(left_over)) as usize;
+            if self.order != before {
+                // Hands that go on with strings of theirs act as the new set-up's from this very sample on.
+                self.follow(params);
+            }
             let span = done..done + run;
             let count = stems.len().min(super::STRING_OUTPUTS);
             let mut parts: [&mut [f32]; super::STRING_OUTPUTS] = std::array::from_fn(|_| Default::default());

@@ -88,7 +88,9 @@ fn what_was_let_go_of_with_all_others_is_let_go_of_once() {
     let controller = |channel, cc| NoteEvent::MidiCC { timing: 0, channel, cc, value: 0.0 };
     let (voice_id, key) = (VoiceID::Wildcard, Key::Wildcard);
     let wildcard = NoteEvent::NoteOff { timing: 0, voice_id, channel: Channel::Wildcard, key, velocity: 0.0 };
-    for all in [controller(2, 120), controller(2, 123), controller(2, 127), wildcard] {
+    let channel = Channel::Number(2);
+    let of_channel = NoteEvent::NoteOff { timing: 0, voice_id, channel, key, velocity: 0.0 };
+    for all in [controller(2, 120), controller(2, 123), controller(2, 127), wildcard, of_channel] {
         let mut voices = Voices::default();
         voices.begin(1, 2, 45);
         assert_eq!(translated(&mut voices, all).len(), 1);
