@@ -8,9 +8,7 @@
 
 mod gradient;
 
-use std::ops::RangeInclusive;
-
-use crate::error::Error;
+use crate::error::{Error, ranged};
 pub use gradient::Before;
 
 /// How the power x^α is taken: exponents that occur often need no general power.
@@ -47,9 +45,9 @@ struct Knee {
 
 impl ContactLaw {
     /// What a stiffness K may be, N/m^α.
-    pub(crate) const STIFFNESS: RangeInclusive<f64> = 1e-3..=1e30;
+    pub(crate) const STIFFNESS: [f64; 2] = [1e-3, 1e30];
     /// What an exponent α may be.
-    pub(crate) const EXPONENT: RangeInclusive<f64> = 1.0..=5.0;
+    pub(crate) const EXPONENT: [f64; 2] = [1.0, 5.0];
 
     /// A law of stiffness K > 0 (N/m^α) and exponent 1 ≤ α ≤ 5.
     ///
@@ -57,11 +55,8 @@ impl ContactLaw {
     /// When either is out of range; `name` says whose they are.
     pub fn new(name: &str, stiffness: f64, exponent: f64) -> Result<Self, Error> {
         // The full name is put together only for a refusal: whoever places a good finger between steps allocates nothing.
-        let within = |of, value, range: RangeInclusive<f64>, unit| {
-            crate::error::within(of, value, *range.start(), *range.end(), unit)
-        };
-        within("stiffness", stiffness, Self::STIFFNESS, "N/m^exponent")
-            .and_then(|_| within("exponent", exponent, Self::EXPONENT, ""))
+        ranged("stiffness", stiffness, Self::STIFFNESS, "N/m^exponent")
+            .and_then(|_| ranged("exponent", exponent, Self::EXPONENT, ""))
             .map_err(|error| error.under(name))?;
         Ok(Self::known(stiffness, exponent))
     }

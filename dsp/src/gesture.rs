@@ -4,9 +4,8 @@
 //! sample. The instrument turns gestures into the slowly varying forces and positions of a
 //! [`Drive`](crate::Drive); nothing here knows about MIDI.
 
-use std::ops::RangeInclusive;
-
 use crate::contact::ContactLaw;
+use crate::error::{Error, ranged};
 
 /// The parameters of one finger (or palm, or thumb): a mass on a lossy, nonlinear spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,19 +22,76 @@ pub struct Touch {
     pub hand_damping: f64,
 }
 
+/// One number of a [`Touch`].
+struct TouchNumber {
+    /// As it is called in files.
+    key: &'static str,
+    /// What it may be.
+    range: [f64; 2],
+    /// What both ends of its range are in; empty for a mere number.
+    unit: &'static str,
+    /// Where it is.
+    of: fn(&mut Touch) -> &mut f64,
+}
+
+impl TouchNumber {
+    fn value(&self, mut touch: Touch) -> f64 {
+        *(self.of)(&mut touch)
+    }
+}
+
 impl Touch {
-    /// What its mass may be, kg.
-    pub(crate) const MASS: RangeInclusive<f64> = 1e-7..=1e3;
-    /// What each of its two dampings may be, s/m and N s/m.
-    pub(crate) const DAMPING: RangeInclusive<f64> = 0.0..=1e5;
+    /// Its numbers, in the order in which they are checked.
+    const NUMBERS: [TouchNumber; 5] = [
+        TouchNumber { key: "mass", range: [1e-7, 1e3], unit: "kg", of: |touch| &mut touch.mass },
+        TouchNumber {
+            key: "stiffness",
+            range: ContactLaw::STIFFNESS,
+            unit: "N/m^exponent",
+            of: |touch| &mut touch.stiffness,
+        },
+        TouchNumber {
+            key: "exponent",
+            range: ContactLaw::EXPONENT,
+            unit: "",
+            of: |touch| &mut touch.exponent,
+        },
+        TouchNumber { key: "damping", range: [0.0, 1e5], unit: "s/m", of: |touch| &mut touch.damping },
+        TouchNumber {
+            key: "hand_damping",
+            range: [0.0, 1e5],
+            unit: "N s/m",
+            of: |touch| &mut touch.hand_damping,
+        },
+    ];
 
     /// Whether there can be such a finger: what [`Touch::check`] asks, without the words, which take memory.
     pub(crate) fn is_possible(&self) -> bool {
-        Self::MASS.contains(&self.mass)
-            && Self::DAMPING.contains(&self.damping)
-            && Self::DAMPING.contains(&self.hand_damping)
-            && ContactLaw::STIFFNESS.contains(&self.stiffness)
-            && ContactLaw::EXPONENT.contains(&self.exponent)
+        Self::NUMBERS.iter().all(|number| {
+            let [low, high] = number.range;
+            (low..=high).contains(&number.value(*self))
+        })
+    }
+
+    /// Brings all but the exponent, which no player can change, into its range.
+    pub(crate) fn limit(&mut self) {
+        for TouchNumber { range: [low, high], of, .. } in
+            Self::NUMBERS.iter().filter(|number| number.key != "exponent")
+        {
+            let value = of(self);
+            *value = value.clamp(*low, *high);
+        }
+    }
+
+    /// Refuses values outside their range; `name` says whose they are.
+    ///
+    /// # Errors
+    /// At the first of them.
+    pub fn check(&self, name: &str) -> Result<(), Error> {
+        Self::NUMBERS.iter().try_for_each(|number| {
+            let TouchNumber { key, range, unit, .. } = *number;
+            ranged(&format!("{name}.{key}"), number.value(*self), range, unit).map(drop)
+        })
     }
 }
 
@@ -46,10 +102,10 @@ pub type FingerSlot = usize;
 /// of the hand that silences it, two of the hand that plucks it, and a capo.
 pub const FINGERS_PER_STRING: usize = 7;
 
-/// The largest force of a hand either way, N: as in scenes, and far below where differences of forces overflow.
+/// The largest force of a hand either way, N, in scenes, too: far below where differences of forces overflow.
 pub const MOST_FORCE: f64 = 1e6;
 
-/// The highest place for a finger over a string, m: as in scenes.
+/// The highest place for a finger over a string, m; in scenes it is the lowest below it, too.
 pub const MOST_CLEARANCE: f64 = 10.0;
 
 /// Something a hand does to one string.

@@ -1,12 +1,9 @@
 //! What scenes may say: every value in its range, named as in the file.
 
-use std::ops::RangeInclusive;
-
 use super::{FingerSpec, FretboardSpec, ListeningPoint, Scene, SolverSettings, StringSpec};
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, MOST_COUNTED, MOST_FRETS, OneOrEach};
 use crate::error::{Error, on_string, within};
-use crate::gesture::Touch;
 use crate::model::Model;
 
 /// The most strings, plucks or fingers of a scene, a limit against descriptions that fill the memory.
@@ -172,30 +169,5 @@ impl FingerSpec {
             }
         }
         Ok(())
-    }
-}
-
-impl Touch {
-    /// Brings all but the exponent into its range.
-    pub(crate) fn limit(&mut self) {
-        for (value, range) in [
-            (&mut self.mass, Self::MASS),
-            (&mut self.stiffness, ContactLaw::STIFFNESS),
-            (&mut self.damping, Self::DAMPING),
-            (&mut self.hand_damping, Self::DAMPING),
-        ] {
-            *value = value.clamp(*range.start(), *range.end());
-        }
-    }
-
-    /// Refuses values outside their range; `name` says whose they are.
-    pub fn check(&self, name: &str) -> Result<(), Error> {
-        let ranged = |key: &str, value, range: RangeInclusive<f64>, unit| {
-            within(&format!("{name}.{key}"), value, *range.start(), *range.end(), unit)
-        };
-        ranged("mass", self.mass, Self::MASS, "kg")?;
-        ContactLaw::new(name, self.stiffness, self.exponent)?;
-        ranged("damping", self.damping, Self::DAMPING, "s/m")?;
-        ranged("hand_damping", self.hand_damping, Self::DAMPING, "N s/m").map(drop)
     }
 }
