@@ -114,14 +114,11 @@ pub(crate) fn flexible(setup: &Setup, string: &SetupString) -> StringParameters 
     }
 }
 
-/// What the tension of a string may be, N: as in scenes.
-const TENSION: [f64; 2] = [1e-3, 1e6];
-
 /// Refuses a string that its pitch takes too much or too little tension, by the number that set-ups have for it: at one pitch
 /// tension grows nearly as the density, and the limit beyond which it is lies on the safe side.
 fn bearable(string: &SetupString, tension: f64) -> Result<(), Error> {
     let density = string.linear_density;
-    let [least, most] = TENSION.map(|limit| density * (limit / tension));
+    let [least, most] = StringParameters::TENSION.map(|limit| density * (limit / tension));
     if (least..=most).contains(&density) {
         return Ok(());
     }
@@ -130,8 +127,8 @@ fn bearable(string: &SetupString, tension: f64) -> Result<(), Error> {
         // Half a percent is as much as three digits can be off by.
         1.005 * least,
         0.995 * most,
-        plain(TENSION[0]),
-        plain(TENSION[1]),
+        plain(StringParameters::TENSION[0]),
+        plain(StringParameters::TENSION[1]),
     );
     Err(Error::range("linear_density", plain(density), accepted))
 }

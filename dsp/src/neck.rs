@@ -102,7 +102,7 @@ impl Neck {
         }
         self.check_relief()?;
         ContactLaw::new("neck", self.stiffness, self.exponent)?;
-        within("neck.damping", self.damping, 0.0, 1e5, "s/m")?;
+        ranged("neck.damping", self.damping, Barrier::DAMPING, "s/m")?;
         within("neck.board_reference_spacing", self.board_reference_spacing, 1e-6, 1.0, "m").map(drop)
     }
 

@@ -12,7 +12,7 @@ use crate::curve::Curve;
 use crate::digits::{at_most, plain};
 use crate::error::{Error, ranged, within};
 use crate::intonation::Behind;
-use crate::model::Barrier;
+use crate::model::{Barrier, StringParameters};
 use crate::neck::Neck;
 pub use player::{Damper, Fretting, Player};
 
@@ -163,13 +163,11 @@ const GAP: f64 = 3.0 * EDGE;
 /// The most strings an instrument may have.
 pub const MOST_STRINGS: usize = 32;
 
-/// What the numbers may be that a luthier can change on an instrument that is made: semitones, a part, a MIDI note number,
-/// 1/s and m²/s.
+/// What the numbers may be that a luthier can change on an instrument that is made: semitones, a part and a MIDI note number.
+/// (Losses are as those of any [string](StringParameters::LOSS_0).)
 const TUNING: [f64; 2] = [-12.0, 12.0];
 const BLEND: [f64; 2] = [0.0, 1.0];
 const PITCH: [f64; 2] = [0.0, 127.0];
-const LOSS_0: [f64; 2] = [0.0, 1e4];
-const LOSS_1: [f64; 2] = [0.0, 1e2];
 
 impl Setup {
     /// Names of the built-in set-ups; the first is the default.
@@ -215,7 +213,7 @@ impl Setup {
         self.neck.limit();
         let alike = [(&mut self.tuning, TUNING), (&mut self.blend, BLEND)];
         let of_strings = self.string.iter_mut().flat_map(|SetupString { pitch, loss_0, loss_1, .. }| {
-            [(pitch, PITCH), (loss_0, LOSS_0), (loss_1, LOSS_1)]
+            [(pitch, PITCH), (loss_0, StringParameters::LOSS_0), (loss_1, StringParameters::LOSS_1)]
         });
         for (value, [low, high]) in alike.into_iter().chain(of_strings) {
             *value = value.clamp(low, high);
@@ -319,11 +317,15 @@ pub fn frequency(pitch: f64) -> f64 {
 impl SetupString {
     fn check(&self, name: &str) -> Result<(), Error> {
         ranged(&format!("{name}.pitch"), self.pitch, PITCH, "as a MIDI note number")?;
-        within(&format!("{name}.linear_density"), self.linear_density, 1e-7, 1e2, "kg/m")?;
-        within(&format!("{name}.youngs_modulus"), self.youngs_modulus, 0.0, 1e13, "Pa")?;
-        within(&format!("{name}.core_radius"), self.core_radius, 0.0, 0.1, "m")?;
-        ranged(&format!("{name}.loss_0"), self.loss_0, LOSS_0, "1/s")?;
-        ranged(&format!("{name}.loss_1"), self.loss_1, LOSS_1, "m²/s")?;
+        for (key, value, range, unit) in [
+            ("linear_density", self.linear_density, StringParameters::LINEAR_DENSITY, "kg/m"),
+            ("youngs_modulus", self.youngs_modulus, StringParameters::YOUNGS_MODULUS, "Pa"),
+            ("core_radius", self.core_radius, StringParameters::CORE_RADIUS, "m"),
+            ("loss_0", self.loss_0, StringParameters::LOSS_0, "1/s"),
+            ("loss_1", self.loss_1, StringParameters::LOSS_1, "m²/s"),
+        ] {
+            ranged(&format!("{name}.{key}"), value, range, unit)?;
+        }
         within(&format!("{name}.level"), self.level, 0.0, 100.0, "")?;
         within(&format!("{name}.pan"), self.pan, -1.0, 1.0, "").map(drop)
     }

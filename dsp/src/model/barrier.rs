@@ -3,12 +3,9 @@
 use super::{Contact, ContactKind};
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, OneOrEach};
-use crate::error::{Error, within};
+use crate::error::{Error, ranged, within};
 use crate::grid::{AT_NODE, Grid, Reading};
 use crate::scene::{FretPlacement, FretboardSpec};
-
-/// How far a board or a crown may be from the string at rest, m: ten times farther than anybody needs.
-const FARTHEST: f64 = 10.0;
 
 /// Board and frets under one string.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +25,13 @@ pub struct Barrier {
 }
 
 impl Barrier {
+    /// How far a board or a crown may be from the string at rest, m: ten times farther than anybody needs.
+    pub(crate) const FARTHEST: f64 = 10.0;
+    /// What the damping may be, s/m.
+    pub(crate) const DAMPING: [f64; 2] = [0.0, 1e5];
+    /// What the spacing may be for which the law's stiffness holds at board points, m.
+    pub(crate) const REFERENCE_SPACING: [f64; 2] = [1e-6, 1e3];
+
     /// The barrier of a scene under a string of the given length, m.
     ///
     /// # Errors
@@ -58,15 +62,15 @@ impl Barrier {
 
     /// Refuses what no barrier can have. (Whether frets are on the string is seen on its grid.)
     fn check(&self) -> Result<(), Error> {
-        within("fretboard.damping", self.damping, 0.0, 1e5, "s/m")?;
+        ranged("fretboard.damping", self.damping, Self::DAMPING, "s/m")?;
         if let Some(board) = &self.board {
-            board.check("fretboard.board", "place", -FARTHEST, FARTHEST, "m")?;
+            board.check("fretboard.board", "place", -Self::FARTHEST, Self::FARTHEST, "m")?;
         }
         for (i, [_, height]) in self.frets.iter().enumerate() {
-            within(&format!("fretboard.fret_top[{}]", i + 1), *height, -FARTHEST, FARTHEST, "m")?;
+            within(&format!("fretboard.fret_top[{}]", i + 1), *height, -Self::FARTHEST, Self::FARTHEST, "m")?;
         }
         if let Some(spacing) = self.board_reference_spacing {
-            within("fretboard.board_reference_spacing", spacing, 1e-6, 1e3, "m")?;
+            ranged("fretboard.board_reference_spacing", spacing, Self::REFERENCE_SPACING, "m")?;
         }
         Ok(())
     }

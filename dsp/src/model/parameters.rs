@@ -27,6 +27,22 @@ pub struct StringParameters {
     pub tension_modulation: bool,
 }
 
+/// What scenes and set-ups may ask for; a model bears more.
+impl StringParameters {
+    /// Mass per length, kg/m.
+    pub(crate) const LINEAR_DENSITY: [f64; 2] = [1e-7, 1e2];
+    /// Tension at rest, N.
+    pub(crate) const TENSION: [f64; 2] = [1e-3, 1e6];
+    /// Young's modulus of the core, Pa.
+    pub(crate) const YOUNGS_MODULUS: [f64; 2] = [0.0, 1e13];
+    /// Radius of the core, m.
+    pub(crate) const CORE_RADIUS: [f64; 2] = [0.0, 0.1];
+    /// Loss of all frequencies alike, 1/s.
+    pub(crate) const LOSS_0: [f64; 2] = [0.0, 1e4];
+    /// Loss that grows with frequency, m²/s.
+    pub(crate) const LOSS_1: [f64; 2] = [0.0, 1e2];
+}
+
 impl StringParameters {
     /// The string of a scene at its first moment.
     pub fn from_spec(spec: &StringSpec) -> Self {

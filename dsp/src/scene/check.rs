@@ -3,8 +3,9 @@
 use super::{FingerSpec, FretboardSpec, ListeningPoint, Scene, SolverSettings, StringSpec};
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, MOST_COUNTED, MOST_FRETS, OneOrEach};
-use crate::error::{Error, on_string, within};
-use crate::model::Model;
+use crate::error::{Error, on_string, ranged, within};
+use crate::gesture::{MOST_CLEARANCE, MOST_FORCE};
+use crate::model::{Barrier, Model, StringParameters};
 
 /// The most strings, plucks or fingers of a scene, a limit against descriptions that fill the memory.
 const MOST_THINGS: usize = 1000;
@@ -40,7 +41,7 @@ impl Scene {
             within(&format!("{name}.start"), pluck.start, 0.0, 1e9, "s")?;
             within(&format!("{name}.duration"), pluck.duration, 0.0, 1e9, "s")?;
             within(&format!("{name}.release"), pluck.release, 0.0, 1e9, "s")?;
-            within(&format!("{name}.force"), pluck.force, -1e6, 1e6, "N")?;
+            within(&format!("{name}.force"), pluck.force, -MOST_FORCE, MOST_FORCE, "N")?;
             on_string(&format!("{name}.position"), pluck.position, length)?;
         }
         for (i, finger) in self.finger.iter().enumerate() {
@@ -80,21 +81,24 @@ impl SolverSettings {
     }
 }
 
-impl StringSpec {
-    /// The largest velocity that a string may begin with, m/s, as of fingers.
-    const FASTEST: f64 = 1e3;
+/// The largest velocity that a string or a finger may begin with, m/s.
+const FASTEST: f64 = 1e3;
 
+impl StringSpec {
     /// Refuses values outside their range; `name` says which string this is.
     pub fn check(&self, name: &str) -> Result<(), Error> {
         within(&format!("{name}.length"), self.length, 1e-3, 1e3, "m")?;
-        within(&format!("{name}.linear_density"), self.linear_density, 1e-7, 1e2, "kg/m")?;
-        self.tension.check(&format!("{name}.tension"), "time", 1e-3, 1e6, "N")?;
-        within(&format!("{name}.youngs_modulus"), self.youngs_modulus, 0.0, 1e13, "Pa")?;
-        within(&format!("{name}.core_radius"), self.core_radius, 0.0, 0.1, "m")?;
-        within(&format!("{name}.loss_0"), self.loss_0, 0.0, 1e4, "1/s")?;
-        within(&format!("{name}.loss_1"), self.loss_1, 0.0, 1e2, "m²/s")?;
+        let number =
+            |key: &str, value, range, unit| ranged(&format!("{name}.{key}"), value, range, unit).map(drop);
+        number("linear_density", self.linear_density, StringParameters::LINEAR_DENSITY, "kg/m")?;
+        let [least, most] = StringParameters::TENSION;
+        self.tension.check(&format!("{name}.tension"), "time", least, most, "N")?;
+        number("youngs_modulus", self.youngs_modulus, StringParameters::YOUNGS_MODULUS, "Pa")?;
+        number("core_radius", self.core_radius, StringParameters::CORE_RADIUS, "m")?;
+        number("loss_0", self.loss_0, StringParameters::LOSS_0, "1/s")?;
+        number("loss_1", self.loss_1, StringParameters::LOSS_1, "m²/s")?;
         for (key, points, most, unit) in
-            [("shape", &self.shape, 1.0, "m"), ("velocity", &self.velocity, Self::FASTEST, "m/s")]
+            [("shape", &self.shape, 1.0, "m"), ("velocity", &self.velocity, FASTEST, "m/s")]
         {
             let Some(points) = points else { continue };
             let name = format!("{name}.{key}");
@@ -111,12 +115,12 @@ impl FretboardSpec {
     /// Refuses values outside their range.
     pub(crate) fn check(&self) -> Result<(), Error> {
         ContactLaw::new("fretboard", self.stiffness, self.exponent)?;
-        within("fretboard.damping", self.damping, 0.0, 1e5, "s/m")?;
+        ranged("fretboard.damping", self.damping, Barrier::DAMPING, "s/m")?;
         if let Some(board) = &self.board {
-            board.check("fretboard.board", "place", -10.0, 0.0, "m")?;
+            board.check("fretboard.board", "place", -Barrier::FARTHEST, 0.0, "m")?;
         }
         if let Some(spacing) = self.board_reference_spacing {
-            within("fretboard.board_reference_spacing", spacing, 1e-6, 1e3, "m")?;
+            ranged("fretboard.board_reference_spacing", spacing, Barrier::REFERENCE_SPACING, "m")?;
         }
         let count = match &self.frets {
             CountOrList::Count(count) => {
@@ -132,12 +136,14 @@ impl FretboardSpec {
             }
         };
         match &self.fret_top {
-            None if count > 0 => Err(Error::Syntax(
-                "missing key `fret_top` of [fretboard]: frets need the height of their crowns, -10 to 0 m"
-                    .into(),
-            )),
+            None if count > 0 => Err(Error::Syntax(format!(
+                "missing key `fret_top` of [fretboard]: frets need the height of their crowns, {} to 0 m",
+                -Barrier::FARTHEST
+            ))),
             None => Ok(()),
-            Some(OneOrEach::One(height)) => within("fretboard.fret_top", *height, -10.0, 0.0, "m").map(drop),
+            Some(OneOrEach::One(height)) => {
+                within("fretboard.fret_top", *height, -Barrier::FARTHEST, 0.0, "m").map(drop)
+            }
             Some(OneOrEach::Each(heights)) if heights.len() != count => Err(Error::range(
                 "fretboard.fret_top",
                 format!("{} heights", heights.len()),
@@ -145,7 +151,7 @@ impl FretboardSpec {
             )),
             Some(OneOrEach::Each(heights)) => {
                 for (i, &height) in heights.iter().enumerate() {
-                    within(&format!("fretboard.fret_top[{}]", i + 1), height, -10.0, 0.0, "m")?;
+                    within(&format!("fretboard.fret_top[{}]", i + 1), height, -Barrier::FARTHEST, 0.0, "m")?;
                 }
                 Ok(())
             }
@@ -156,9 +162,9 @@ impl FretboardSpec {
 impl FingerSpec {
     fn check(&self, name: &str, length: f64) -> Result<(), Error> {
         self.touch().check(name)?;
-        within(&format!("{name}.height"), self.height, -10.0, 10.0, "m")?;
-        within(&format!("{name}.velocity"), self.velocity, -1e3, 1e3, "m/s")?;
-        self.force.check(&format!("{name}.force"), "time", -1e6, 1e6, "N")?;
+        within(&format!("{name}.height"), self.height, -MOST_CLEARANCE, MOST_CLEARANCE, "m")?;
+        within(&format!("{name}.velocity"), self.velocity, -FASTEST, FASTEST, "m/s")?;
+        self.force.check(&format!("{name}.force"), "time", -MOST_FORCE, MOST_FORCE, "N")?;
         match &self.position {
             Curve::Constant(place) => on_string(&format!("{name}.position"), *place, length).map(drop)?,
             Curve::Points(points) => {
