@@ -171,11 +171,17 @@ impl Neck {
     /// Height of the board at `place` (m from the nut) over the string at rest, m, or nothing beyond
     /// its end.
     pub fn board_height(&self, place: f64) -> Option<f64> {
-        (place <= self.board_end()).then(|| self.crown_height(place) - self.fret_height)
+        (place <= self.board_end()).then(|| self.board_line(place))
     }
 
-    /// Places and heights of the crowns, wear included.
-    fn crowns(&self, frets: &[f64]) -> Vec<[f64; 2]> {
+    /// The same wherever the board ends.
+    pub fn board_line(&self, place: f64) -> f64 {
+        self.crown_height(place) - self.fret_height
+    }
+
+    /// Places (m from the nut) and heights (m over the string at rest, negative) of the crowns of frets at `frets`, m from the
+    /// nut, wear included.
+    pub fn crowns(&self, frets: &[f64]) -> Vec<[f64; 2]> {
         let wear = |number: usize| {
             self.worn.iter().filter(|(fret, _)| *fret == number).map(|(_, wear)| wear).sum::<f64>()
         };
@@ -192,7 +198,7 @@ impl Neck {
         let board = (0..=PIECES)
             .map(|piece| {
                 let place = end * piece as f64 / PIECES as f64;
-                [place, self.crown_height(place) - self.fret_height]
+                [place, self.board_line(place)]
             })
             .collect();
         Ok(Barrier {

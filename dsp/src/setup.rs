@@ -66,6 +66,13 @@ pub struct Bridge {
     pub radius: f64,
 }
 
+impl Bridge {
+    /// Height of its top so far from the saddle, m, over the string at rest, m: 0 at the saddle and negative elsewhere.
+    pub fn height(&self, from_saddle: f64) -> f64 {
+        -from_saddle * from_saddle / (2.0 * self.radius)
+    }
+}
+
 /// Whether an instrument is made to play in tune.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -276,7 +283,7 @@ impl Setup {
             board.extend([[self.neck.board_end() + EDGE, ABYSS], [end - bridge.length - EDGE, ABYSS]]);
             board.extend((0..=BRIDGE_PIECES).map(|piece| {
                 let from_saddle = bridge.length * (1.0 - piece as f64 / BRIDGE_PIECES as f64);
-                [end - from_saddle, -from_saddle * from_saddle / (2.0 * bridge.radius)]
+                [end - from_saddle, bridge.height(from_saddle)]
             }));
         }
         Ok(barrier)

@@ -75,12 +75,11 @@ pub fn show(ui: &mut Ui, given: &Given, string: usize) {
 fn paint_neck(painter: &Painter, profile: &Profile, setup: &Setup) {
     let neck = &setup.neck;
     let end = neck.board_end();
-    let board = |place: f64| (neck.crown_height(place) - neck.fret_height) as f32;
+    let board = |place: f64| neck.board_line(place) as f32;
     paint_ground(painter, profile, [0.0, end], board, theme::BOARD);
     if let Some(bridge) = setup.bridge {
-        // As `Setup::barrier` has it.
         let saddle = neck.scale_length;
-        let curve = |place: f64| (-(saddle - place).powi(2) / (2.0 * bridge.radius)) as f32;
+        let curve = |place: f64| bridge.height(saddle - place) as f32;
         paint_ground(
             painter,
             profile,
@@ -92,11 +91,9 @@ fn paint_neck(painter: &Painter, profile: &Profile, setup: &Setup) {
     if neck.fretless {
         return;
     }
-    for (index, place) in neck.equal_places().into_iter().enumerate() {
-        let worn: f64 = neck.worn.iter().filter(|(fret, _)| *fret == index + 1).map(|(_, wear)| wear).sum();
-        let crown = neck.crown_height(place);
-        let top = profile.at(place as f32, (crown - worn) as f32);
-        let foot = profile.at(place as f32, (crown - neck.fret_height) as f32);
+    for [place, crown] in neck.crowns(&neck.equal_places()) {
+        let top = profile.at(place as f32, crown as f32);
+        let foot = profile.at(place as f32, board(place));
         let wire = Rect::from_min_max(pos2(top.x - 3.0, top.y), pos2(top.x + 3.0, foot.y.max(top.y + 2.0)));
         let round = egui::CornerRadius { nw: 3, ne: 3, sw: 0, se: 0 };
         painter.rect_filled(wire, round, theme::BRASS);
@@ -162,7 +159,7 @@ fn show_handle(
     place: f64,
     text: String,
 ) {
-    let board = (setup.neck.crown_height(place) - setup.neck.fret_height) as f32;
+    let board = setup.neck.board_line(place) as f32;
     let at = profile.at(place as f32, board) + vec2(0.0, 14.0);
     let at = pos2(at.x, at.y.min(profile.area.bottom() - 12.0));
     let area = Rect::from_center_size(at, vec2(24.0, 20.0));
