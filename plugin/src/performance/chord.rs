@@ -19,7 +19,7 @@ use super::control::MANAGER;
 use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
 use super::string::{Manner, Start};
 use super::technique::*;
-use super::{CHANNELS, GestureSink, InputMode, Performance};
+use super::{CHANNELS, GestureSink, Performance};
 pub(super) use waiting::{Late, OwnPluck, Unplaced};
 
 /// The way of the right hand over the strings of a chord.
@@ -74,15 +74,12 @@ impl Performance {
         let Channel { articulation: Articulation { stop, .. }, forced, .. } =
             self.channels[usize::from(channel)];
         let harmonic = stop == Stop::Harmonic;
-        let only = match self.input {
-            InputMode::Strings { first, from_last } => {
-                let place = usize::from(channel).wrapping_sub(usize::from(first));
-                let last = self.strings.len().wrapping_sub(1);
-                Some(if from_last { last.wrapping_sub(place) } else { place })
-            }
-            _ => forced
+        let only = if self.is_by_strings() {
+            Some(self.input.string_of(channel, self.strings.len())?)
+        } else {
+            forced
                 .map(|(string, _)| string)
-                .filter(|&string| self.hand.reaches(string, f64::from(key), harmonic)),
+                .filter(|&string| self.hand.reaches(string, f64::from(key), harmonic))
         };
         let pitch = self.hand.playable_pitch(key, only, harmonic)?;
         Some(Wanted { channel, key, pitch, only, harmonic })

@@ -23,6 +23,26 @@ pub enum InputMode {
     Mpe,
 }
 
+impl InputMode {
+    /// The string, counted from 0, of a channel on an instrument of so many; `None` where channels are no strings, or this one
+    /// is none.
+    pub fn string_of(self, channel: u8, strings: usize) -> Option<usize> {
+        let Self::Strings { first, from_last } = self else { return None };
+        let place = usize::from(channel.checked_sub(first)?);
+        let after = strings.checked_sub(place + 1)?;
+        Some(if from_last { after } else { place })
+    }
+
+    /// The channel, counted from 0, of a string of an instrument of so many; `None` where strings have no channels, or none is
+    /// left for this one.
+    pub fn channel_of(self, string: usize, strings: usize) -> Option<u8> {
+        let Self::Strings { first, from_last } = self else { return None };
+        let after = strings.checked_sub(string + 1)?;
+        let channel = usize::from(first) + if from_last { after } else { string };
+        (channel < CHANNELS).then_some(channel as u8)
+    }
+}
+
 /// Semitones of a full turn of the wheel in MPE, while no other range is announced: of a note's own
 /// channel, and of the one that bends all.
 const MPE_RANGES: (f64, f64) = (48.0, 2.0);
@@ -264,5 +284,37 @@ impl Performance {
         self.hand.set_capo(fret);
         let fret = self.hand.capo();
         self.strings.iter_mut().for_each(|string| string.set_capo(fret));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_string_of_a_channel_has_that_channel() {
+        let mut pairs = 0;
+        for (first, from_last, strings) in
+            [(0, false, 6), (0, true, 6), (12, false, 6), (12, true, 6), (3, true, 32)]
+        {
+            let input = InputMode::Strings { first, from_last };
+            for channel in 0..CHANNELS as u8 {
+                if let Some(string) = input.string_of(channel, strings) {
+                    assert_eq!(input.channel_of(string, strings), Some(channel), "{input:?}");
+                    pairs += 1;
+                }
+            }
+            for string in 0..strings {
+                if let Some(channel) = input.channel_of(string, strings) {
+                    assert_eq!(input.string_of(channel, strings), Some(string), "{input:?}");
+                }
+            }
+            assert_eq!(input.channel_of(strings, strings), None);
+        }
+        // Of 6, 6, 4, 4 and 32 strings those that find one of 16 channels.
+        assert_eq!(pairs, 6 + 6 + 4 + 4 + 13);
+        for input in [InputMode::Auto, InputMode::Keyboard, InputMode::Mpe] {
+            assert_eq!((input.string_of(0, 6), input.channel_of(0, 6)), (None, None));
+        }
     }
 }

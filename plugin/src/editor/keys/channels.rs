@@ -4,19 +4,12 @@ use low_action_dsp::Setup;
 
 use crate::performance::InputMode;
 
-/// MIDI has so many.
-const CHANNELS: usize = 16;
-
 /// The channel, counted from 0, on which a MIDI key is played while others are taken by keys that are down: that of a string
 /// that is free and has it at the lowest fret. Where channels are no strings it is the first, and the player finds the string.
 pub(super) fn channel(input: InputMode, setup: &Setup, key: u8, taken: &[u8]) -> u8 {
-    let InputMode::Strings { first, from_last } = input else { return 0 };
+    let InputMode::Strings { first, .. } = input else { return 0 };
     let count = setup.string.len();
-    let strings = (0..count).filter_map(|string| {
-        let place = if from_last { count - 1 - string } else { string };
-        let channel = Some(usize::from(first) + place).filter(|channel| *channel < CHANNELS)?;
-        Some((string, channel as u8))
-    });
+    let strings = (0..count).filter_map(|string| Some((string, input.channel_of(string, count)?)));
     let best = strings.min_by_key(|&(string, channel)| {
         let fret = (f64::from(key) - setup.string[string].pitch).round();
         let has_it = (0.0..=setup.neck.frets as f64).contains(&fret);
