@@ -322,6 +322,13 @@ pub fn frequency(pitch: f64) -> f64 {
 }
 
 impl SetupString {
+    /// How fast a partial (1 for the lowest) of a string of such a length, m, dies away, 1/s: σ₀ + σ₁γ², with the wavenumber γ
+    /// that it has where both ends are fixed; 0 without losses.
+    pub fn decay(&self, length: f64, partial: u32) -> f64 {
+        let wavenumber = std::f64::consts::PI * f64::from(partial) / length;
+        self.loss_0 + self.loss_1 * wavenumber * wavenumber
+    }
+
     fn check(&self, name: &str) -> Result<(), Error> {
         ranged(&format!("{name}.pitch"), self.pitch, PITCH, "as a MIDI note number")?;
         for (key, value, range, unit) in [

@@ -94,12 +94,9 @@ impl EngineOptions {
     /// How long the open string that rings longest takes to be [`QUIET`] after its pluck, s; endless without losses.
     pub fn tail(&self) -> f64 {
         let length = self.setup.neck.scale_length;
-        let decay = |string: &SetupString| {
-            // The slowest partial is the lowest.
-            let wavenumber = std::f64::consts::PI / length;
-            libm::log(1.0 / QUIET) / (string.loss_0 + string.loss_1 * wavenumber * wavenumber)
-        };
-        self.setup.string.iter().map(decay).fold(0.0, f64::max)
+        // The slowest partial is the lowest.
+        let time = |string: &SetupString| libm::log(1.0 / QUIET) / string.decay(length, 1);
+        self.setup.string.iter().map(time).fold(0.0, f64::max)
     }
 
     /// Builds the two halves of an engine; allocates.

@@ -1,7 +1,5 @@
 //! What becomes of the sound: level, tuning, losses, and how long the strings ring with them.
 
-use std::f64::consts::PI;
-
 use egui::{Align2, Rect, Ui, pos2, vec2};
 use low_action_dsp::Setup;
 
@@ -36,9 +34,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
 
 /// Time in which a partial of an open string falls by 60 dB, s: infinite where it loses nothing.
 fn ringing_time(setup: &Setup, string: usize, partial: u32) -> f64 {
-    let wavenumber = PI * f64::from(partial) / setup.neck.scale_length;
-    let string = &setup.string[string];
-    1000_f64.ln() / (string.loss_0 + string.loss_1 * wavenumber * wavenumber)
+    1000_f64.ln() / setup.string[string].decay(setup.neck.scale_length, partial)
 }
 
 /// A time as it is written beside its bar.
