@@ -1,10 +1,10 @@
 //! What a player and a luthier have set, as plain numbers: the plugin's parameters, exact and free of
 //! any host's types.
 
-use low_action_dsp::Setup;
 use low_action_dsp::setup::{Pickup, Player};
+use low_action_dsp::{EngineSettings, Setup};
 
-use crate::engine::{EngineOptions, Quality};
+use crate::engine::{self, EngineOptions, Quality};
 use crate::performance::NEAREST_PLUCK;
 
 /// What cannot be changed without compiling the strings anew. All values are relative to a set-up.
@@ -83,8 +83,18 @@ impl Luthier {
     /// What an engine is built from.
     pub fn options(&self, mut setup: Setup, sample_rate: f64) -> EngineOptions {
         self.work_on(&mut setup);
-        let iterations = (self.iterations > 0).then_some(self.iterations);
-        EngineOptions { quality: self.quality, iterations, ..EngineOptions::new(setup, sample_rate) }
+        let (quality, iterations) = (self.quality, self.own_iterations());
+        EngineOptions { quality, iterations, ..EngineOptions::new(setup, sample_rate) }
+    }
+
+    /// How the instrument of such an engine is computed at a sample rate, Hz.
+    pub fn settings(&self, sample_rate: f64) -> EngineSettings {
+        engine::settings(self.quality, self.own_iterations(), sample_rate)
+    }
+
+    /// Newton iterations at most, if not as many as the quality has.
+    fn own_iterations(&self) -> Option<usize> {
+        (self.iterations > 0).then_some(self.iterations)
     }
 }
 

@@ -87,8 +87,7 @@ impl EngineOptions {
 impl EngineOptions {
     /// What they mean for the instrument.
     fn settings(&self) -> EngineSettings {
-        let settings = self.quality.settings(self.sample_rate);
-        EngineSettings { max_iterations: self.iterations.unwrap_or(settings.max_iterations), ..settings }
+        settings(self.quality, self.iterations, self.sample_rate)
     }
 
     /// How long the open string that rings longest takes to be [`QUIET`] after its pluck, s; endless without losses.
@@ -109,6 +108,13 @@ impl EngineOptions {
         let performance = Performance::new(strings, &self.setup.player, style, self.sample_rate);
         Ok((performance, instrument))
     }
+}
+
+/// How an instrument is computed at a quality and a sample rate, Hz: with so many Newton iterations at most in a solution, if not
+/// as many as the quality has.
+pub(crate) fn settings(quality: Quality, iterations: Option<usize>, sample_rate: f64) -> EngineSettings {
+    let settings = quality.settings(sample_rate);
+    EngineSettings { max_iterations: iterations.unwrap_or(settings.max_iterations), ..settings }
 }
 
 /// An event waiting for its sample.

@@ -227,9 +227,8 @@ impl Playing {
     /// Solves contacts as exactly as was ordered, or less so.
     fn set_effort(&mut self, relaxed: bool) {
         self.relaxed = relaxed;
-        let luthier = &self.order.luthier;
-        let settings = luthier.quality.settings(f64::from(self.order.sample_rate));
-        let iterations = if luthier.iterations > 0 { luthier.iterations } else { settings.max_iterations };
+        let settings = self.order.luthier.settings(f64::from(self.order.sample_rate));
+        let iterations = settings.max_iterations;
         let least = Quality::RELAXED;
         if relaxed {
             self.engine.set_effort(iterations.min(least.0), settings.tolerance.max(least.1));
