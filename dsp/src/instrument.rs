@@ -10,7 +10,7 @@ use crate::decimate::DELAY;
 use crate::drive::Drive;
 use crate::error::Error;
 use crate::gesture::TimedGesture;
-use crate::intonation::{Behind, finger_place};
+use crate::intonation::{Behind, finger_position};
 use crate::model::Model;
 use crate::observed::Observed;
 use crate::queue::Queue;
@@ -18,7 +18,7 @@ pub use crate::queue::QueueFull;
 use crate::ramp::Ramp;
 use crate::ratio::Ratio;
 use crate::settings::EngineSettings;
-use crate::setup::{Setup, tension_ratio};
+use crate::setup::Setup;
 use crate::state::State;
 use crate::string::Scratch;
 use crate::voice::{RUN, Voice};
@@ -40,18 +40,9 @@ pub struct StringGeometry {
 }
 
 impl StringGeometry {
-    /// Where a finger presses to stop a fret (1 for the first), m from the nut: one beyond the last as the last. The open string's,
-    /// and any where there are no frets, is the nut itself, 0.
+    /// [Where a finger presses](finger_position) to stop a fret (1 for the first) of this string, m from the nut.
     pub fn finger_position(&self, fret: usize) -> f64 {
-        match fret.min(self.frets.len()).checked_sub(1) {
-            Some(index) => finger_place(&self.frets, index, self.behind),
-            None => 0.0,
-        }
-    }
-
-    /// The tension that raises the string by so many semitones, as a multiple of its own.
-    pub fn tension_ratio(&self, semitones: f64) -> f64 {
-        tension_ratio(semitones)
+        finger_position(&self.frets, fret, self.behind)
     }
 }
 

@@ -342,3 +342,12 @@ pub fn finger_place(frets: &[f64], fret: usize, behind: Behind) -> f64 {
     let below = if fret == 0 { 0.0 } else { frets[fret - 1] };
     frets[fret] - behind.distance(frets[fret] - below)
 }
+
+/// Where a finger presses to stop a fret (1 for the first), m from the nut: one beyond the last as the last. The open string's,
+/// and any where there are no frets, is the nut itself, 0.
+pub fn finger_position(frets: &[f64], fret: usize, behind: Behind) -> f64 {
+    match fret.min(frets.len()).checked_sub(1) {
+        Some(index) => finger_place(frets, index, behind),
+        None => 0.0,
+    }
+}

@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use low_action::controls::Touching;
 use low_action::performance::PlayerEvent;
+use low_action_dsp::setup::tension_ratio;
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, RATE, play};
 use low_action_tests::numbers::largest;
@@ -164,7 +165,7 @@ fn a_vibrato_swings_at_5_5_hertz_by_half_a_semitone() {
     assert!((rate / 5.5 - 1.0).abs() < 0.02 / turns, "{rate} Hz over {turns} turns");
     // The nearest of fifteen goals is within 12 degrees of the peak, whose cosine is 0.978.
     let farthest = largest(pulls.iter().map(|pull| pull.1));
-    let [least, most] = [0.978, 1.0].map(|part| GUITAR.strings[0].geometry.tension_ratio(0.5 * part));
+    let [least, most] = [0.978, 1.0].map(|part| tension_ratio(0.5 * part));
     assert!((least..=most + 1e-12).contains(&farthest), "{farthest} is not between {least} and {most}");
 }
 

@@ -13,7 +13,7 @@ mod sighted;
 mod stopping;
 mod touches;
 
-use low_action_dsp::setup::{Player, frequency};
+use low_action_dsp::setup::{Player, frequency, tension_ratio};
 use low_action_dsp::{FINGERS_PER_STRING, FingerSlot, Gesture, StringGeometry, Touch};
 
 use super::articulation::Stroke;
@@ -180,7 +180,7 @@ impl Fingers {
             Some((geometry.length - crown) / geometry.length * libm::exp2(finger.fret as f64 / 12.0))
         });
         let added = crown.map_or(0.0, |ratio| ratio * ratio - 1.0);
-        let ratio = geometry.tension_ratio(semitones);
+        let ratio = tension_ratio(semitones);
         (ratio + added * (ratio - 1.0 / ratio.sqrt())).min(geometry.highest_ratio)
     }
 

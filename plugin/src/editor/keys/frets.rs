@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers};
 use low_action_dsp::Setup;
-use low_action_dsp::intonation;
+use low_action_dsp::intonation::finger_position;
 
 use crate::plugin::layout::Keyboard;
 
@@ -69,11 +69,7 @@ fn admitted(keyboard: Keyboard, setup: &Setup) -> Keyboard {
     }
 }
 
-/// Where a finger stops a fret (1 for the first), m from the nut.
+/// Where a finger stops a fret (1 for the first) of an equally tempered neck, m from the nut.
 pub(in crate::editor) fn finger_place(setup: &Setup, fret: usize) -> f64 {
-    let places = setup.neck.equal_places();
-    match fret.min(places.len()).checked_sub(1) {
-        Some(index) => intonation::finger_place(&places, index, setup.behind()),
-        None => 0.0,
-    }
+    finger_position(&setup.neck.equal_places(), fret, setup.behind())
 }
