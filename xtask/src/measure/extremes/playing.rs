@@ -136,7 +136,8 @@ fn sound(instrument: &mut Instrument) -> f64 {
 struct Flow {
     /// The ledger's sum at the last block, J.
     last: f64,
-    /// All that was put in, what was taken out again not counted off, J.
+    /// All that was put in, what was taken out again within the same block counted off, J. (What the ledger has
+    /// [booked](low_action_dsp::Ledger::put_in_gross) sample by sample is more, and would excuse more.)
     all: f64,
 }
 

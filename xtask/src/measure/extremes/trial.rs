@@ -196,7 +196,9 @@ impl Trial {
 #[derive(Debug, Clone, Copy, Default)]
 struct Balance {
     time_step: f64,
-    /// All that was put in, what was taken out again not counted off, J.
+    /// All that was put in, what was taken out again not counted off, J. (Not the sum of what
+    /// [ledgers](Ledger::put_in_gross) have booked: in a sample in which one string is given what another gives, this takes
+    /// what is left, and it ends as no number where a power is none.)
     put_in: f64,
     /// What the solver took, J.
     solver: f64,
