@@ -95,14 +95,18 @@ pub fn stopped_frequencies(
     (0..placed.frets.len()).map(sounds).collect()
 }
 
+/// The tension, N, that would tune a string of a set-up if it were flexible.
+pub fn flexible_tension(setup: &Setup, string: &SetupString) -> f64 {
+    let angular = std::f64::consts::TAU * frequency(string.pitch + setup.tuning);
+    let wave_speed = setup.neck.scale_length * angular / std::f64::consts::PI;
+    wave_speed * wave_speed * string.linear_density
+}
+
 /// A string of a set-up with the tension that would tune it if it were flexible.
 pub(crate) fn flexible(setup: &Setup, string: &SetupString) -> StringParameters {
-    let length = setup.neck.scale_length;
-    let angular = std::f64::consts::TAU * frequency(string.pitch + setup.tuning);
-    let wave_speed = length * angular / std::f64::consts::PI;
-    let tension = wave_speed * wave_speed * string.linear_density;
+    let tension = flexible_tension(setup, string);
     StringParameters {
-        length,
+        length: setup.neck.scale_length,
         linear_density: string.linear_density,
         tension,
         tension_limit: tension * setup.tension_room(),

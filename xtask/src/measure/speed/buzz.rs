@@ -1,6 +1,7 @@
 //! How uneven the work is: iterations and instructions, sample by sample, of a chord that buzzes.
 
 use anyhow::{Context, Result};
+use low_action_dsp::intonation::flexible_tension;
 use low_action_dsp::neck::Neck;
 use low_action_dsp::{Convergence, Quality, Scene, Setup, Simulation};
 
@@ -89,8 +90,7 @@ fn scene() -> Result<String> {
         live.max_iterations, live.tolerance,
     );
     for (index, string) in setup.string.iter().enumerate() {
-        let wave_speed = 2.0 * length * low_action_dsp::setup::frequency(string.pitch);
-        let tension = string.linear_density * wave_speed * wave_speed;
+        let tension = flexible_tension(&setup, string);
         text += &format!(
             "[[string]]\nlength = {length}\nlinear_density = {}\ntension = {tension}\nyoungs_modulus = {}\n\
              core_radius = {}\nloss_0 = {}\nloss_1 = {}\ntension_modulation = true\n\
