@@ -27,6 +27,12 @@ const LEAST_ROWS: usize = 4;
 /// Bytes in a row.
 const ALIGNMENT: usize = 8 * LANES;
 
+/// The sum over lanes in a fixed order.
+#[inline(always)]
+pub(crate) fn total([a, b, c, d, e, f, g, h]: &[f64; LANES]) -> f64 {
+    ((a + e) + (b + f)) + ((c + g) + (d + h))
+}
+
 /// Rows of a field over a grid of so many intervals.
 #[inline(always)]
 pub(crate) fn rows(intervals: usize) -> usize {

@@ -1,7 +1,7 @@
 //! What one string stores and loses, from its shapes at two samples.
 
 use crate::entry::Losses;
-use crate::field::{Field, LANES};
+use crate::field::{Field, LANES, total};
 use crate::model::{Model, Stiffness};
 use crate::state::State;
 
@@ -113,8 +113,7 @@ impl Sum {
     }
 
     fn total(&self) -> f64 {
-        let l = &self.0;
-        ((l[0] + l[4]) + (l[1] + l[5])) + ((l[2] + l[6]) + (l[3] + l[7]))
+        total(&self.0)
     }
 }
 

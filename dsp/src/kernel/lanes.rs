@@ -55,10 +55,3 @@ fn row_from(field: &[f64], start: usize) -> Row {
 pub(super) fn add_product<S: Simd>(simd: S, sum: &mut S::f64s, a: S::f64s, b: S::f64s) {
     *sum = simd.add_f64s(*sum, simd.mul_f64s(a, b));
 }
-
-/// The sum over lanes in a fixed order.
-#[inline(always)]
-pub(super) fn total(lanes: &Row) -> f64 {
-    let l = lanes;
-    ((l[0] + l[4]) + (l[1] + l[5])) + ((l[2] + l[6]) + (l[3] + l[7]))
-}

@@ -2,9 +2,9 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::lanes::{Row, add_product, part_of, rows, rows_after, rows_before, rows_mut, total, vectors};
+use super::lanes::{Row, add_product, part_of, rows, rows_after, rows_before, rows_mut, vectors};
 use super::{Products, Weights};
-use crate::field::{Field, LANES};
+use crate::field::{Field, LANES, total};
 
 /// Sums of a sweep in each lane.
 #[derive(Clone, Copy)]
