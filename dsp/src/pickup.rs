@@ -70,16 +70,28 @@ pub(crate) struct PickupMix {
     bridge: f64,
 }
 
+/// A coil over strings of any scale.
+struct Coil {
+    /// Its middle, m from the saddle, as a part of the scale.
+    place: f64,
+    /// Width of its field along the string, m.
+    aperture: f64,
+    /// Resonance, Hz.
+    resonance: f64,
+    /// Height of that over low frequencies, as a factor.
+    quality: f64,
+}
+
 /// The coil that is mixed to the force on the bridge: a single coil a quarter of the string from the saddle,
 /// where guitars have the neck pickup.
-const COIL: (f64, f64, f64, f64) = (0.25, 0.02, 4500.0, 2.0);
+const COIL: Coil = Coil { place: 0.25, aperture: 0.02, resonance: 4500.0, quality: 2.0 };
 
 impl PickupMix {
     /// The pickups over a string of a set-up. The velocity at a coil and the force on the bridge are
     /// brought to one scale by the string's wave impedance √(Tρ).
     pub fn of(setup: &Setup, string: &StringParameters) -> Self {
         let impedance = (string.tension * string.linear_density).sqrt();
-        let (place, aperture, resonance, quality) = COIL;
+        let Coil { place, aperture, resonance, quality } = COIL;
         let position = place * setup.neck.scale_length;
         let (other, scale) = match setup.pickup {
             Pickup::Magnetic { .. } => (Pickup::Bridge {}, 1.0 / impedance),

@@ -53,11 +53,11 @@ impl Field<'_> {
     /// moved so far on purpose (m). `None` for those that strike.
     pub(crate) fn pluck(&self, stroke: Stroke, strength: f64, beside: f64, moved: f64) -> Option<Gesture> {
         let Player { pluck_position, pluck_duration, pluck_release, pluck_force, .. } = *self.hands;
-        let [force, duration, nearer] = match stroke {
-            Stroke::Down | Stroke::Alternate => [1.0, 1.0, 0.0],
+        let Striking { force, duration, nearer } = match stroke {
+            Stroke::Down | Stroke::Alternate => DOWN_STROKE,
             Stroke::Pinch => {
                 let thumb = self.geometry.length - self.pinched(self.pinched_partial(moved));
-                [1.0, 1.0, pluck_position + moved - BESIDE_THUMB * thumb]
+                Striking { nearer: pluck_position + moved - BESIDE_THUMB * thumb, ..DOWN_STROKE }
             }
             Stroke::Up => UP_STROKE,
             Stroke::Rest => REST_STROKE,

@@ -74,8 +74,17 @@ pub(crate) const SETTLING: f64 = 0.03;
 /// the square, for its landing would drown the pluck. How slowly at most, as a multiple of what the hand's own damping gives.
 pub(crate) const SOFT_LANDING: f64 = 0.21;
 pub(crate) const SOFTEST_LANDING: f64 = 2.0;
-/// Strength of the note and haste of a finger that lands as fast as it can.
-pub(crate) const AT_ONCE: [f64; 2] = [1.0, 1.0];
+/// How a finger comes down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Coming {
+    /// Strength of the note that it comes for, 0 to 1.
+    pub strength: f64,
+    /// In what haste it is, 0 (none) to 1.
+    pub haste: f64,
+}
+
+/// As fast as it can.
+pub(crate) const AT_ONCE: Coming = Coming { strength: 1.0, haste: 1.0 };
 /// By how much a finger is to be slower than the way to the fret asks for: the string hardly moves before the finger's pad has been
 /// pressed in. Fitted: from 1.08 to 1.17 would be best on frets 3 to 12 of seven strings of four instruments.
 pub(crate) const LANDING_LAG: f64 = 1.13;
@@ -207,13 +216,25 @@ pub(crate) const DEAF: f64 = 0.2;
 /// How a resting finger mutes: a match with the string.
 pub(crate) const MUTE: f64 = 1.0;
 
-/// Force, duration (as factors of the usual pluck) and shift towards the saddle (m) of a stroke back: less
-/// of the plectrum is under the string.
-pub(crate) const UP_STROKE: [f64; 3] = [0.85, 0.8, 0.004];
-/// Of a rest stroke: towards the board, with the flesh.
-pub(crate) const REST_STROKE: [f64; 3] = [-0.8, 1.5, 0.0];
-/// Of a pop: three times as hard as a pluck.
-pub(crate) const POP: [f64; 3] = [3.0, 1.0, 0.0];
+/// How a stroke differs from the usual one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Striking {
+    /// Its force as a multiple; below 0 it goes towards the board.
+    pub force: f64,
+    /// How long it pushes, as a multiple.
+    pub duration: f64,
+    /// How much nearer to the saddle it is, m.
+    pub nearer: f64,
+}
+
+/// The usual stroke itself.
+pub(crate) const DOWN_STROKE: Striking = Striking { force: 1.0, duration: 1.0, nearer: 0.0 };
+/// A stroke back: less of the plectrum is under the string.
+pub(crate) const UP_STROKE: Striking = Striking { force: 0.85, duration: 0.8, nearer: 0.004 };
+/// A rest stroke: towards the board, with the flesh.
+pub(crate) const REST_STROKE: Striking = Striking { force: -0.8, duration: 1.5, nearer: 0.0 };
+/// A pop: three times as hard as a pluck.
+pub(crate) const POP: Striking = Striking { force: 3.0, duration: 1.0, nearer: 0.0 };
 
 /// How far the palm reaches from the saddle at the least and at full pressure, as a part of the length: 2 to
 /// 6 cm on guitars, and no farther than this part of the way to the pluck.

@@ -31,16 +31,15 @@ pub(super) struct Thrown {
 }
 
 impl Fingers {
-    /// A finger lands behind a fret of a string that is held down somewhere, for a note of some strength (0 to 1), in haste or
-    /// not (1 to 0).
+    /// A finger lands behind a fret of a string that is held down somewhere.
     pub(super) fn land(
         &mut self,
         fret: usize,
         stopped: Down,
-        [strength, haste]: [f64; 2],
+        coming: Coming,
         at: &mut Moment<impl GestureSink>,
     ) {
-        let (touch, rise) = self.set_down(fret, stopped, [strength, haste], self.force());
+        let (touch, rise) = self.set_down(fret, stopped, coming, self.force());
         let slot = self.take_slot(fret, touch, false);
         let position = self.string.geometry.finger_position(fret);
         at.does(Gesture::Place { finger: slot, touch, position, clearance: self.hands.fretting.hover });
@@ -52,7 +51,7 @@ impl Fingers {
         &self,
         fret: usize,
         stopped: Down,
-        [strength, haste]: [f64; 2],
+        Coming { strength, haste }: Coming,
         force: f64,
     ) -> (Touch, f64) {
         let Fretting { mut touch, landing, .. } = self.hands.fretting;

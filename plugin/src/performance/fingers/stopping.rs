@@ -10,14 +10,14 @@ use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
-    /// Makes way for a note of some strength (0 to 1): dampers off, a finger behind the fret (0: none), in haste or not (1 to
-    /// 0). One that is there already stays. One at a lower fret leaves when the new one has landed, one at a higher fret, in a
-    /// manner of leaving, when the new one stops the string behind it, so that the string does not come up in between.
+    /// Makes way for a note: dampers off, a finger behind the fret (0: none). One that is there already stays. One at a lower
+    /// fret leaves when the new one has landed, one at a higher fret, in a manner of leaving, when the new one stops the string
+    /// behind it, so that the string does not come up in between.
     pub(crate) fn stop(
         &mut self,
         fret: usize,
         stop: Stop,
-        [strength, haste]: [f64; 2],
+        coming: Coming,
         leaves: Leaving,
         at: &mut Moment<impl GestureSink>,
     ) {
@@ -42,11 +42,11 @@ impl Fingers {
         let down = self.down(old.as_ref(), at);
         match old.filter(|old| presses && !old.bar && old.free.is_none()) {
             Some(old) if old.fret < fret => {
-                self.land(fret, down, [strength, haste], at);
+                self.land(fret, down, coming, at);
                 return self.depart_from(old, BEHIND_LIFT, at);
             }
             Some(old) if self.is_over(fret, down) => {
-                self.land(fret, down, [strength, haste], at);
+                self.land(fret, down, coming, at);
                 return at.does(old.lets_go(leaves));
             }
             Some(old) => {
@@ -62,7 +62,7 @@ impl Fingers {
             Stop::Mute => self.mute(fret, at),
             _ if fret <= self.capo[1] => {}
             Stop::Bar => self.lay_bar(fret, at),
-            Stop::Press | Stop::Harmonic => self.land(fret, Down::on(self.capo[1]), [strength, haste], at),
+            Stop::Press | Stop::Harmonic => self.land(fret, Down::on(self.capo[1]), coming, at),
         }
     }
 

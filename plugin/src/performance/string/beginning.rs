@@ -67,14 +67,15 @@ impl StringPlayer {
         at: &mut Moment<impl GestureSink>,
     ) {
         let stop = start.articulation.stop;
-        let landing = [strength * start.haste(), start.haste()];
+        let haste = start.haste();
+        let coming = Coming { strength: strength * haste, haste };
         // The little by which a string comes up to a lower fret is not heard under the hand that stills it; more is.
         let by_little = start.fret > self.fingers.capo();
         let leaves = match stilling {
             Some(stilling) if by_little && stilling.comes_at_once(start.wait) => QUICK_LIFT,
-            _ => self.fingers.letting_go(landing[0]),
+            _ => self.fingers.letting_go(coming.strength),
         };
-        self.fingers.stop(start.fret, stop, landing, leaves, at);
+        self.fingers.stop(start.fret, stop, coming, leaves, at);
         self.touch_node(start.wait, at);
         if let Some(stilling) = stilling {
             self.still_before(start.wait, stilling, at);
