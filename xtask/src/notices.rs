@@ -84,6 +84,9 @@ fn linked(metadata: &Value) -> Result<BTreeSet<String>> {
     let mut found = BTreeSet::new();
     let mut open = vec![plugin["id"].as_str().unwrap_or_default().to_owned()];
     while let Some(id) = open.pop() {
+        if !found.insert(id.clone()) {
+            continue;
+        }
         let node =
             nodes.iter().find(|node| node["id"] == id.as_str()).context("a package is not resolved")?;
         for dependency in node["deps"].as_array().into_iter().flatten() {
@@ -91,9 +94,6 @@ fn linked(metadata: &Value) -> Result<BTreeSet<String>> {
             if kinds.any(|kind| kind["kind"].is_null()) {
                 open.push(dependency["pkg"].as_str().unwrap_or_default().to_owned());
             }
-        }
-        if !found.insert(id) {
-            open.retain(|id| !found.contains(id));
         }
     }
     Ok(found)
