@@ -12,7 +12,7 @@ const TRIALS: u64 = 300;
 
 #[test]
 fn random_scenes_and_streams() {
-    let seed = std::env::var("EXTREMES_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(SEED);
+    let seed = seed();
     println!("seed {seed}");
     // Computed; where rounding alone may be more than the tolerance, and where it was.
     let (mut computed, mut coarse, mut beyond) = (0, 0, 0);
@@ -43,6 +43,14 @@ fn random_scenes_and_streams() {
     );
     assert!(expected(was) < 0.4, "{was} of {trials}");
     assert!(beyond <= 3, "more than {TOLERANCE:e} is open or created in {beyond} of {TRIALS}");
+}
+
+/// The seed of the trials.
+fn seed() -> u64 {
+    let Some(seed) = std::env::var_os("EXTREMES_SEED") else { return SEED };
+    let number = seed.to_str().and_then(|seed| seed.parse().ok());
+    number
+        .unwrap_or_else(|| panic!("EXTREMES_SEED={seed:?} is refused: it must be a whole number, 0 or more"))
 }
 
 /// A number of the page's table of the long run.

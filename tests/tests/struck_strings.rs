@@ -4,6 +4,7 @@
 use std::f64::consts::PI;
 
 use low_action_dsp::{Scene, Simulation};
+use low_action_tests::numbers::largest;
 
 const LENGTH: f64 = 0.65;
 const DENSITY: f64 = 5.25e-3;
@@ -57,14 +58,13 @@ fn a_struck_string_moves_as_in_the_exact_solution() {
         let mut simulation = thrown(rate(intervals), "wide", &HAMMER, "");
         let places: Vec<f64> = simulation.string(0).places().collect();
         assert_eq!(places.len() + 1, intervals);
-        let (mut worst, samples) = (0.0_f64, (4.0 * LENGTH / wave_speed() * rate(intervals)) as u64);
-        for n in 0..samples {
-            for (&x, u) in places.iter().zip(simulation.string(0).state.displacement()) {
-                worst = worst.max((u - exact(x, n as f64 / rate(intervals))).abs());
-            }
+        let samples = (4.0 * LENGTH / wave_speed() * rate(intervals)) as u64;
+        largest((0..samples).map(|n| {
+            let points = places.iter().zip(simulation.string(0).state.displacement());
+            let off = largest(points.map(|(&x, u)| (u - exact(x, n as f64 / rate(intervals))).abs()));
             simulation.step();
-        }
-        worst
+            off
+        }))
     };
     let grids = [60, 120, 240, 480];
     let errors = grids.map(error);
