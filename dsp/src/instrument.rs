@@ -26,7 +26,8 @@ use crate::voice::{RUN, Voice};
 /// What a player needs to know of one string.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StringGeometry {
-    /// Pitch of the open string as a MIDI note number.
+    /// Pitch of the open string as written, a MIDI note number: it sounds higher by the set-up's
+    /// [tuning](crate::Setup::tuning).
     pub open_pitch: f64,
     /// Length from nut to saddle, m.
     pub length: f64,

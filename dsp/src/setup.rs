@@ -20,7 +20,7 @@ pub use player::{Damper, Fretting, Player};
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Setup {
-    /// Short name, one word.
+    /// Short name, not empty and not blank; nothing else is asked of it.
     pub name: String,
     /// What it is, one line.
     #[serde(default)]

@@ -73,7 +73,7 @@ pub enum Layer {
 }
 
 impl Layer {
-    /// A line with its name in the key; with an empty name it stands not there.
+    /// A line with its name in the key; with an empty name it does not stand there.
     pub fn line(name: impl Into<String>, stroke: Stroke, points: Vec<(f64, f64)>) -> Layer {
         Layer::Line { points, stroke, name: name.into() }
     }

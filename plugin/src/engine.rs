@@ -144,7 +144,8 @@ impl Engine {
     /// How much later than it happens everything is heard, samples at any rate.
     pub const LATENCY: u32 = Instrument::LATENCY;
 
-    /// Builds everything; nothing is allocated afterwards.
+    /// Builds everything. Nothing is allocated afterwards, but by more [threads](EngineOptions::threads) than one, and for what
+    /// the player does where that is [recorded](Record).
     ///
     /// # Errors
     /// When the set-up cannot be built at this rate; the message names the value and its range.

@@ -135,9 +135,10 @@ fn appear(drafts: Vec<(files::TextDraft, SetupFile)>) -> Result<Vec<SetupFile>> 
     for (draft, file) in drafts {
         draft.appear().with_context(|| match installed.as_slice() {
             [] => "nothing was installed".to_owned(),
-            files => {
+            [file] => format!("only {} was installed", file.name),
+            [files @ .., last] => {
                 let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
-                format!("only {} was installed", names.join(", "))
+                format!("only {} and {} were installed", names.join(", "), last.name)
             }
         })?;
         installed.push(file);
@@ -192,7 +193,7 @@ mod tests {
         // Somebody else is quicker.
         fs::create_dir(place("three", folder.path())).expect("there is room");
         let error = format!("{:#}", appear(drafts.into()).expect_err("a folder is there"));
-        assert!(error.starts_with("only one, two was installed: cannot write "), "{error}");
+        assert!(error.starts_with("only one and two were installed: cannot write "), "{error}");
         assert!(error.contains("three.toml"), "{error}");
         // The drafts that were left have gone.
         let names: Vec<_> = files_in(folder.path()).into_iter().map(|file| file.name).collect();

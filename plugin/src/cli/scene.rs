@@ -177,6 +177,8 @@ fn check_sound(scene: &Scene, simulation: &Simulation) -> Result<()> {
 struct Seen {
     /// The first sample whose output is no finite number.
     not_finite: Option<u64>,
+    /// Whether a point of a string is not finite at the end, however finite the output.
+    ends_not_finite: bool,
     /// Deepest penetration of board and frets, m.
     penetration: f64,
     /// Newton iterations in all, and the most in one sample of one string.
@@ -236,9 +238,7 @@ fn compute(name: &str, simulation: &mut Simulation, outputs: &mut Outputs) -> Re
     progress.end();
     // A listening point may never meet what went wrong elsewhere.
     let still = |state: &low_action_dsp::State| state.displacement().all(f64::is_finite);
-    if seen.not_finite.is_none() && !simulation.strings().iter().all(|string| still(&string.state)) {
-        seen.not_finite = Some(simulation.steps());
-    }
+    seen.ends_not_finite = !simulation.strings().iter().all(|string| still(&string.state));
     Ok(seen)
 }
 
@@ -247,6 +247,9 @@ fn check(name: &str, seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) 
     let fails = |text: String| Err(Failure::Check(format!("{name}: {text}")));
     if let Some(sample) = seen.not_finite {
         return fails(format!("the result is not finite from sample {sample} on; it is kept"));
+    }
+    if seen.ends_not_finite {
+        return fails("a string is not finite at the end; the result is kept".into());
     }
     if let Some(sound) = sound.filter(|sound| sound.not_finite > 0) {
         let count = sound.not_finite;
@@ -298,6 +301,8 @@ mod tests {
     fn what_is_not_finite_or_not_balanced_fails_with_3() {
         let code = |outcome: Outcome| outcome.err().map(|failure| failure.code());
         let seen = Seen { not_finite: Some(7), ..Seen::default() };
+        assert_eq!(code(check("it", &seen, None, &[])), Some(3));
+        let seen = Seen { ends_not_finite: true, ..Seen::default() };
         assert_eq!(code(check("it", &seen, None, &[])), Some(3));
         let sound = Findings { not_finite: 1, ..Findings::default() };
         assert_eq!(code(check("it", &Seen::default(), Some(&sound), &[])), Some(3));

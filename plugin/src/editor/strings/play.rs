@@ -197,8 +197,12 @@ fn hint(ui: &Ui, at: Pos2, sight: &Sight, setup: &Setup) {
     let string = &setup.string[sight.nearest(at.y)];
     let stops = on_string(at, sight) && over_board(place, setup);
     let text = if stops {
-        let fret = setup.neck.equal_places().partition_point(|fret| (*fret as f32) < place) + 1;
-        format!("{}, fret {}", string.name, fret.min(setup.neck.frets))
+        let frets = setup.neck.equal_places();
+        let before = frets.partition_point(|fret| (*fret as f32) < place);
+        match (before + 1).min(frets.len()) {
+            0 => string.name.clone(),
+            fret => format!("{}, fret {fret}", string.name),
+        }
     } else {
         format!("{:.0} mm from the saddle", 1e3 * (scale - place))
     };
