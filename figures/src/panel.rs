@@ -1,5 +1,7 @@
 //! A panel: one pair of axes, and layers drawn over each other on them.
 
+use std::ops::Range;
+
 use anyhow::{Result, ensure};
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
@@ -13,7 +15,8 @@ use crate::style::{CHARACTER, GAP, Stroke, TEXT, colour};
 
 /// Part of a page.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+/// A pair of axes on it.
+pub type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// Radius of a mark, px.
 pub const DOT: i32 = 16;
@@ -234,8 +237,36 @@ impl Panel {
     }
 
     fn draw_ground(&self, chart: &mut Chart, ground: &Ground) -> Result<()> {
-        let (across, bottom) = (&self.x.range, self.y.range.start);
+        let across = self.x.range.clone();
+        let half = FRET * (across.end - across.start);
         let place = |(x, y): (f64, f64)| (self.x.place(x), self.y.place(y));
+        GroundLook { across, bottom: self.y.range.start, half }.draw(chart, ground, place)
+    }
+}
+
+/// How a ground is drawn, in the units of its axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GroundLook {
+    /// The places that are seen.
+    pub across: Range<f64>,
+    /// The height down to which the board is filled.
+    pub bottom: f64,
+    /// Half the width of a fret.
+    pub half: f64,
+}
+
+impl GroundLook {
+    /// Draws board, frets, nut and saddle; `place` is where a point lies on the chart.
+    ///
+    /// # Errors
+    /// When the chart cannot be drawn on.
+    pub fn draw(
+        &self,
+        chart: &mut Chart,
+        ground: &Ground,
+        place: impl Fn((f64, f64)) -> (f64, f64),
+    ) -> Result<()> {
+        let GroundLook { across, bottom, half } = self;
         if let (Some(first), Some(last)) = (ground.board.first(), ground.board.last()) {
             // Cut where the panel ends, at the height the board has there.
             let mut outline: Vec<_> = [across.start, across.end]
@@ -245,14 +276,13 @@ impl Panel {
             let seen = ground.board.iter().filter(|point| across.contains(&point.0));
             outline.extend(seen.copied());
             outline.sort_by(|a, b| a.0.total_cmp(&b.0));
-            outline.extend([(last.0, bottom), (first.0, bottom)]);
-            let outline: Vec<_> = outline.into_iter().map(place).collect();
+            outline.extend([(last.0, *bottom), (first.0, *bottom)]);
+            let outline: Vec<_> = outline.into_iter().map(&place).collect();
             chart.draw_series(std::iter::once(Polygon::new(outline, colour::BOARD.filled())))?;
         }
-        let half = FRET * (across.end - across.start);
         let crowns = ground.crowns.iter().filter(|crown| across.contains(&crown.0));
         chart.draw_series(crowns.map(|&(x, crown)| {
-            let foot = ground.board_at(x).unwrap_or(bottom);
+            let foot = ground.board_at(x).unwrap_or(*bottom);
             let corners = [place((x - half, crown)), place((x + half, foot))];
             Rectangle::new(corners, colour::METAL.filled())
         }))?;

@@ -2,10 +2,9 @@
 
 use anyhow::{Context, Result};
 use low_action_dsp::{Scene, Simulation};
-use low_action_figures::panel::Area;
+use low_action_figures::panel::{Area, Chart, GroundLook};
 use low_action_figures::style::colour;
 use low_action_figures::{Ground, Profile};
-use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -38,11 +37,12 @@ const HEIGHTS: std::ops::Range<f64> = -4.3..5.4;
 /// Size of ordinary text, px.
 const TEXT: f64 = 54.0;
 
+/// Half the width of a fret as drawn, m.
+const FRET: f64 = 0.0011;
+
 /// Radius of the mark of a contact, px, and how strong a past one is drawn.
 const DOT: i32 = 18;
 const PAST: f64 = 0.35;
-
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// The string at one moment.
 struct Snapshot {
@@ -166,7 +166,8 @@ fn draw_panel(
         mesh.y_desc("height, mm");
     }
     mesh.draw()?;
-    draw_ground(&mut chart, ground, length)?;
+    let look = GroundLook { across: -margin..length + margin, bottom: HEIGHTS.start, half: FRET };
+    look.draw(&mut chart, ground, |point| point)?;
     let dot =
         |place: &(f64, f64), strength| Circle::new(*place, DOT, colour::VERMILION.mix(strength).filled());
     chart.draw_series(snapshot.past_contacts.iter().map(|place| dot(place, PAST)))?;
@@ -191,33 +192,6 @@ fn magnification(chart: &Chart) -> f64 {
     let range = chart.x_range();
     let per_metre = f64::from(across) / (range.end - range.start);
     f64::from(down) / (1e-3 * (HEIGHTS.end - HEIGHTS.start)) / per_metre
-}
-
-/// Draws board, frets, nut and saddle.
-fn draw_ground(chart: &mut Chart, ground: &Ground, length: f64) -> Result<()> {
-    let height_under = |place: f64| {
-        let pairs = ground.board.windows(2);
-        pairs.clone().find(|pair| place <= pair[1].0).map_or(HEIGHTS.start, |pair| {
-            let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
-            y0 + (y1 - y0) * (place - x0) / (x1 - x0)
-        })
-    };
-    if let (Some(first), Some(last)) = (ground.board.first(), ground.board.last()) {
-        let mut outline = ground.board.clone();
-        outline.extend([(last.0, HEIGHTS.start), (first.0, HEIGHTS.start)]);
-        chart.draw_series(std::iter::once(Polygon::new(outline, colour::BOARD.filled())))?;
-    }
-    let half = 0.0011;
-    chart.draw_series(ground.crowns.iter().map(|&(place, crown)| {
-        Rectangle::new([(place - half, crown), (place + half, height_under(place))], colour::METAL.filled())
-    }))?;
-    // Nut and saddle hold the string: a triangle under each end, 32 px wide and high.
-    for end in [0.0, length] {
-        let support = EmptyElement::at((end, 0.0))
-            + Polygon::new([(0, 0), (-16, 32), (16, 32)], colour::METAL.filled());
-        chart.draw_series(std::iter::once(support))?;
-    }
-    Ok(())
 }
 
 /// Title and what the colours mean.
