@@ -1,6 +1,6 @@
 //! Promise: the tap of the paper's Figures 4 and 5. The finger pins the string against the board and flies off;
-//! without losses energy is kept to 1e-13, over the paper's span and two hundred times as long; and what the finger does not bring back is in
-//! the string.
+//! without losses energy is kept to 1e-13, over the paper's span and two hundred times as long; and what the finger does not bring
+//! back is in the string.
 
 use low_action_dsp::curve::{Curve, OneOrEach};
 use low_action_dsp::{Energies, Scene};

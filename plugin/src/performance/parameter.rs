@@ -12,14 +12,14 @@ impl ChosenParameter {
     pub const NONE: Self = Self { upper: 127, lower: 127 };
     /// How far the wheel reaches: semitones in the upper half of data entry, cents in the lower.
     pub const WHEEL: u16 = 0;
-    /// How much less or more than a semitone a channel is tuned.
+    /// How far off a channel is tuned, within a semitone either way.
     pub const FINE_TUNING: u16 = 1;
-    /// By how many semitones.
+    /// By how many whole semitones.
     pub const COARSE_TUNING: u16 = 2;
     /// How many channels MPE has.
     pub const MEMBERS: u16 = 6;
 
-    /// Hears a controller (0 to 127), and whatever is none that chooses leaves the choice as it is. A non-registered
+    /// Hears a controller and its value, 0 to 127; one that chooses nothing leaves the choice as it is. A non-registered
     /// parameter takes data entry away from the registered one, as does a reset of all controllers.
     pub fn hear(&mut self, number: u8, value: u8) {
         match number {
