@@ -73,13 +73,11 @@ impl Touch {
         })
     }
 
-    /// Brings all but the exponent, which no player can change, into its range.
+    /// Brings each of them into its range.
     pub(crate) fn limit(&mut self) {
-        for TouchNumber { range: [low, high], of, .. } in
-            Self::NUMBERS.iter().filter(|number| number.key != "exponent")
-        {
+        for TouchNumber { range: [low, high], of, .. } in Self::NUMBERS {
             let value = of(self);
-            *value = value.clamp(*low, *high);
+            *value = value.clamp(low, high);
         }
     }
 

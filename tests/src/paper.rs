@@ -9,7 +9,7 @@ pub fn scene(name: &str) -> Scene {
     Scene::from_toml(&text).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// The same for another time, s.
+/// The same for a shorter time, s.
 pub fn shortened(scene: &Scene, duration: f64) -> Scene {
     Scene { duration, ..scene.clone() }
 }
