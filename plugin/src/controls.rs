@@ -148,6 +148,8 @@ pub struct Touching {
     pub legato: bool,
     /// The key at which keyswitches begin, if there are any.
     pub keyswitches: Option<u8>,
+    /// The fret that the first finger of the left hand stays at where it can; without, the hand moves as little as it can.
+    pub hand_position: Option<u8>,
 }
 
 impl Touching {
@@ -172,6 +174,7 @@ impl Touching {
             tremolo_arm: 0.0,
             legato: false,
             keyswitches: None,
+            hand_position: None,
         }
     }
 

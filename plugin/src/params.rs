@@ -187,6 +187,9 @@ pub struct ControlParams {
     /// The first of the keys that tell the hands how to play, −1 for none.
     #[id = "keyswitches"]
     pub keyswitches: IntParam,
+    /// The fret that the left hand plays about, 0 for wherever it has the least to move.
+    #[id = "hand_position"]
+    pub hand_position: IntParam,
 }
 
 /// What becomes of the sound.

@@ -14,8 +14,8 @@ const BEFORE: &str = "nothing may be allocated now";
 const AFTER: &str = "nobody has minded";
 
 /// Runs the test of this name, which calls this, by itself in another process: asking for memory where none may be asked
-/// for must end it, and doing nothing there must not.
-pub fn assert_it_is_kept(test: &str) {
+/// for must end it, and doing nothing there must not. `module` is the test's `module_path!()`.
+pub fn assert_it_is_kept(module: &str, test: &str) {
     if let Ok(allocates) = std::env::var(VARIABLE) {
         println!("{BEFORE}");
         assert_no_alloc(|| {
@@ -26,15 +26,17 @@ pub fn assert_it_is_kept(test: &str) {
         println!("{AFTER}");
         return;
     }
+    // Tests are told apart by their modules, but for that of the program.
+    let name = module.split_once("::").map_or(test.into(), |(_, module)| format!("{module}::{test}"));
     let run = |allocates: &str| -> Output {
         let program = std::env::current_exe().expect("this program has a path");
         let mut again = Command::new(program);
-        again.args([test, "--exact", "--nocapture"]).env(VARIABLE, allocates);
+        again.args([&name, "--exact", "--nocapture"]).env(VARIABLE, allocates);
         again.output().expect("this program can be run again")
     };
     let says = |done: &Output, words: &str| String::from_utf8_lossy(&done.stdout).contains(words);
     let (quiet, loud) = (run("no"), run("yes"));
-    assert!(quiet.status.success() && says(&quiet, AFTER), "{test} does not run by itself: {quiet:?}");
+    assert!(quiet.status.success() && says(&quiet, AFTER), "{name} does not run by itself: {quiet:?}");
     assert!(
         !loud.status.success() && says(&loud, BEFORE) && !says(&loud, AFTER),
         "nobody keeps watch over allocations: the plugin's feature assert-process-allocs is off"

@@ -143,6 +143,17 @@ impl Default for ControlParams {
                     Err(_) if text.contains("off") => Some(-1),
                     number => number.ok(),
                 })),
+            hand_position: IntParam::new("Hand position", 0, IntRange::Linear { min: 0, max: 24 })
+                .with_value_to_string(Arc::new(|fret| match fret {
+                    ..=0 => "anywhere".into(),
+                    fret => format!("fret {fret}"),
+                }))
+                .with_string_to_value(Arc::new(|text| {
+                    match text.trim().trim_start_matches("fret").trim().parse() {
+                        Err(_) if text.contains("any") => Some(0),
+                        number => number.ok(),
+                    }
+                })),
         }
     }
 }

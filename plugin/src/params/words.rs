@@ -9,7 +9,7 @@ use super::LowActionParams;
 use crate::engine::Quality;
 
 /// What is heard of a parameter, by its [identifier](LowActionParams). All strings' tunings share one.
-const HEARD: [(&str, &str); 38] = [
+const HEARD: [(&str, &str); 39] = [
     ("instrument", "The instrument: strings, neck, hands and pickup."),
     ("instrument_file", "An instrument of your own, from your folder, in place of that one."),
     (
@@ -70,6 +70,10 @@ const HEARD: [(&str, &str); 38] = [
         "Overlapping notes on one string become hammer-ons, pull-offs and slides: while CC 68 is down, or always.",
     ),
     ("keyswitches", "The first of 20 keys that tell the hands how to play instead of sounding."),
+    (
+        "hand_position",
+        "The fret about which the left hand plays what several strings could give; anywhere: it moves as little as it can.",
+    ),
 ];
 
 /// What a musician hears of the parameter with this identifier; nothing if there is none such.

@@ -2,12 +2,14 @@
 
 use super::{CHANNELS, Performance};
 
-/// What was announced: the capo, keyswitches, and what each channel was told.
+/// What was announced: the capo, keyswitches, where the hand plays, and what each channel was told.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Announced {
     capo: usize,
     /// Where keyswitches begin or that there are none, if a controller said so.
     switches: Option<Option<u8>>,
+    /// The fret that the hand plays about or that it goes where it likes, if a controller said so.
+    home: Option<Option<u8>>,
     channels: [Channel; CHANNELS],
 }
 
@@ -30,6 +32,7 @@ impl Performance {
         Announced {
             capo: self.hand.capo(),
             switches: (self.switches != self.touching.keyswitches).then_some(self.switches),
+            home: (self.hand.home() != self.touching.hand_position).then_some(self.hand.home()),
             channels: std::array::from_fn(channel),
         }
     }
@@ -41,6 +44,7 @@ impl Performance {
             channel.members = members;
         }
         self.switches = announced.switches.unwrap_or(self.switches);
+        self.hand.set_home(announced.home.unwrap_or(self.hand.home()));
         self.set_capo(announced.capo);
     }
 }

@@ -19,6 +19,13 @@ pub(super) mod controller {
     pub const CAPO: u8 = 26;
     /// First of the keyswitches.
     pub const SWITCHES: u8 = 27;
+    /// Where on the neck the left hand plays.
+    pub const HAND: u8 = 28;
+
+    /// Whether it changes something that belongs to no channel.
+    pub fn is_of_all(number: u8) -> bool {
+        matches!(number, CAPO | SWITCHES | HAND)
+    }
 }
 
 /// State of one channel.
@@ -75,6 +82,8 @@ pub(crate) enum Request {
     Capo(u8),
     /// Keyswitches begin at this key, 0 for none.
     Switches(u8),
+    /// The left hand plays about this fret, 0 for wherever it has the least to move.
+    Hand(u8),
     /// Keys are to be let go of; the pedal goes on holding.
     ReleaseKeys,
     /// Silence at once, pedal or not.
@@ -208,6 +217,7 @@ impl Channel {
             }
             controller::CAPO => Request::Capo(value),
             controller::SWITCHES => Request::Switches(value),
+            controller::HAND => Request::Hand(value),
             120 => Request::Silence,
             // Reset all controllers leaves the wheel's reach alone (MIDI recommended practice 15).
             121 => {

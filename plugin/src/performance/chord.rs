@@ -118,8 +118,7 @@ impl Performance {
     /// chord wherever notes have channels of their own.
     pub(super) fn changes_chord(&self, channel: u8, number: Option<u8>) -> bool {
         let of_all = channel == MANAGER && (self.is_mpe() || number == Some(controller::DATA_ENTRY));
-        let of_hand =
-            number.is_some_and(|number| number == controller::CAPO || number == controller::SWITCHES);
+        let of_hand = number.is_some_and(controller::is_of_all);
         of_all || of_hand || self.chord.iter().any(|note| note.wanted.channel == channel)
     }
 

@@ -126,6 +126,7 @@ impl Performance {
         match request {
             Request::Capo(fret) => return self.set_capo(usize::from(fret)),
             Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),
+            Request::Hand(fret) => return self.hand.set_home((fret > 0).then_some(fret)),
             Request::ReleaseKeys | Request::Silence => self.forget_keys(whose),
             Request::Press | Request::Swing => self.tell_keys_under(request, whose),
             Request::LetFall => self.let_fall_under(whose),
@@ -136,6 +137,7 @@ impl Performance {
                 if number == MANAGER || !self.is_mpe() {
                     self.set_capo(0);
                     self.set_switches(self.touching.keyswitches);
+                    self.hand.set_home(self.touching.hand_position);
                 }
             }
             _ => {}
@@ -209,7 +211,7 @@ impl Performance {
             (self.channels[usize::from(channel)].articulation, self.sostenuto(channel));
         let string = &mut self.strings[index];
         match request {
-            Request::None | Request::Capo(_) | Request::Switches(_) => {}
+            Request::None | Request::Capo(_) | Request::Switches(_) | Request::Hand(_) => {}
             Request::Touch => string.set_touch(time, &articulation, out),
             Request::PedalUp if pedal => {}
             Request::PedalUp => string.pedal_up(time, channel, out),

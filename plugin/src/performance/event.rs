@@ -32,8 +32,8 @@ pub enum PlayerEvent {
         /// Channel, 0 to 15.
         channel: u8,
         /// Which one, 0 to 127: 1 vibrato, 2 and 11 force, 5 time of slides, 20 palm, 21 time of strums, 22
-        /// stroke, 23 way of stopping, 24 accent of strums, 25 tremolo, 26 capo, 27 keyswitches, 64 sustain,
-        /// 65 slides, 66 sostenuto, 68 legato, 74 place of the pluck; 6 and 38 with 100 and 101 set the bend
+        /// stroke, 23 way of stopping, 24 accent of strums, 25 tremolo, 26 capo, 27 keyswitches, 28 place of the hand,
+        /// 64 sustain, 65 slides, 66 sostenuto, 68 legato, 74 place of the pluck; 6 and 38 with 100 and 101 set the bend
         /// range or announce MPE; 120, 121 and 123 to 127 stop sound, reset or let go of keys; others are
         /// ignored.
         number: u8,

@@ -4,7 +4,8 @@
 //! the same instant are placed together, each on a string of its own, where the whole costs least:
 //! moving the hand and reaching out of it cost by the fret, an open string costs nothing to a hand
 //! low on the neck and a little to one far up (its sound stands out), and lower frets are slightly
-//! preferred. A key that still sounds is struck again where it is.
+//! preferred. A key that still sounds is struck again where it is. A hand that has been told where on the neck
+//! to play moves from there for each of them, and not from where it went for the one before.
 //!
 //! **Who gives way** when no free string can give the note: a note kept only by the pedal, or else
 //! one whose key is down; among several the one nearest to the hand, where each string with a
@@ -91,6 +92,8 @@ pub(crate) struct Hand {
     capo: usize,
     /// Fret under the first finger, 1 or more.
     position: usize,
+    /// Fret that its first finger is to stay at, if anybody has said so.
+    home: Option<u8>,
     /// Which of the wanted notes are placed, highest pitch first.
     order: Vec<usize>,
     /// Cost of each note (in `order`) on each string for one place of the hand.
@@ -114,6 +117,7 @@ impl Hand {
             strings,
             capo: 0,
             position: 1,
+            home: None,
             order: Vec::with_capacity(LARGEST_CHORD),
             costs: vec![0.0; count * count],
             bounds: vec![0.0; count + 1],
@@ -125,10 +129,21 @@ impl Hand {
         }
     }
 
-    /// Back to the first fret.
+    /// Back to the first fret, with no capo there; where it has been told to play counts on.
     pub(crate) fn reset(&mut self) {
         self.capo = 0;
         self.position = 1;
+    }
+
+    /// Plays about this fret from the next notes on, or wherever it has the least to move. No fret is too high: past the last one
+    /// it stays there, and behind a capo beside it.
+    pub(crate) fn set_home(&mut self, home: Option<u8>) {
+        self.home = home;
+    }
+
+    /// The fret that it has been told to play about.
+    pub(crate) fn home(&self) -> Option<u8> {
+        self.home
     }
 
     /// Puts a capo on a fret, 0 for none, but no farther up than leaves [`OVER_CAPO`] frets.
@@ -208,14 +223,18 @@ impl Hand {
         placements.fill(None);
         self.choose(wanted, uses);
         let mut best_cost = f64::INFINITY;
-        let mut best_position = self.position;
+        let from = match self.home {
+            Some(fret) => usize::from(fret).max(self.capo + 1).min(self.highest_fret.max(1)),
+            None => self.position,
+        };
+        let mut best_position = from;
         // Nearest places first, so that among equals the hand stays where it is.
         for distance in 0..=self.highest_fret {
             if MOVE * distance as f64 + AGAIN * self.order.len() as f64 >= best_cost {
                 break;
             }
-            let below = self.position.checked_sub(distance).filter(|&place| place >= 1);
-            let above = (distance > 0).then_some(self.position + distance);
+            let below = from.checked_sub(distance).filter(|&place| place >= 1);
+            let above = (distance > 0).then_some(from + distance);
             for position in [below, above].into_iter().flatten() {
                 if position > self.highest_fret.max(1) {
                     continue;

@@ -216,6 +216,9 @@ impl Performance {
         if touching.keyswitches != self.touching.keyswitches {
             self.set_switches(touching.keyswitches);
         }
+        if touching.hand_position != self.touching.hand_position {
+            self.hand.set_home(touching.hand_position);
+        }
         self.touching = *touching;
         self.variation.set_amount(touching.variation);
         for channel in &mut self.channels {
@@ -254,6 +257,7 @@ impl Performance {
         self.late.clear();
         self.late.extend_from_slice(&old.late);
         (self.upward, self.switches) = (old.upward, old.switches);
+        self.hand.set_home(old.hand.home());
         if strings_go_on {
             self.hand.take_over(&old.hand);
             for (string, old) in self.strings.iter_mut().zip(&old.strings) {
@@ -308,8 +312,8 @@ impl Performance {
         self.compromises
     }
 
-    /// Starts again at sample 0, but with the capo, the keyswitches, and the reach of wheels and the channels for MPE that were
-    /// announced: those who send them do so once.
+    /// Starts again at sample 0, but with the capo, the keyswitches, the place of the hand, and the reach of wheels and the channels
+    /// for MPE that were announced: those who send them do so once.
     pub fn restart(&mut self) {
         let announced = self.announced();
         self.reset();
@@ -327,6 +331,7 @@ impl Performance {
         self.late.clear();
         self.upward = false;
         self.switches = self.touching.keyswitches;
+        self.hand.set_home(self.touching.hand_position);
         self.now = 0;
         self.pick_up_hands();
     }

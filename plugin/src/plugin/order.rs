@@ -111,6 +111,7 @@ pub(crate) fn touching(params: &LowActionParams) -> Touching {
         tremolo_arm: exact(&control.tremolo_arm),
         legato: control.legato.value() == LegatoChoice::Always,
         keyswitches: u8::try_from(control.keyswitches.value()).ok(),
+        hand_position: u8::try_from(control.hand_position.value()).ok().filter(|&fret| fret > 0),
     }
 }
 
@@ -165,7 +166,7 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
             page.add_param(&instrument.relax);
             page.add_param(&setup.tension_modulation);
             page.add_param(&output.bypass);
-            page.add_spacer();
+            page.add_param(&control.ignore_rpn);
             page.add_spacer();
         });
         section.add_page("Control", |page| {
@@ -173,8 +174,8 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
             page.add_param(&control.first_channel);
             page.add_param(&control.string_order);
             page.add_param(&control.bend_range);
-            page.add_param(&control.ignore_rpn);
             page.add_param(&control.legato);
+            page.add_param(&control.hand_position);
             page.add_param(&control.keyswitches);
             page.add_param(&player.pluck_softest);
         });

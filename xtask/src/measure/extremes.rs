@@ -38,7 +38,7 @@ pub use trial::{Fault, Outcome, Record, TOLERANCE, Trial};
         cargo xtask measure extremes --replay tests/regressions/extremes/finger-deep-in-a-mass.toml\n\n\
         A run that was stopped goes on where it was when it is started again. Trials that fail are made small\n\
         and written to tests/regressions/extremes/open; once mended they belong one folder up, where\n\
-        `cargo test -p low-action-tests --test extremes` replays them."
+        `cargo test --workspace --test physics extremes` replays them."
 )]
 struct Arguments {
     /// Trials to draw

@@ -34,6 +34,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
         tremolo_arm,
         legato,
         keyswitches,
+        hand_position,
     } = &given.params.control;
     let mut cells = Cells::new(ui.max_rect(), 6);
     cells.group(ui, "PLUCKS", 2);
@@ -54,6 +55,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
         slider(ui, given, param, cells.next());
     }
     choice(ui, given, legato, cells.next(), LegatoChoice::variants().len());
+    slider(ui, given, hand_position, cells.next());
     cells.group(ui, "NOTES", 2);
     choice(ui, given, input_mode, cells.next(), InputChoice::variants().len());
     slider(ui, given, first_channel, cells.next());

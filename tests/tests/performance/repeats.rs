@@ -68,7 +68,7 @@ fn repeated_notes_are_as_loud_as_the_first() {
         let most = largest(found.iter().map(|off| off.abs()));
         rows += &format!("| {velocity} | {spread:.1} dB | {most:.1} dB |\n");
     }
-    let page = include_str!("../../docs/gestures.md");
+    let page = include_str!("../../../docs/gestures.md");
     assert!(page.contains(&rows), "docs/gestures.md has other numbers than\n{rows}");
 }
 

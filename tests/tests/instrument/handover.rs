@@ -245,7 +245,7 @@ fn strings_that_differ_by_more_than_a_quarter_are_other_strings() {
 #[test]
 #[cfg_attr(not(debug_assertions), ignore = "in a release build nobody keeps watch over allocations")]
 fn the_watch_over_allocations_is_kept() {
-    watch::assert_it_is_kept("the_watch_over_allocations_is_kept");
+    watch::assert_it_is_kept(module_path!(), "the_watch_over_allocations_is_kept");
 }
 
 #[test]

@@ -42,7 +42,7 @@ fn a_bar_stops_what_fingers_cannot_reach() {
 }
 
 /// The bar weighs 0.25 N on the string and is not infinitely heavy: both raise the pitch a little, as far as
-/// `performance_touches` allows where a bar is asked for.
+/// `touches` allows where a bar is asked for.
 #[test]
 fn so_it_is_in_tune_by_itself() {
     for (string, open) in [(0, 62.0), (2, 55.0), (5, 38.0)] {

@@ -64,7 +64,7 @@ fn a_finger_that_lands_makes_a_note_no_louder_and_no_softer() {
         let most = largest(found.iter().map(|off| off.abs()));
         rows += &format!("| {velocity} | {spread:.1} dB | {most:.1} dB |\n");
     }
-    let page = include_str!("../../docs/gestures.md");
+    let page = include_str!("../../../docs/gestures.md");
     assert!(page.contains(&rows), "docs/gestures.md has other numbers than\n{rows}");
 }
 
@@ -89,6 +89,6 @@ fn a_finger_that_lands_is_hardly_heard_by_itself() {
     assert!(least > 3.0 && mean > 15.0, "{least} dB below the pluck at least, {mean} on average");
     let sentence =
         format!("is {mean:.0} dB below a pluck of velocity 64 on average, and {least:.0} at least");
-    let page = include_str!("../../docs/gestures.md");
+    let page = include_str!("../../../docs/gestures.md");
     assert!(page.contains(&sentence), "docs/gestures.md does not say: {sentence}");
 }

@@ -229,7 +229,7 @@ fn the_same_bits_in_blocks_of_any_size() {
 #[test]
 #[cfg_attr(not(debug_assertions), ignore = "in a release build nobody keeps watch over allocations")]
 fn the_watch_over_allocations_is_kept() {
-    watch::assert_it_is_kept("the_watch_over_allocations_is_kept");
+    watch::assert_it_is_kept(module_path!(), "the_watch_over_allocations_is_kept");
 }
 
 #[test]

@@ -71,7 +71,7 @@ fn lasts(speed: f64) -> f64 {
 
 #[test]
 fn short_blows_lose_what_the_page_says() {
-    let page = include_str!("../../docs/physics.md");
+    let page = include_str!("../../../docs/physics.md");
     let mut rows = String::new();
     for rate in [48e3, 192e3, 768e3] {
         let [least, most, mean] = range(&come_back(rate, 1.0, DAMPING));
@@ -92,7 +92,7 @@ fn short_blows_lose_what_the_page_says() {
 
 #[test]
 fn softer_blows_lose_what_the_page_says() {
-    let page = include_str!("../../docs/physics.md");
+    let page = include_str!("../../../docs/physics.md");
     let [least, most, mean] = range(&come_back(48e3, 0.3, DAMPING));
     let equation = of_the_equation(0.3);
     let said = format!("At 0.3 m/s and 48 kHz it is {least:.3} to {most:.3} for {equation:.3}");

@@ -55,7 +55,7 @@ fn wait(from: usize, mut heard: impl FnMut(&[f32]) -> bool + 'static) -> Option<
 #[test]
 #[cfg_attr(not(debug_assertions), ignore = "in a release build nobody keeps watch over allocations")]
 fn the_watch_over_allocations_is_kept() {
-    watch::assert_it_is_kept("the_watch_over_allocations_is_kept");
+    watch::assert_it_is_kept(module_path!(), "the_watch_over_allocations_is_kept");
 }
 
 #[test]

@@ -14,7 +14,7 @@ fn builtin(name: &str) -> Setup {
 
 /// The built-in electric set-up with some text replaced.
 fn changed(from: &str, to: &str) -> String {
-    let text = include_str!("../../dsp/instruments/electric.toml");
+    let text = include_str!("../../../dsp/instruments/electric.toml");
     assert!(text.contains(from), "`{from}` is not in the file");
     text.replacen(from, to, 1)
 }
@@ -218,7 +218,7 @@ fn wrong_setups_are_refused_in_one_line() {
 
 #[test]
 fn a_setup_without_strings_is_refused() {
-    let text = include_str!("../../dsp/instruments/electric.toml");
+    let text = include_str!("../../../dsp/instruments/electric.toml");
     let (head, _) = text.split_once("[[string]]").unwrap();
     assert!(Setup::from_toml(head).is_err());
     assert!(Setup::from_toml("").is_err());
@@ -241,7 +241,7 @@ fn a_string_too_short_for_its_grid_is_refused() {
 /// can be written there in its place.
 #[test]
 fn what_is_too_stiff_is_named_as_in_the_file() {
-    let electric = include_str!("../../dsp/instruments/electric.toml");
+    let electric = include_str!("../../../dsp/instruments/electric.toml");
     let keys = [
         ("neck.stiffness", "stiffness = 1e10", "under string[1]"),
         ("player.fretting.stiffness", "stiffness = 1e7", "on string[1]"),

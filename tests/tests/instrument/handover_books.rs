@@ -34,7 +34,7 @@ fn play(instrument: &mut Instrument, seconds: f64) {
 #[test]
 #[cfg_attr(not(debug_assertions), ignore = "in a release build nobody keeps watch over allocations")]
 fn the_watch_is_kept() {
-    watch::assert_it_is_kept("the_watch_is_kept");
+    watch::assert_it_is_kept(module_path!(), "the_watch_is_kept");
 }
 
 /// The ledgers of a ringing string take the place of its successor's, which are not given back there.

@@ -53,7 +53,7 @@ fn louder_than_plucked(velocity: u8) -> Vec<(String, f64)> {
 #[test]
 fn a_pull_off_is_as_loud_as_the_note_plucked_as_hard() {
     // And as the page says.
-    let (page, mut wrong) = (include_str!("../../docs/gestures.md"), Vec::new());
+    let (page, mut wrong) = (include_str!("../../../docs/gestures.md"), Vec::new());
     for velocity in [10, 20, 30, 45, 64, 100] {
         let found = louder_than_plucked(velocity);
         for (which, louder) in &found {

@@ -48,7 +48,7 @@ fn levels(stage: &mut Stage, open: u8, frets: &[u8], apart: f64, velocity: u8) -
 #[test]
 fn notes_of_a_run_are_as_loud_as_alone() {
     // And as the page says.
-    let (page, mut wrong) = (include_str!("../../docs/gestures.md"), Vec::new());
+    let (page, mut wrong) = (include_str!("../../../docs/gestures.md"), Vec::new());
     for (velocity, usual, most) in [(50, 2.5, 7.8), (90, 2.5, 4.4), (120, 2.5, 4.4)] {
         let mut row = format!("| {velocity} |");
         for down in [false, true] {

@@ -110,7 +110,7 @@ fn a_note_is_as_loud_after_another_on_its_string_as_alone() {
         }
     }
     // And they are what the page says.
-    let page = include_str!("../../docs/gestures.md");
+    let page = include_str!("../../../docs/gestures.md");
     let mut rows = String::new();
     for ((velocity, usual, _), found) in velocities.into_iter().zip(found) {
         let spread = (found.iter().map(|off| off * off).sum::<f64>() / found.len() as f64).sqrt();

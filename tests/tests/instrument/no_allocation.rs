@@ -15,7 +15,7 @@ use nice_assert_no_alloc::assert_no_alloc;
 #[test]
 #[cfg_attr(not(debug_assertions), ignore = "in a release build nobody keeps watch over allocations")]
 fn the_watch_is_kept() {
-    watch::assert_it_is_kept("the_watch_is_kept");
+    watch::assert_it_is_kept(module_path!(), "the_watch_is_kept");
 }
 
 #[test]

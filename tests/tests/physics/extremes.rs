@@ -55,7 +55,7 @@ fn seed() -> u64 {
 
 /// A number of the page's table of the long run.
 fn counted(what: &str) -> f64 {
-    let page = include_str!("../../docs/stability.md");
+    let page = include_str!("../../../docs/stability.md");
     let (_, table) = page.split_once("<!-- extremes full -->").expect("the page has the table");
     let (table, _) = table.split_once("<!-- end of extremes full -->").expect("it ends");
     let row = table.lines().find_map(|line| line.strip_prefix(&format!("| {what} | ")));

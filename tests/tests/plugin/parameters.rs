@@ -357,6 +357,7 @@ const HEARD: &[Heard] = &[
     },
     // From key 46 on a C3 is the third keyswitch.
     Heard { id: "keyswitches", values: [0.0, 47.0], beside: &[], score: || on_channel(0, &[]) },
+    Heard { id: "hand_position", values: [0.0, 12.0], beside: &[], score },
     Heard { id: "level", values: [0.0, 1.0], beside: &[], score },
     Heard { id: "bypass", values: [0.0, 1.0], beside: &[], score },
 ];
@@ -372,10 +373,10 @@ fn what_is_neither_built_nor_of_the_hands_is_heard() {
 /// Parameters that are not heard of one plugin that renders by itself, but with set-up files or in a hurry, and the tests in
 /// which they are.
 const ELSEWHERE: [(&str, &str); 4] = [
-    ("instrument_file", include_str!("plugin_files.rs")),
-    ("string_tuning_7", include_str!("plugin_files.rs")),
-    ("string_tuning_8", include_str!("plugin_files.rs")),
-    ("relax", include_str!("plugin_budget.rs")),
+    ("instrument_file", include_str!("../plugin_files.rs")),
+    ("string_tuning_7", include_str!("../plugin_files.rs")),
+    ("string_tuning_8", include_str!("../plugin_files.rs")),
+    ("relax", include_str!("budget.rs")),
 ];
 
 #[test]

@@ -3,6 +3,9 @@
 //! loss or force the total energy stays the same to 1e-11. Each term of what is lost and put in has a number of
 //! its own, and they add up to both.
 
+use std::panic::resume_unwind;
+use std::thread;
+
 use low_action_dsp::drive::Push;
 use low_action_dsp::simulation::SceneString;
 use low_action_dsp::{
@@ -46,7 +49,7 @@ fn lossy(fretboard: &str, damping: f64) -> String {
 
 /// Runs a scene to its end at three caps and checks the ledger of its string.
 fn closes(scene: &str, stencil: &str) -> Vec<Ledger> {
-    let close = |cap: usize| {
+    let close = |cap: usize| -> Ledger {
         let text = format!("{scene}[solver]\nmax_iterations = {cap}\nstencil = \"{stencil}\"\n");
         let scene = Scene::from_toml(&text).expect("the scene is valid");
         let mut simulation = Simulation::new(&scene).expect("the scene can be built");
@@ -66,7 +69,10 @@ fn closes(scene: &str, stencil: &str) -> Vec<Ledger> {
         assert!(sum <= 1e-12, "cap {cap}: {sum:e} in sum");
         ledger
     };
-    [0, 3, 50].map(close).into()
+    thread::scope(|threads| {
+        let runs = [0, 3, 50].map(|cap| threads.spawn(move || close(cap)));
+        runs.into_iter().map(|run| run.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
+    })
 }
 
 #[test]

@@ -49,7 +49,7 @@ fn louder_than_plucked(stage: &mut Stage, open: u8, frets: &[u8], apart: f64, ve
 #[test]
 fn notes_of_a_run_that_the_left_hand_plays_are_as_loud_as_plucked() {
     // And as the page says.
-    let (page, mut wrong) = (include_str!("../../docs/gestures.md"), Vec::new());
+    let (page, mut wrong) = (include_str!("../../../docs/gestures.md"), Vec::new());
     for (velocity, usual) in [(50, 7.9), (90, 4.4), (120, 4.4)] {
         let mut row = format!("| {velocity} |");
         for run in RUNS {

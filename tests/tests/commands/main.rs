@@ -1,0 +1,13 @@
+//! Commands, and the files they read and write: each file is a promise.
+
+mod instruments_command;
+mod labels_notes;
+mod labels_sound;
+mod midi_input;
+mod midi_selection;
+mod same_everywhere;
+mod scene_command;
+mod scene_errors;
+mod scene_figure;
+mod scene_properties;
+mod scene_trace;

@@ -1,0 +1,20 @@
+//! Instruments, and the set-ups they are built from: each file is a promise.
+
+mod display;
+mod handover;
+mod handover_any;
+mod handover_books;
+mod impossible_gestures;
+mod level;
+mod no_allocation;
+mod presets;
+mod same_bits;
+mod sample_rates;
+mod setups;
+mod silence;
+mod stilling;
+mod string_rates;
+mod tension_room;
+mod threads;
+mod timed_chord;
+mod tuning;

@@ -1,0 +1,37 @@
+//! What hands make of notes: each file is a promise.
+
+mod afterwards;
+mod anything;
+mod bar;
+mod by_strings;
+mod channels;
+mod chords;
+mod connections;
+mod documented;
+mod endings;
+mod evenness;
+mod expressions;
+mod gestures;
+mod goes_on;
+mod landings;
+mod legato;
+mod mpe;
+mod muted;
+mod palm;
+mod pieces;
+mod pinch;
+mod positions;
+mod presses;
+mod pulls;
+mod repeats;
+mod rest;
+mod runs;
+mod sighted;
+mod slides;
+mod sound;
+mod staccato;
+mod strums;
+mod switches;
+mod taps;
+mod touches;
+mod tremolo;

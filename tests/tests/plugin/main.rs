@@ -1,0 +1,13 @@
+//! The plugin in a host: each file is a promise.
+
+mod announced;
+mod budget;
+mod controls;
+mod disorder;
+mod documents;
+mod exchange;
+mod notes;
+mod parameters;
+mod plays;
+mod rest;
+mod sessions;
