@@ -9,6 +9,7 @@ pub mod extremes;
 pub mod features;
 mod page;
 pub mod speed;
+mod threads;
 pub mod trade;
 
 use anyhow::{Result, bail};

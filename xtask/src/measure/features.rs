@@ -10,7 +10,7 @@ pub use count::{callgrind_is_there, instructions_of_run};
 use anyhow::{Context, Result, ensure};
 use clap::Parser;
 
-use super::page;
+use super::{page, threads};
 use cases::{BARE, CASES, Case};
 
 /// Where the table stands.
@@ -91,15 +91,14 @@ fn measure(timed: bool) -> Result<Vec<Row>> {
     } else {
         vec![None; CASES.len()]
     };
-    CASES
-        .iter()
-        .zip(times)
-        .enumerate()
-        .map(|(index, (case, time))| {
-            eprintln!("{} of {}: {}", index + 1, CASES.len(), case.name);
-            Ok(Row { case, instructions: count::instructions(case)?, time })
-        })
-        .collect()
+    // How many there are does not depend on what else the machine does.
+    let counted = threads::each(CASES, |index, case| {
+        eprintln!("{} of {}: {}", index + 1, CASES.len(), case.name);
+        count::instructions(case)
+    });
+    let row =
+        |((case, time), instructions): (_, Result<f64>)| Ok(Row { case, instructions: instructions?, time });
+    CASES.iter().zip(times).zip(counted).map(row).collect()
 }
 
 fn row<'a>(rows: &'a [Row], name: &str) -> Result<&'a Row> {

@@ -19,13 +19,10 @@ mod spectrum;
 mod table;
 mod worst;
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use anyhow::{Context, Result};
 use clap::Parser;
 
-use super::page;
+use super::{page, threads};
 use crate::repository::root;
 use errors::{Errors, Reference};
 use filter::LowPass;
@@ -140,30 +137,17 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
 /// Measures scenes of some kinds under all settings that are for them, on as many threads as there are
 /// processors.
 fn measure(settings: &[Setting], kinds: fn(Kind) -> bool) -> Result<Vec<Outcome>> {
-    let (next, results) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(SCENES.len());
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(playing) = SCENES.get(index) else { break };
-                    if !kinds(playing.kind) {
-                        continue;
-                    }
-                    eprintln!("{} of {}: {}", index + 1, SCENES.len(), playing.name);
-                    let found = observe(index, playing, settings).with_context(|| playing.name.clone());
-                    results.lock().unwrap_or_else(|broken| broken.into_inner()).push(found);
-                }
-            });
+    let found = threads::each(&SCENES, |index, playing| {
+        if !kinds(playing.kind) {
+            return Ok(Vec::new());
         }
+        eprintln!("{} of {}: {}", index + 1, SCENES.len(), playing.name);
+        observe(index, playing, settings).with_context(|| playing.name.clone())
     });
-    let found = results.into_inner().unwrap_or_else(|broken| broken.into_inner());
     let mut outcomes = Vec::new();
     for scene in found {
         outcomes.extend(scene?);
     }
-    outcomes.sort_by_key(|outcome: &Outcome| outcome.scene);
     Ok(outcomes)
 }
 

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail, ensure};
 
 use super::Row;
 use super::cases::{self, Case};
-use super::count;
+use super::{count, threads};
 use crate::repository::root;
 
 /// How many more instructions than before a case may take.
@@ -76,11 +76,11 @@ fn build(version: &str) -> Result<PathBuf> {
 }
 
 /// What an earlier version takes for the cases that it knows; `count` is how it counts one.
-fn earlier(rows: &[Row], count: impl Fn(&Case) -> Result<f64>) -> Result<Vec<(&Row, f64)>> {
+fn earlier(rows: &[Row], count: impl Fn(&Case) -> Result<f64> + Sync) -> Result<Vec<(&Row, f64)>> {
     let mut counted = Vec::new();
-    for row in rows {
+    for (row, count) in rows.iter().zip(threads::each(rows, |_, row| count(row.case))) {
         let name = row.case.name;
-        match count(row.case) {
+        match count {
             Ok(before) => counted.push((row, before)),
             // It is new.
             Err(error) if format!("{error:#}").contains(&cases::unknown(name)) => (),

@@ -1,0 +1,41 @@
+//! The same done with many things, on as many threads as there are processors.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// What is made of each thing, in their order whichever is done first. Whoever makes it is told the thing's number, too.
+pub fn each<T: Sync, R: Send>(things: &[T], make: impl Fn(usize, &T) -> R + Sync) -> Vec<R> {
+    let (next, made) = (AtomicUsize::new(0), Mutex::new(Vec::with_capacity(things.len())));
+    let work = || {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let Some(thing) = things.get(number) else { break };
+            let one = make(number, thing);
+            made.lock().unwrap_or_else(|broken| broken.into_inner()).push((number, one));
+        }
+    };
+    let threads = thread::available_parallelism().map_or(1, usize::from).min(things.len());
+    // Whoever waits for them panics with them.
+    thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
+    let mut made = made.into_inner().unwrap_or_else(|broken| broken.into_inner());
+    made.sort_unstable_by_key(|&(number, _)| number);
+    made.into_iter().map(|(_, one)| one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_made_comes_in_order() {
+        let things: Vec<u64> = (0..100).collect();
+        // Those in front take longest.
+        let made = each(&things, |number, &thing| {
+            thread::sleep(std::time::Duration::from_micros(10 * (100 - thing)));
+            (number as u64, 2 * thing)
+        });
+        assert_eq!(made, things.iter().map(|&thing| (thing, 2 * thing)).collect::<Vec<_>>());
+        assert!(each(&[], |_, &(): &()| ()).is_empty());
+    }
+}
