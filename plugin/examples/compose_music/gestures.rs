@@ -20,6 +20,7 @@ pub fn all() -> Vec<(&'static str, Score)> {
         ("bar", bar()),
         ("capo_and_barre", capo_and_barre()),
         ("fretless", fretless()),
+        ("positions", positions()),
         ("keyswitches", keyswitches()),
         ("too_many_notes", too_many_notes()),
     ]
@@ -264,6 +265,18 @@ fn fretless() -> Score {
             track.sweep(now + 2 * QUARTER, QUARTER, VIBRATO, [0, 100]);
             track.set(now + 4 * QUARTER, VIBRATO, 0);
             now += 4 * QUARTER;
+        }
+    })
+}
+
+fn positions() -> Score {
+    Score::solo(100, |track| {
+        // The same phrase wherever the hand likes, then farther and farther up the neck, where strings are thicker.
+        let phrase = [55, 59, 62, 64, 67, 64, 62, 59, 57, 60, 59, 55];
+        let mut now = 0;
+        for fret in [0, 5, 9, 12] {
+            track.set(now, HAND, fret);
+            now = track.line(&phrase, 96, now, EIGHTH, 0) + QUARTER;
         }
     })
 }

@@ -19,6 +19,7 @@ pub const ACCENT: u8 = 24;
 pub const TREMOLO: u8 = 25;
 pub const CAPO: u8 = 26;
 pub const KEYSWITCHES: u8 = 27;
+pub const HAND: u8 = 28;
 pub const PEDAL: u8 = 64;
 pub const SLIDE: u8 = 65;
 pub const LEGATO: u8 = 68;
