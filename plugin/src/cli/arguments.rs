@@ -24,6 +24,8 @@ Examples:
   low-action render song.mid --track 2 --tail 5 --stems strings/
   low-action render take.mid --input strings --bend-range 12
                                                from a MIDI guitar
+  low-action render song.mid --hand-position 7 -o higher.wav
+                                               the same notes farther up the neck
   low-action render song.mid --labels song.json
                                                with ground truth of every note
 
@@ -87,6 +89,10 @@ pub struct RenderArgs {
     /// Pass over what the song says of the bend range (registered parameter 0).
     #[arg(long)]
     pub ignore_rpn: bool,
+    /// The fret about which the left hand plays what several strings could give, 1 to 24, unless the song says so itself (CC 28)
+    /// [default: it moves as little as it can].
+    #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=24))]
+    pub hand_position: Option<u8>,
     /// Longest music accepted, minutes, above 0 to 1e6.
     #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes)]
     pub max_length: f64,

@@ -52,7 +52,8 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let mut engine = Engine::new(&options).with_context(|| escaped(&arguments.instrument))?;
     engine.set_input(input);
     let touching = Touching::new(arguments.variation, bend_range);
-    engine.touch(&Touching { ignore_rpn: arguments.ignore_rpn, ..touching });
+    let RenderArgs { ignore_rpn, hand_position, .. } = *arguments;
+    engine.touch(&Touching { ignore_rpn, hand_position, ..touching });
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
     let output = output_path(arguments)?;
     check_paths(arguments, setup_file, &output, &names)?;

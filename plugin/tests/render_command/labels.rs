@@ -80,6 +80,8 @@ fn they_say_what_they_are_of() {
         ("channel", Value::Null),
         ("input", "auto".into()),
         ("ignore_rpn", false.into()),
+        ("hand_position", Value::Null),
+        ("allow_truncated", false.into()),
         ("tail", "0".into()),
         ("bit_depth", "24".into()),
     ] {
@@ -122,6 +124,23 @@ fn what_could_not_be_played_as_written_is_counted() {
     let pitches =
         labels["notes"].as_array().unwrap().iter().map(|note| (note["key"].as_u64(), note["pitch"].as_f64()));
     assert_eq!(pitches.collect::<Vec<_>>(), [(Some(20), Some(44.0)), (Some(64), Some(64.0))]);
+}
+
+#[test]
+fn the_same_notes_are_played_where_the_hand_is_told_to() {
+    let room = Room::new();
+    let fret = |name: &str, said: &[u8], options: &[&str]| {
+        let events: [(u8, &[u8]); 3] = [(0, said), (0, &[0x90, 67, 90]), (48, &[0x80, 67, 0])];
+        fs::write(room.path("note.mid"), midi(&events)).unwrap();
+        room.renders(&[&["note.mid", "--tail", "none", "--labels", name][..], options].concat());
+        let labels = read(&room, name).1;
+        (labels["hand_position"].clone(), labels["notes"][0]["fret"].as_u64())
+    };
+    // (Nobody listens to the first of these controllers.)
+    let (nothing, twelfth) = ([0xB0, 3, 0], [0xB0, 28, 12]);
+    assert_eq!(fret("usual.json", &nothing, &[]), (Value::Null, Some(3)));
+    assert_eq!(fret("told.json", &nothing, &["--hand-position", "7"]), (7.into(), Some(8)));
+    assert_eq!(fret("song.json", &twelfth, &["--hand-position", "7"]), (7.into(), Some(12)));
 }
 
 /// All kinds of notes and gestures, in five eighths of a second.

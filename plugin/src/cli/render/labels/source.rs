@@ -39,6 +39,8 @@ pub(super) struct About<'a> {
     /// Semitones.
     bend_range: Option<f64>,
     ignore_rpn: bool,
+    hand_position: Option<u8>,
+    allow_truncated: bool,
     /// In the words of their options.
     tail: String,
     bit_depth: String,
@@ -85,6 +87,8 @@ impl Source<'_> {
             string_order: arguments.string_order.and_then(|order| id(order, StringOrder::ids())),
             bend_range: arguments.bend_range,
             ignore_rpn: arguments.ignore_rpn,
+            hand_position: arguments.hand_position,
+            allow_truncated: arguments.allow_truncated,
             tail: arguments.tail.to_string(),
             bit_depth: arguments.bit_depth.to_string(),
             setup,
