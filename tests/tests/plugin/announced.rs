@@ -8,14 +8,17 @@ use low_action_tests::host::{Action, Host, Score, parameter};
 const RATE: f64 = 48_000.0;
 const LENGTH: usize = 24_000;
 
-/// A capo at the fifth fret, an octave for the wheel, keyswitches, MPE on all channels.
-fn announcements() -> [Score; 4] {
+/// A capo at the fifth fret, an octave for the wheel, keyswitches, MPE on all channels, a hand about the seventh fret.
+fn announcements() -> [Score; 5] {
     let said = |messages: &[[u8; 3]]| messages.iter().map(|&bytes| (0, Action::Midi(bytes))).collect();
     let registered = |number, value| said(&[[0xB0, 101, 0], [0xB0, 100, number], [0xB0, 6, value]]);
-    [said(&[[0xB0, 26, 5]]), registered(0, 12), said(&[[0xB0, 27, 1]]), registered(6, 15)]
+    let [capo, switches, hand] =
+        [[0xB0, 26, 5], [0xB0, 27, 1], [0xB0, 28, 7]].map(|message| said(&[message]));
+    [capo, registered(0, 12), switches, registered(6, 15), hand]
 }
 
-/// A note that is too low with the capo, bent by the first channel's wheel and its own, with a keyswitch for the sixth string.
+/// A note that is too low with the capo, bent by the first channel's wheel and its own, with a keyswitch for the sixth string; and
+/// one that three strings have.
 fn notes() -> Score {
     vec![
         (0, Action::Parameter(parameter("relax"), 0.0)),
@@ -24,6 +27,7 @@ fn notes() -> Score {
         (0, Action::Midi([0xE0, 0, 80])),
         (0, Action::Midi([0xE2, 0, 68])),
         (100, Action::NoteOn { channel: 0, key: 52, velocity: 100 }),
+        (200, Action::NoteOn { channel: 0, key: 64, velocity: 100 }),
     ]
 }
 
