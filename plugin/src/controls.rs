@@ -148,7 +148,8 @@ pub struct Touching {
     pub legato: bool,
     /// The key at which keyswitches begin, if there are any.
     pub keyswitches: Option<u8>,
-    /// The fret that the first finger of the left hand stays at where it can; without, the hand moves as little as it can.
+    /// The fret, from 1 on, that the first finger of the left hand stays at where it can, or the last one if there are fewer; without,
+    /// the hand moves as little as it can.
     pub hand_position: Option<u8>,
 }
 

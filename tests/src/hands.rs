@@ -68,6 +68,18 @@ pub fn strings(setup: &Setup, instrument: &Instrument) -> Vec<PlayedString> {
     (0..instrument.string_count()).map(|index| PlayedString::new(setup, instrument, index)).collect()
 }
 
+/// Events that each come so many samples after the one before, and at the last everything stops.
+pub fn stopped_at_last(steps: Vec<(u64, PlayerEvent)>) -> Vec<(u64, PlayerEvent)> {
+    let mut time = 0;
+    let timed = |(step, event)| {
+        time += step;
+        (time, event)
+    };
+    let mut events: Vec<_> = steps.into_iter().map(timed).collect();
+    events.push((time, PlayerEvent::AllNotesOff));
+    events
+}
+
 /// Plays events (samples) and four seconds more, until every hand is gone.
 pub fn play(performance: &mut Performance, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
     let mut gestures = Vec::new();

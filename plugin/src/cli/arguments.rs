@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::TypedValueParser;
+use low_action_dsp::neck::Neck;
 
 use super::render::{self, BitDepth, Tail};
 use crate::engine::{EngineOptions, Quality};
@@ -89,9 +90,9 @@ pub struct RenderArgs {
     /// Pass over what the song says of the bend range (registered parameter 0).
     #[arg(long)]
     pub ignore_rpn: bool,
-    /// The fret about which the left hand plays what several strings could give, 1 to 24, unless the song says so itself (CC 28)
+    /// The fret about which the left hand plays what several strings could give, 1 to 36, unless the song says so itself (CC 28)
     /// [default: it moves as little as it can].
-    #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=24))]
+    #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=Neck::MOST_FRETS as u64))]
     pub hand_position: Option<u8>,
     /// Longest music accepted, minutes, above 0 to 1e6.
     #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes)]

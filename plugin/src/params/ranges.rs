@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use low_action_dsp::neck::Neck;
 use nice_plug::prelude::*;
 
 use super::start::{Start, start};
@@ -64,15 +65,7 @@ impl InstrumentParams {
             .with_string_to_value(Arc::new(move |title| numbered.number(title))),
             quality: EnumParam::new("Quality", QualityChoice(start.quality)),
             render_quality: EnumParam::new("Offline quality", RenderChoice::default()),
-            iterations: IntParam::new("Newton cap", 0, IntRange::Linear { min: 0, max: 200 })
-                .with_value_to_string(Arc::new(|cap| match cap {
-                    0 => "as the quality".into(),
-                    cap => cap.to_string(),
-                }))
-                .with_string_to_value(Arc::new(|text| match text.trim().parse() {
-                    Err(_) if text.contains("quality") => Some(0),
-                    number => number.ok(),
-                })),
+            iterations: number_or("as the quality", "Newton cap", 0, 200),
             relax: BoolParam::new("Relax when late", true),
         }
     }
@@ -134,26 +127,8 @@ impl Default for ControlParams {
             ignore_rpn: BoolParam::new("Ignore announced bend range", false),
             tremolo_arm: shift("Tremolo arm", -12.0, 3.0, " semitones", PART_STEP),
             legato: EnumParam::new("Legato", LegatoChoice::Pedal),
-            keyswitches: IntParam::new("Keyswitches from key", -1, IntRange::Linear { min: -1, max: 108 })
-                .with_value_to_string(Arc::new(|key| match key {
-                    ..0 => "off".into(),
-                    key => key.to_string(),
-                }))
-                .with_string_to_value(Arc::new(|text| match text.trim().parse() {
-                    Err(_) if text.contains("off") => Some(-1),
-                    number => number.ok(),
-                })),
-            hand_position: IntParam::new("Hand position", 0, IntRange::Linear { min: 0, max: 24 })
-                .with_value_to_string(Arc::new(|fret| match fret {
-                    ..=0 => "anywhere".into(),
-                    fret => format!("fret {fret}"),
-                }))
-                .with_string_to_value(Arc::new(|text| {
-                    match text.trim().trim_start_matches("fret").trim().parse() {
-                        Err(_) if text.contains("any") => Some(0),
-                        number => number.ok(),
-                    }
-                })),
+            keyswitches: number_or("off", "Keyswitches from key", -1, 108),
+            hand_position: number_or("anywhere", "Hand position", 0, Neck::MOST_FRETS as i32),
         }
     }
 }
@@ -182,6 +157,20 @@ pub mod poly {
     pub const FINGER_FORCE: u32 = 2;
     /// How many there are, from 0 on.
     pub const COUNT: usize = 3;
+}
+
+/// A whole number that has a word in the place of the least, which is also usual. The last of several words is enough of it.
+fn number_or(word: &'static str, name: &str, least: i32, most: i32) -> IntParam {
+    let enough = word.rsplit(' ').next().unwrap_or(word);
+    IntParam::new(name, least, IntRange::Linear { min: least, max: most })
+        .with_value_to_string(Arc::new(move |number| match number {
+            number if number <= least => word.into(),
+            number => number.to_string(),
+        }))
+        .with_string_to_value(Arc::new(move |text| match text.trim().parse() {
+            Err(_) if text.contains(enough) => Some(least),
+            number => number.ok(),
+        }))
 }
 
 /// A factor of what the set-up has, shown as a percentage; 100 % stands in the middle of the range.

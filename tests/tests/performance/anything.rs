@@ -8,7 +8,7 @@ use low_action::params::LowActionParams;
 use low_action::performance::{Expression, InputMode, Performance, PlayerEvent, StringDeed, Style};
 use low_action_dsp::{FINGERS_PER_STRING, Gesture, TimedGesture, Touch};
 use low_action_tests::cases::cases;
-use low_action_tests::hands::{Neck, RATE, of_string, play, play_in_blocks};
+use low_action_tests::hands::{Neck, RATE, of_string, play, play_in_blocks, stopped_at_last};
 use low_action_tests::numbers::largest;
 use low_action_tests::user::isolate;
 use nice_plug::prelude::Param;
@@ -266,12 +266,7 @@ proptest! {
         steps in prop::collection::vec((prop_oneof![Just(0_u64), 0..9000_u64], any_event()), 1..100),
         block in 1..3000_u64,
     ) {
-        let mut time = 0;
-        let mut events: Vec<(u64, PlayerEvent)> = steps.into_iter().map(|(step, event)| {
-            time += step;
-            (time, event)
-        }).collect();
-        events.push((time, PlayerEvent::AllNotesOff));
+        let events = stopped_at_last(steps);
 
         let mut performance = player(neck, input, &touching);
         let whole = play(&mut performance, &events);

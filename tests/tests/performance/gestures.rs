@@ -7,7 +7,9 @@ use std::sync::LazyLock;
 use low_action::performance::{Performance, PlayerEvent, Style};
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::cases::cases;
-use low_action_tests::hands::{EXACT, Neck, any_left, of_string, play as play_by, play_in_blocks};
+use low_action_tests::hands::{
+    EXACT, Neck, any_left, of_string, play as play_by, play_in_blocks, stopped_at_last,
+};
 use proptest::prelude::*;
 
 /// A quarter of a second, samples.
@@ -360,12 +362,7 @@ proptest! {
         steps in prop::collection::vec((prop_oneof![Just(0_u64), 0..5000_u64], any_event()), 1..120),
         block in 1..2000_u64,
     ) {
-        let mut time = 0;
-        let mut events: Vec<(u64, PlayerEvent)> = steps.into_iter().map(|(step, event)| {
-            time += step;
-            (time, event)
-        }).collect();
-        events.push((time, PlayerEvent::AllNotesOff));
+        let events = stopped_at_last(steps);
         let whole = play(&events);
 
         let blocks = play_in_blocks(&mut player(EXACT), &events, block);

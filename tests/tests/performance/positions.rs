@@ -63,7 +63,7 @@ fn a_scale_is_played_where_the_documents_say() {
         "| `hand_position` | G3 | A3 | B3 | C4 | D4 | E4 | F♯4 | G4 |\n|---|---|---|---|---|---|---|---|---|\n",
     );
     for position in [None, Some(3), Some(5), Some(7), Some(12)] {
-        let name = position.map_or("anywhere".into(), |fret| format!("fret {fret}"));
+        let name = position.map_or("anywhere".into(), |fret: u8| fret.to_string());
         let found = places(&mut player(&GUITAR, position), &melody(&SCALE, 0));
         let found: Vec<String> = found.iter().map(|(string, fret)| format!("{string}: {fret}")).collect();
         table += &format!("| {name} | {} |\n", found.join(" | "));
