@@ -105,3 +105,12 @@ fn an_instant_never_takes_a_string_twice() {
     let placed = play(&mut guitar(), &[86], &uses);
     assert_eq!(placed, [None]);
 }
+
+#[test]
+fn past_the_neck_is_the_last_fret() {
+    for fret in [22, 23, 100, u8::MAX] {
+        let mut hand = guitar();
+        hand.set_home(Some(fret));
+        assert_eq!(play(&mut hand, &[74, 86], &FREE), [Some((2, 19)), Some((0, 22))], "fret {fret}");
+    }
+}
