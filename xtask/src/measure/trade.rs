@@ -86,6 +86,26 @@ impl Outcome {
     fn kind(&self) -> Kind {
         SCENES[self.scene].kind
     }
+
+    /// The error of its waveform, %.
+    fn waveform(&self) -> Option<f64> {
+        self.errors.waveform.map(percent)
+    }
+
+    /// The error of what its contacts push, %.
+    fn impulses(&self) -> Option<f64> {
+        self.errors.impulses.map(percent)
+    }
+
+    /// The largest error of a decay, %.
+    fn decay(&self) -> Option<f64> {
+        self.errors.decay().map(percent)
+    }
+}
+
+/// A part in %.
+fn percent(part: f64) -> f64 {
+    100.0 * part
 }
 
 /// Runs the measurement.
@@ -166,10 +186,12 @@ fn observe(index: usize, playing: &Playing, settings: &[Setting]) -> Result<Vec<
         let reference = references.iter().find(|(known, _)| *known == of);
         let (_, reference) = reference.context("the reference has just been made")?;
         let run = record::record(playing, &setting, true)?;
+        let errors = reference.errors(&run, playing.kind, pitch, &filter);
+        let errors = errors.with_context(|| format!("under {setting:?}"))?;
         outcomes.push(Outcome {
             setting,
             scene: index,
-            errors: reference.errors(&run, playing.kind, pitch, &filter),
+            errors,
             penetration: [run.penetration, reference.record().penetration],
             pull: run.pull,
             booked: run.booked[0] / run.booked[1].max(f64::MIN_POSITIVE),

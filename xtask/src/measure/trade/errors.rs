@@ -1,5 +1,7 @@
 //! How far a run is from the reference.
 
+use anyhow::{Context, Result, ensure};
+
 use super::filter::LowPass;
 use super::record::{COMMON, Record, WINDOW};
 use super::scenes::{DURATION, Kind, PLUCK, RINGING};
@@ -11,12 +13,25 @@ pub struct Reference {
     heard: Vec<f64>,
 }
 
-/// Errors of one run. What a scene cannot tell is not a number.
+/// Errors of one run, all of them finite; `None` where a scene cannot tell.
 #[derive(Debug, Clone, Copy)]
 pub struct Errors {
     /// Difference of the force on the bridge up to 8 kHz from the pluck until the first contact that was
     /// not there before it, at most 50 ms, as a part of the reference's: the smallest for any delay of up to 30 µs.
-    pub waveform: f64,
+    pub waveform: Option<f64>,
+    /// Of a note that rings.
+    pub ringing: Option<Ringing>,
+    /// Σ of differences of the contacts' impulses in 20 ms, as a part of Σ of the impulses.
+    pub impulses: Option<f64>,
+    /// The same of the level of the force on the bridge in 20 ms.
+    pub level: f64,
+    /// Root mean square over third-octave bands and frames, dB.
+    pub spectrum: f64,
+}
+
+/// Errors of pitch, partials and decay of a note that rings.
+#[derive(Debug, Clone, Copy)]
+pub struct Ringing {
     /// Of the fundamental, cents.
     pub pitch: f64,
     /// The largest of a partial up to 4 kHz, cents.
@@ -25,12 +40,32 @@ pub struct Errors {
     pub decay: f64,
     /// The time in which the fundamental decays by 60 dB, s, and the reference's.
     pub t60: [f64; 2],
-    /// Σ of differences of the contacts' impulses in 20 ms, as a part of Σ of the impulses.
-    pub impulses: f64,
-    /// The same of the level of the force on the bridge in 20 ms.
-    pub level: f64,
-    /// Root mean square over third-octave bands and frames, dB.
-    pub spectrum: f64,
+}
+
+impl Errors {
+    /// The error of its [pitch](Ringing::pitch), cents, where it is a note that rings.
+    pub fn pitch(&self) -> Option<f64> {
+        self.ringing.map(|ringing| ringing.pitch)
+    }
+
+    /// Of its [partials](Ringing::partials), cents.
+    pub fn partials(&self) -> Option<f64> {
+        self.ringing.map(|ringing| ringing.partials)
+    }
+
+    /// Of its [decay](Ringing::decay), as a part of it.
+    pub fn decay(&self) -> Option<f64> {
+        self.ringing.map(|ringing| ringing.decay)
+    }
+
+    fn are_finite(&self) -> bool {
+        let ringing = self.ringing.map(|Ringing { pitch, partials, decay, t60: [own, reference] }| {
+            [pitch, partials, decay, own, reference]
+        });
+        let numbers = [self.waveform, self.impulses, Some(self.level), Some(self.spectrum)];
+        let mut all = numbers.into_iter().flatten().chain(ringing.into_iter().flatten());
+        all.all(f64::is_finite)
+    }
 }
 
 /// Delays tried are this far apart at first, s, and this many on either side.
@@ -52,24 +87,22 @@ impl Reference {
     }
 
     /// How far a run is from it; `pitch` is f₁ and B of a scene of one note.
-    pub fn errors(&self, run: &Record, kind: Kind, pitch: (f64, f64), filter: &LowPass) -> Errors {
+    ///
+    /// # Errors
+    /// When a partial of the reference is not there in the run, or an error is not finite.
+    pub fn errors(&self, run: &Record, kind: Kind, pitch: (f64, f64), filter: &LowPass) -> Result<Errors> {
         let heard = run.heard(filter, 0.0, DURATION, 0.0);
-        let missing = f64::NAN;
-        let (cents, worst, decay, t60) = match kind {
-            Kind::Open | Kind::Pressed | Kind::EachOpen | Kind::High => self.ringing(&heard, pitch),
-            _ => (missing, missing, missing, [missing; 2]),
-        };
+        let rings = matches!(kind, Kind::Open | Kind::Pressed | Kind::EachOpen | Kind::High);
         let touches = self.record.impulses.iter().any(|impulse| *impulse > 0.0);
-        Errors {
-            waveform: if self.plays_at_once() { self.waveform(run, filter) } else { missing },
-            pitch: cents,
-            partials: worst,
-            decay,
-            t60,
-            impulses: if touches { difference(&run.impulses, &self.record.impulses) } else { missing },
+        let errors = Errors {
+            waveform: self.plays_at_once().then(|| self.waveform(run, filter)),
+            ringing: rings.then(|| self.ringing(&heard, pitch)).transpose()?,
+            impulses: touches.then(|| difference(&run.impulses, &self.record.impulses)),
             level: difference(&levels(&heard), &levels(&self.heard)),
             spectrum: log_spectral_distance(&heard[at(PLUCK)..], &self.heard[at(PLUCK)..]),
-        }
+        };
+        ensure!(errors.are_finite(), "an error is not finite: {errors:?}");
+        Ok(errors)
     }
 
     /// Whether there is a stretch between pluck and first contact that can be compared.
@@ -97,24 +130,30 @@ impl Reference {
         error(delay).min(middle).sqrt()
     }
 
-    /// Errors of pitch and of partials, cents, and of decay; the times in which the fundamental decays.
-    fn ringing(&self, heard: &[f64], (fundamental, inharmonicity): (f64, f64)) -> (f64, f64, f64, [f64; 2]) {
+    /// Errors of a note that rings; `heard` is the run at the common rate.
+    fn ringing(&self, heard: &[f64], (fundamental, inharmonicity): (f64, f64)) -> Result<Ringing> {
         let of = |sound: &[f64]| partials(&sound[at(RINGING)..], fundamental, inharmonicity);
         let (found, expected) = (of(heard), of(&self.heard));
-        let (mut pitch, mut worst, mut decay, mut t60) = (f64::NAN, 0.0f64, 0.0f64, [f64::NAN; 2]);
+        let (mut of_fundamental, mut worst, mut decay) = (None, 0.0f64, 0.0f64);
         for partial in &expected {
-            let Some(other) = found.iter().find(|other| other.number == partial.number) else { continue };
+            let number = partial.number;
+            let other = found.iter().find(|other| other.number == number);
+            let other = other.with_context(|| format!("partial {number} is not there"))?;
             let cents = 1200.0 * (other.frequency / partial.frequency).log2().abs();
-            if partial.number == 1 {
-                pitch = cents;
-                t60 = [other, partial].map(|partial| 1e3f64.ln() / partial.decay);
+            if number == 1 {
+                of_fundamental = Some((cents, [other, partial].map(|one| 1e3f64.ln() / one.decay)));
             }
-            worst = worst.max(cents);
-            if partial.number <= 5 && partial.decay > 0.0 {
-                decay = decay.max((partial.decay / other.decay - 1.0).abs());
-            }
+            let apart = if number <= 5 && partial.decay > 0.0 {
+                (partial.decay / other.decay - 1.0).abs()
+            } else {
+                0.0
+            };
+            // (The larger of two numbers leaves out what is none.)
+            ensure!(cents.is_finite() && apart.is_finite(), "partial {number}: {other:?}, not {partial:?}");
+            (worst, decay) = (worst.max(cents), decay.max(apart));
         }
-        (pitch, worst, decay, t60)
+        let (pitch, t60) = of_fundamental.context("the reference has no fundamental")?;
+        Ok(Ringing { pitch, partials: worst, decay, t60 })
     }
 }
 

@@ -3,9 +3,10 @@
 use low_action_dsp::scene::FretPlacement;
 
 use super::Outcome;
+use super::errors::Ringing;
 use super::scenes::{Kind, Playing, SCENES};
 use super::settings::{Axis, Setting, settings};
-use super::table::{head, plain};
+use super::table::{head, shown};
 
 /// Buzz of each string of `electric`, then pitch and decay of its light strings stopped high on the neck; a column for
 /// each placement and spacing.
@@ -13,17 +14,18 @@ pub fn tables(outcomes: &[Outcome]) -> String {
     let columns = settings(Axis::Frets);
     let lossy: Vec<Setting> = columns.iter().copied().filter(|one| one.damping.is_none()).collect();
     let buzz = rows(Kind::EachBuzzing, &columns, outcomes, |playing, cells| {
-        let cells = cells.map(|one| plain(one.map_or(f64::NAN, |one| 100.0 * one.errors.impulses)));
+        let cells = cells.map(|one| shown(one.and_then(Outcome::impulses)));
         format!("| {}, % | {} |\n", playing.string().unwrap_or_default(), joined(cells))
     });
     let stopped = rows(Kind::High, &lossy, outcomes, |playing, cells| {
         let found: Vec<_> = cells.collect();
-        let of = |value: fn(&Outcome) -> String| {
-            joined(found.iter().map(|one| one.map_or_else(|| plain(f64::NAN), value)))
+        let of = |text: fn(&Ringing) -> String| {
+            let ringing = found.iter().map(|one| one.and_then(|one| one.errors.ringing));
+            joined(ringing.map(|one| one.as_ref().map_or_else(|| shown(None), text)))
         };
-        let pitch = of(|one| plain(one.errors.pitch));
+        let pitch = of(|one| shown(Some(one.pitch)));
         let decay = of(|one| {
-            let [found, reference] = one.errors.t60;
+            let [found, reference] = one.t60;
             match format!("{:+.0}", 100.0 * (found / reference - 1.0)) {
                 zero if zero.ends_with("+0") || zero.ends_with("-0") => "0".into(),
                 percent => percent.replace('-', "−"),

@@ -5,10 +5,10 @@ use low_action_dsp::{Quality, Stencil};
 use low_action_figures::style::colour;
 use low_action_figures::{Axis as Scale, Layer, Panel, Sheet, Stroke};
 
-use super::Outcome;
 use super::scenes::Kind;
 use super::settings::{Axis, BASE, Setting, quality, settings, stencil_name};
 use super::table::{mean_load, of};
+use super::{Outcome, percent};
 
 /// The stencils with their lines.
 const STENCILS: [(Stencil, Stroke); 3] = [
@@ -17,39 +17,61 @@ const STENCILS: [(Stencil, Stroke); 3] = [
     (Stencil::Wide, Stroke::new(colour::BLUE)),
 ];
 
-/// Something that can go wrong, for the vertical axis: title, label, range, scenes, and what it is.
-type Wrong = (&'static str, &'static str, [f64; 2], &'static [Kind], fn(&Outcome) -> f64);
+/// Something that can go wrong, for the vertical axis.
+struct Wrong {
+    title: &'static str,
+    /// What is written along the axis, with the unit.
+    label: &'static str,
+    /// Both ends of the axis, in the unit of the label.
+    range: [f64; 2],
+    /// The scenes that are looked at.
+    kinds: &'static [Kind],
+    /// What it is, in the unit of the label, of a scene that tells it.
+    of: fn(&Outcome) -> Option<f64>,
+}
 
 const ALL: &[Kind] = &[Kind::Open, Kind::Pressed, Kind::BuzzingLight, Kind::BuzzingHeavy, Kind::Mixed];
 /// What is drawn over the cost.
 const ERRORS: [Wrong; 4] = [
-    ("Partials of open strings up to 4 kHz", "largest error, cents", [1e-3, 1e2], &[Kind::Open], |o| {
-        o.errors.partials
-    }),
-    ("Waveform from the pluck to the first contact", "largest error, %", [0.6, 1e2], ALL, |o| {
-        100.0 * o.errors.waveform
-    }),
-    ("Contact impulses of stopped strings", "largest error, %", [1e-3, 1e1], &[Kind::Pressed], |o| {
-        100.0 * o.errors.impulses
-    }),
-    (
-        "Contact impulses of buzzing strings",
-        "largest error, %",
-        [1.0, 1e2],
-        &[Kind::BuzzingLight, Kind::BuzzingHeavy],
-        |o| 100.0 * o.errors.impulses,
-    ),
+    Wrong {
+        title: "Partials of open strings up to 4 kHz",
+        label: "largest error, cents",
+        range: [1e-3, 1e2],
+        kinds: &[Kind::Open],
+        of: |outcome| outcome.errors.partials(),
+    },
+    Wrong {
+        title: "Waveform from the pluck to the first contact",
+        label: "largest error, %",
+        range: [0.6, 1e2],
+        kinds: ALL,
+        of: Outcome::waveform,
+    },
+    Wrong {
+        title: "Contact impulses of stopped strings",
+        label: "largest error, %",
+        range: [1e-3, 1e1],
+        kinds: &[Kind::Pressed],
+        of: Outcome::impulses,
+    },
+    Wrong {
+        title: "Contact impulses of buzzing strings",
+        label: "largest error, %",
+        range: [1.0, 1e2],
+        kinds: &[Kind::BuzzingLight, Kind::BuzzingHeavy],
+        of: Outcome::impulses,
+    },
 ];
 
 /// The largest error of a kind of a setting.
-fn largest((_, _, _, kinds, value): &Wrong, setting: &Setting, outcomes: &[Outcome]) -> f64 {
-    let seen = of(setting, outcomes).filter(|outcome| kinds.contains(&outcome.kind()));
-    seen.map(value).fold(0.0, f64::max)
+fn largest(wrong: &Wrong, setting: &Setting, outcomes: &[Outcome]) -> f64 {
+    let seen = of(setting, outcomes).filter(|outcome| wrong.kinds.contains(&outcome.kind()));
+    seen.filter_map(wrong.of).fold(0.0, f64::max)
 }
 
 /// Cost of a string, % of a core.
 fn cost(setting: &Setting, outcomes: &[Outcome]) -> f64 {
-    100.0 * mean_load(setting, outcomes)
+    percent(mean_load(setting, outcomes).expect("all that is drawn is timed"))
 }
 
 /// Draws it.
@@ -69,7 +91,7 @@ pub fn draw(outcomes: &[Outcome]) -> Result<String> {
 }
 
 fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
-    let (title, label, [low, high], ..) = wrong;
+    let Wrong { title, label, range: [low, high], .. } = wrong;
     let x = Scale::log("cost of a string, % of a core", 0.4..40.0).ticks(4);
     let mut panel = Panel::new(*title, x, Scale::log(*label, *low..*high).ticks(6));
     let grid = settings(Axis::Grid);

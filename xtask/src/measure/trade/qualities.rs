@@ -5,7 +5,7 @@ use low_action_dsp::Quality;
 
 use super::scenes::{Kind, SCENES};
 use super::settings::{Axis, BASE, Setting, quality, settings};
-use super::table::{accuracy, cost, head, mean_load, plain};
+use super::table::{accuracy, cost, head, mean_load, plain, shown};
 use super::{Outcome, frets, losses};
 
 /// Tables of the qualities and of single strings, under their headings.
@@ -28,10 +28,15 @@ pub fn tables(outcomes: &[Outcome], chords: &[(Setting, f64)]) -> Result<String>
     Ok(text)
 }
 
-/// The largest of something over scenes of some kinds under a setting.
-fn largest(setting: Setting, kinds: &[Kind], outcomes: &[Outcome], value: fn(&Outcome) -> f64) -> f64 {
+/// The largest of something over scenes of some kinds under a setting, if any of them tells it.
+fn largest(
+    setting: Setting,
+    kinds: &[Kind],
+    outcomes: &[Outcome],
+    value: fn(&Outcome) -> Option<f64>,
+) -> Option<f64> {
     let these = outcomes.iter().filter(|one| one.setting == setting && kinds.contains(&one.kind()));
-    these.map(value).fold(f64::NAN, f64::max)
+    these.filter_map(value).max_by(f64::total_cmp)
 }
 
 /// What was aimed at, found and met, at a host's 48 kHz.
@@ -39,18 +44,19 @@ fn aims(outcomes: &[Outcome]) -> String {
     const BUZZING: &[Kind] = &[Kind::BuzzingLight, Kind::BuzzingHeavy, Kind::EachBuzzing];
     let at = |one: Quality| quality(one, BASE.rate);
     let live = at(Quality::Live);
-    let impulses = |one: &Outcome| 100.0 * one.errors.impulses;
-    let price = |one: Quality| mean_load(&at(one), outcomes) / mean_load(&at(Quality::Draft), outcomes);
+    let impulses = Outcome::impulses;
+    let price =
+        |one: Quality| Some(mean_load(&at(one), outcomes)? / mean_load(&at(Quality::Draft), outcomes)?);
     let rows = [
         (
             "`live`: partials of every open string, up to 4 kHz, cents",
             1.0,
-            largest(live, &[Kind::Open, Kind::EachOpen], outcomes, |one| one.errors.partials),
+            largest(live, &[Kind::Open, Kind::EachOpen], outcomes, |one| one.errors.partials()),
         ),
         (
             "`live`: pitch of stopped strings, cents",
             1.0,
-            largest(live, &[Kind::Pressed], outcomes, |one| one.errors.pitch),
+            largest(live, &[Kind::Pressed], outcomes, |one| one.errors.pitch()),
         ),
         ("`live`: forces of pressed strings, %", 3.0, largest(live, &[Kind::Pressed], outcomes, impulses)),
         ("`live`: buzz, %", 25.0, largest(live, BUZZING, outcomes, impulses)),
@@ -62,8 +68,8 @@ fn aims(outcomes: &[Outcome]) -> String {
     ];
     let mut text = head(["at most".into(), "found".into(), String::new()]);
     for (what, aim, found) in rows {
-        let met = if found <= aim { "met" } else { "**missed**" };
-        text += &format!("| {what} | {} | {} | {met} |\n", plain(aim), plain(found));
+        let met = if found.is_some_and(|found| found <= aim) { "met" } else { "**missed**" };
+        text += &format!("| {what} | {} | {} | {met} |\n", plain(aim), shown(found));
     }
     text
 }
@@ -98,8 +104,8 @@ fn buzz(outcomes: &[Outcome]) -> Result<String> {
         text += &format!("| {}, %", playing.string()?);
         for (setting, _) in &columns {
             let found = outcomes.iter().find(|one| one.scene == index && one.setting == *setting);
-            let error = found.map_or(f64::NAN, |one| 100.0 * one.errors.impulses);
-            text += &format!(" | {} ({:.1} mm)", plain(error), 1e3 * playing.spacing(setting)?);
+            let error = found.and_then(Outcome::impulses);
+            text += &format!(" | {} ({:.1} mm)", shown(error), 1e3 * playing.spacing(setting)?);
         }
         text += " |\n";
     }
@@ -112,15 +118,14 @@ fn high(outcomes: &[Outcome]) -> String {
     let mut text = head(columns.iter().map(|(_, name)| name.clone()).chain(["reference at 768 kHz".into()]));
     for (index, playing) in SCENES.iter().enumerate().filter(|(_, one)| one.kind == Kind::High) {
         let of = |setting: &Setting| {
-            outcomes.iter().find(|one| one.scene == index && one.setting == *setting).map(|one| one.errors)
+            outcomes.iter().find(|one| one.scene == index && one.setting == *setting)?.errors.ringing
         };
         let cells = columns.iter().map(|(setting, _)| of(setting));
-        let pitch: Vec<String> =
-            cells.clone().map(|one| plain(one.map_or(f64::NAN, |one| one.pitch))).collect();
-        let decay: Vec<String> = cells.map(|one| plain(one.map_or(f64::NAN, |one| one.t60[0]))).collect();
-        let reference = of(&BASE).map_or(f64::NAN, |one| one.t60[1]);
+        let pitch: Vec<String> = cells.clone().map(|one| shown(one.map(|one| one.pitch))).collect();
+        let decay: Vec<String> = cells.map(|one| shown(one.map(|one| one.t60[0]))).collect();
+        let reference = of(&BASE).map(|one| one.t60[1]);
         text += &format!("| {}, cents off | {} | 0 |\n", playing.name, pitch.join(" | "));
-        text += &format!("| {}, T60, s | {} | {} |\n", playing.name, decay.join(" | "), plain(reference));
+        text += &format!("| {}, T60, s | {} | {} |\n", playing.name, decay.join(" | "), shown(reference));
     }
     text
 }

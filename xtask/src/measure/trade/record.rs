@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::time::Instant;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use low_action_dsp::{Scene, Simulation};
 
 use super::filter::LowPass;
@@ -100,6 +100,9 @@ impl<'a> Watch<'a> {
 }
 
 /// Runs a scene under a setting; with the ledger if its energy is asked for (it does not change the motion).
+///
+/// # Errors
+/// When the scene is refused, or a force or an energy of it is not finite.
 pub fn record(playing: &Playing, setting: &Setting, with_ledger: bool) -> Result<Record> {
     let mut record = Record::default();
     for (string, scene) in playing.scenes(setting)?.iter().enumerate() {
@@ -122,6 +125,9 @@ pub fn record(playing: &Playing, setting: &Setting, with_ledger: bool) -> Result
         }
     }
     record.add_up();
+    let forces = record.bridge.iter().flat_map(|(_, forces)| forces);
+    let mut kept = forces.chain(&record.impulses).chain(&record.booked);
+    ensure!(kept.all(|value| value.is_finite()), "not finite under {setting:?}");
     Ok(record)
 }
 

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use low_action_dsp::neck::Neck;
 use low_action_dsp::scene::FretPlacement;
 use low_action_dsp::{EngineSettings, Quality, Setup, SolverSettings, Stencil};
 
@@ -56,9 +57,8 @@ pub const BASE: Setting = Setting {
 /// What everything is held against.
 pub const REFERENCE: Setting = Setting { rate: 768e3, cap: 200, tolerance: 1e-15, ..BASE };
 
-/// The damping of the frets of the instrument whose strings buzz, s/m.
-static OWN_DAMPING: LazyLock<f64> =
-    LazyLock::new(|| Setup::builtin("electric").map_or(f64::NAN, |setup| setup.neck.damping));
+/// The neck of the instrument whose strings buzz.
+static OWN_NECK: LazyLock<Neck> = LazyLock::new(|| Setup::builtin("electric").expect("it is built in").neck);
 
 /// The axis along which a setting departs from [`BASE`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -227,7 +227,7 @@ impl Setting {
                 format!("{rate}, {}", if self.law == Law::Newton { "Newton" } else { "quadratised" })
             }
             Axis::String => rate,
-            Axis::Loss => format!("{} s/m, {rate}", self.damping.unwrap_or(*OWN_DAMPING)),
+            Axis::Loss => format!("{} s/m, {rate}", self.damping.unwrap_or(OWN_NECK.damping)),
             Axis::Frets => {
                 let loss = if self.damping == Some(0.0) { ", lossless" } else { "" };
                 let spacing =
@@ -236,7 +236,7 @@ impl Setting {
             }
             Axis::Grid => format!("{rate}, {}", stencil_name(self.stencil)),
             Axis::Solver => format!("{rate}, cap {}, {:e} m", self.cap, self.tolerance),
-            Axis::Exponent => format!("{rate}, exponent {}", self.exponent.unwrap_or(1.5)),
+            Axis::Exponent => format!("{rate}, exponent {}", self.exponent.unwrap_or(OWN_NECK.exponent)),
         }
     }
 }

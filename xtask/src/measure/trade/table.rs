@@ -3,9 +3,9 @@
 use anyhow::{Context, Result, ensure};
 use low_action_dsp::Quality;
 
-use super::Outcome;
 use super::scenes::{Kind, SCENES};
 use super::settings::{Axis, BASE, Law, Setting, quality, settings};
+use super::{Outcome, percent};
 
 /// How a column is compared.
 #[derive(Clone, Copy)]
@@ -26,7 +26,7 @@ const BOUNCING: Agreement = Agreement { part: 0.6, least: 2.0 };
 /// One column of errors: what it is called, of which scenes, what, and how it is compared.
 struct Column {
     name: &'static str,
-    of: fn(&Outcome) -> f64,
+    of: fn(&Outcome) -> Option<f64>,
     kinds: &'static [Kind],
     median: bool,
     agreement: Agreement,
@@ -38,53 +38,62 @@ const ALL: &[Kind] = &[Kind::Open, Kind::Pressed, Kind::BuzzingLight, Kind::Buzz
 const fn worst(
     name: &'static str,
     kinds: &'static [Kind],
-    of: fn(&Outcome) -> f64,
+    of: fn(&Outcome) -> Option<f64>,
     agreement: Agreement,
 ) -> Column {
     Column { name, of, kinds, median: false, agreement }
 }
 
 /// A column of the median over all scenes.
-const fn median(name: &'static str, of: fn(&Outcome) -> f64, agreement: Agreement) -> Column {
+const fn median(name: &'static str, of: fn(&Outcome) -> Option<f64>, agreement: Agreement) -> Column {
     Column { name, of, kinds: ALL, median: true, agreement }
 }
 
 const COLUMNS: &[Column] = &[
-    median("waveform, median, %", |o| 100.0 * o.errors.waveform, SMOOTH),
-    worst("worst, %", ALL, |o| 100.0 * o.errors.waveform, SMOOTH),
-    worst("pitch, stopped, cents", &[Kind::Pressed], |o| o.errors.pitch, SMOOTH),
-    worst("partials, open, cents", &[Kind::Open], |o| o.errors.partials, SMOOTH),
-    worst("partials, stopped, cents", &[Kind::Pressed], |o| o.errors.partials, SMOOTH),
-    worst("decay, open, %", &[Kind::Open], |o| 100.0 * o.errors.decay, SMOOTH),
-    worst("impulses, stopped, %", &[Kind::Pressed], |o| 100.0 * o.errors.impulses, SMOOTH),
-    worst("buzzing, light, %", &[Kind::BuzzingLight], |o| 100.0 * o.errors.impulses, BOUNCING),
-    worst("buzzing, heavy, %", &[Kind::BuzzingHeavy], |o| 100.0 * o.errors.impulses, BOUNCING),
-    worst("bridge, worst, %", ALL, |o| 100.0 * o.errors.level, BOUNCING),
-    median("spectrum, median, dB", |o| o.errors.spectrum, BOUNCING),
-    worst("spectrum, worst, dB", ALL, |o| o.errors.spectrum, BOUNCING),
+    median("waveform, median, %", Outcome::waveform, SMOOTH),
+    worst("worst, %", ALL, Outcome::waveform, SMOOTH),
+    worst("pitch, stopped, cents", &[Kind::Pressed], |o| o.errors.pitch(), SMOOTH),
+    worst("partials, open, cents", &[Kind::Open], |o| o.errors.partials(), SMOOTH),
+    worst("partials, stopped, cents", &[Kind::Pressed], |o| o.errors.partials(), SMOOTH),
+    worst("decay, open, %", &[Kind::Open], Outcome::decay, SMOOTH),
+    worst("impulses, stopped, %", &[Kind::Pressed], Outcome::impulses, SMOOTH),
+    worst("buzzing, light, %", &[Kind::BuzzingLight], Outcome::impulses, BOUNCING),
+    worst("buzzing, heavy, %", &[Kind::BuzzingHeavy], Outcome::impulses, BOUNCING),
+    worst("bridge, worst, %", ALL, |o| Some(percent(o.errors.level)), BOUNCING),
+    median("spectrum, median, dB", |o| Some(o.errors.spectrum), BOUNCING),
+    worst("spectrum, worst, dB", ALL, |o| Some(o.errors.spectrum), BOUNCING),
 ];
 
 impl Column {
-    /// Its number for a setting.
-    fn value(&self, setting: &Setting, outcomes: &[Outcome]) -> f64 {
+    /// Its number for a setting, if a scene tells it.
+    fn value(&self, setting: &Setting, outcomes: &[Outcome]) -> Option<f64> {
         let these = of(setting, outcomes);
         let kind = |outcome: &&Outcome| self.kinds.contains(&outcome.kind());
-        let mut values: Vec<f64> = these.filter(kind).map(self.of).filter(|value| !value.is_nan()).collect();
+        let mut values: Vec<f64> = these.filter(kind).filter_map(self.of).collect();
         values.sort_by(f64::total_cmp);
         let place = if self.median { values.len() / 2 } else { values.len().saturating_sub(1) };
-        values.get(place).copied().unwrap_or(f64::NAN)
+        values.get(place).copied()
     }
 }
 
 /// A number with about three digits, always written out so that it can be read again.
 pub fn plain(value: f64) -> String {
     match value {
-        value if value.is_nan() => "–".into(),
         value if value.abs() < 0.995 => format!("{value:.3}"),
         value if value.abs() < 9.95 => format!("{value:.2}"),
         value if value.abs() < 99.5 => format!("{value:.1}"),
         value => format!("{value:.0}"),
     }
+}
+
+/// The same, and a dash for what is not measured.
+pub fn shown(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".into(), plain)
+}
+
+/// A whole number, and a dash for what is not measured.
+fn shown_whole(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".into(), |value| format!("{value:.0}"))
 }
 
 pub fn head(names: impl IntoIterator<Item = String>) -> String {
@@ -97,16 +106,16 @@ pub fn accuracy(axis: Axis, settings: &[Setting], outcomes: &[Outcome]) -> Strin
     let mut text = head(COLUMNS.iter().map(|column| column.name.to_owned()));
     for setting in settings {
         let cells: Vec<String> =
-            COLUMNS.iter().map(|column| plain(column.value(setting, outcomes))).collect();
+            COLUMNS.iter().map(|column| shown(column.value(setting, outcomes))).collect();
         text += &format!("| {} | {} |\n", setting.name(axis), cells.join(" | "));
     }
     text
 }
 
-/// The mean part of a core that a string takes under a setting.
-pub fn mean_load(setting: &Setting, outcomes: &[Outcome]) -> f64 {
+/// The mean part of a core that a string takes under a setting, if times were taken.
+pub fn mean_load(setting: &Setting, outcomes: &[Outcome]) -> Option<f64> {
     let loads: Vec<f64> = of(setting, outcomes).filter_map(|outcome| outcome.load).collect();
-    loads.iter().sum::<f64>() / loads.len() as f64
+    (!loads.is_empty()).then(|| loads.iter().sum::<f64>() / loads.len() as f64)
 }
 
 /// All outcomes of a setting in the scenes of which all tables are made.
@@ -131,16 +140,17 @@ pub fn cost(axis: Axis, outcomes: &[Outcome]) -> String {
     for setting in &settings(axis) {
         let most = |value: fn(&Outcome) -> f64| of(setting, outcomes).map(value).fold(0.0f64, f64::max);
         let load = mean_load(setting, outcomes);
+        let dearest = of(setting, outcomes).filter_map(|outcome| outcome.load).max_by(f64::total_cmp);
         let counted = of(setting, outcomes).find_map(|outcome| outcome.instructions);
         let booked = most(|outcome| outcome.booked.abs());
         text += &format!(
-            "| {} | {} | {} | {:.0} | {} | {} | {} | {} | {} | {} |\n",
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
             setting.name(axis),
-            plain(100.0 * load),
-            plain(100.0 * most(|outcome| outcome.load.unwrap_or(f64::NAN))),
-            1e9 * load / setting.rate,
+            shown(load.map(percent)),
+            shown(dearest.map(percent)),
+            shown_whole(load.map(|load| 1e9 * load / setting.rate)),
             most(|outcome| f64::from(outcome.iterations)),
-            counted.map_or("–".into(), |counted| format!("{counted:.0}")),
+            shown_whole(counted),
             plain(100.0 * most(|outcome| outcome.fallbacks)),
             if setting.law == Law::Newton { format!("{booked:.0e}") } else { "–".into() },
             plain(1e6 * most(|outcome| outcome.penetration[0])),
@@ -170,21 +180,21 @@ fn by_scene(setting: &Setting, outcomes: &[Outcome]) -> String {
         let errors = &outcome.errors;
         let [deepest, reference] = outcome.penetration.map(|depth| plain(1e6 * depth));
         let cells = [
-            100.0 * errors.waveform,
-            errors.pitch,
-            errors.partials,
-            100.0 * errors.decay,
-            100.0 * errors.impulses,
-            100.0 * errors.level,
-            errors.spectrum,
+            outcome.waveform(),
+            errors.pitch(),
+            errors.partials(),
+            outcome.decay(),
+            outcome.impulses(),
+            Some(percent(errors.level)),
+            Some(errors.spectrum),
         ];
         text += &format!(
             "| {} | {} | {} | {:.0e} | {deepest} ({reference}) | {} |\n",
             SCENES[outcome.scene].name,
-            plain(100.0 * outcome.load.unwrap_or(f64::NAN)),
+            shown(outcome.load.map(percent)),
             outcome.iterations,
             outcome.booked,
-            cells.map(plain).join(" | ")
+            cells.map(shown).join(" | ")
         );
     }
     text
