@@ -186,7 +186,7 @@ fn observe(index: usize, playing: &Playing, settings: &[Setting]) -> Result<Vec<
         let reference = references.iter().find(|(known, _)| *known == of);
         let (_, reference) = reference.context("the reference has just been made")?;
         let run = record::record(playing, &setting, true)?;
-        let errors = reference.errors(&run, playing.kind, pitch, &filter);
+        let errors = reference.errors(&run, (playing.kind, setting.law), pitch, &filter);
         let errors = errors.with_context(|| format!("under {setting:?}"))?;
         outcomes.push(Outcome {
             setting,
