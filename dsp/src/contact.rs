@@ -79,12 +79,16 @@ impl ContactLaw {
     /// The same law, growing no steeper than `slope`, N/m: beyond the penetration where φ′ reaches it the
     /// force goes on as a straight line. With α = 1 that is a smaller stiffness.
     pub fn no_steeper_than(&self, slope: f64) -> Self {
+        // With a knee it is nowhere steeper than beyond that.
+        if self.knee < f64::INFINITY && self.at_knee.slope <= slope {
+            return *self;
+        }
         if self.exponent == 1.0 {
             if self.knee == f64::INFINITY {
                 return self.with_stiffness(self.stiffness.min(slope));
             }
             // With a knee it is straight from the start, and less steep than its stiffness.
-            return if slope < self.at_knee.slope { self.straight_at_once(slope) } else { *self };
+            return self.straight_at_once(slope);
         }
         let knee = libm::pow(slope / (self.exponent * self.stiffness), 1.0 / (self.exponent - 1.0));
         if knee < LEAST_KNEE {

@@ -15,6 +15,22 @@ fn no_law_is_steeper_than_it_may_be() {
     }
 }
 
+/// A limit that is higher than one before changes nothing, also where the law is straight from the first touch on.
+#[test]
+fn a_limit_never_makes_a_law_steeper() {
+    for exponent in [1.0, 1.0001, 1.01, 1.05, 1.5, 5.0] {
+        for stiffness in [1e3, 1e9, 1e15] {
+            let law = ContactLaw::new("test", stiffness, exponent).expect("it is in range");
+            for first in [law.no_steeper_than(1e6), law.giving_way(1e-6)] {
+                for higher in [1e6, 1e8, 1e30] {
+                    let again = first.no_steeper_than(higher);
+                    assert_eq!(again, first, "{stiffness}, {exponent}: {higher} after 1e6");
+                }
+            }
+        }
+    }
+}
+
 /// Before the knee and beyond it, whatever the knee came from.
 #[test]
 fn another_stiffness_changes_all_forces_alike() {
