@@ -114,7 +114,8 @@ impl Voice {
     /// Begins a gesture.
     pub fn begin(&mut self, gesture: Gesture) {
         if self.is_at_rest() {
-            // It wakes with the first of two samples that may share a step: its sound does not depend on when.
+            // It wakes with the first of two samples that may share a step: its sound does not depend on when. (While filters still
+            // ring from before it fell asleep they go on, and it wakes with either.)
             self.decimator.reset();
         }
         self.asleep = false;
@@ -208,7 +209,9 @@ impl Voice {
             ledger.record(&self.model, &self.state, &self.scratch, &self.drive);
         }
         let signal = self.listener.hear(&self.model, &self.state, &self.scratch);
-        if self.hands.idle() && self.settling.part.rests() && self.scratch.string_energy() < SILENCE {
+        // (That energy is from before the step: what was pushed in it is not in it yet.)
+        let is_left_alone = self.hands.idle() && self.drive.pushes.is_empty();
+        if is_left_alone && self.settling.part.rests() && self.scratch.string_energy() < SILENCE {
             self.fall_asleep();
         }
         signal

@@ -75,6 +75,30 @@ fn a_string_that_slept_sounds_like_one_that_never_did() {
     }
 }
 
+/// A push so short that the step in which it wakes the string is also its last moves it nevertheless.
+#[test]
+fn a_pluck_of_a_microsecond_wakes_a_silent_string() {
+    let pluck = Gesture::Pluck { position: 0.5, force: 10.0, duration: 1e-6, release: 0.0 };
+    for name in ["electric", "classical"] {
+        let [asleep, awake] = [false, true].map(|watched| {
+            let mut instrument = Instrument::new(&setup(name), &LIVE).expect("it can be built");
+            let hovering = Gesture::Place { finger: 3, touch: HOVERING, position: 0.1, clearance: 0.05 };
+            for gesture in [watched.then_some(hovering), Some(pluck)].into_iter().flatten() {
+                let event = TimedGesture { time: 0, string: 0, gesture };
+                instrument.schedule(event).expect("there is room");
+            }
+            let (mut left, mut right) = (vec![0.0; 4800], vec![0.0; 4800]);
+            instrument.process(&mut left, &mut right);
+            left
+        });
+        let peak = peak(&awake);
+        assert!(peak > 0.0, "{name}: it sounds under a finger that hovers");
+        let difference = largest(asleep.iter().zip(&awake).map(|(a, b)| (a - b).abs()));
+        println!("{name}: at most {difference:e} apart, peak {peak:e}");
+        assert!(difference <= 1e-6 * peak, "{name}: {difference} apart, peak {peak}");
+    }
+}
+
 #[test]
 fn what_is_reset_is_silent() {
     let mut instrument = Instrument::new(&setup("electric"), &LIVE).expect("it can be built");
