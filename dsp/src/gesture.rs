@@ -88,7 +88,8 @@ impl Touch {
     pub fn check(&self, name: &str) -> Result<(), Error> {
         Self::NUMBERS.iter().try_for_each(|number| {
             let TouchNumber { key, range, unit, .. } = *number;
-            ranged(&format!("{name}.{key}"), number.value(*self), range, unit).map(drop)
+            // The full name is put together only for a refusal: whoever places a good finger between steps allocates nothing.
+            ranged(key, number.value(*self), range, unit).map(drop).map_err(|error| error.under(name))
         })
     }
 }
@@ -103,8 +104,11 @@ pub const FINGERS_PER_STRING: usize = 7;
 /// The largest force of a hand either way, N, in scenes, too: far below where differences of forces overflow.
 pub const MOST_FORCE: f64 = 1e6;
 
-/// The highest place for a finger over a string, m; in scenes it is the lowest below it, too.
+/// The highest place for a finger over a string, m; for scenes and programs it is the lowest below it, too.
 pub const MOST_CLEARANCE: f64 = 10.0;
+
+/// The largest velocity that a string or a finger may begin with, m/s.
+pub(crate) const FASTEST: f64 = 1e3;
 
 /// Something a hand does to one string.
 ///

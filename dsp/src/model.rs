@@ -201,9 +201,10 @@ impl Model {
     /// The law of a finger's pad.
     ///
     /// # Errors
-    /// When its stiffness or exponent is out of range, or it is too stiff to be told from rounding at this rate.
+    /// When a number of the touch is out of its range, or the pad is too stiff to be told from rounding at this rate.
     pub fn finger_law(&self, touch: &Touch) -> Result<ContactLaw, Error> {
-        let law = ContactLaw::new("finger", touch.stiffness, touch.exponent)?;
+        touch.check("finger")?;
+        let law = ContactLaw::known(touch.stiffness, touch.exponent);
         self.law_if_soft(&law, touch)
             .ok_or_else(|| too_stiff("finger.stiffness", &law, law.stiffness(), self.mobility_under(touch)))
     }

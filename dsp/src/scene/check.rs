@@ -4,7 +4,7 @@ use super::{FingerSpec, FretboardSpec, ListeningPoint, Scene, SolverSettings, St
 use crate::contact::ContactLaw;
 use crate::curve::{CountOrList, Curve, MOST_COUNTED, MOST_FRETS, OneOrEach};
 use crate::error::{Error, on_string, ranged, within};
-use crate::gesture::{MOST_CLEARANCE, MOST_FORCE};
+use crate::gesture::{FASTEST, MOST_CLEARANCE, MOST_FORCE};
 use crate::model::{Barrier, Model, StringParameters};
 
 /// The most strings, plucks or fingers of a scene, a limit against descriptions that fill the memory.
@@ -80,9 +80,6 @@ impl SolverSettings {
         within("solver.tolerance", self.tolerance, 0.0, Self::WIDEST_TOLERANCE, "m").map(drop)
     }
 }
-
-/// The largest velocity that a string or a finger may begin with, m/s.
-const FASTEST: f64 = 1e3;
 
 impl StringSpec {
     /// Refuses values outside their range; `name` says which string this is.

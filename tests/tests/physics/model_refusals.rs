@@ -1,10 +1,13 @@
-//! Promise: whoever builds a model without a scene is told, by name and value, of what no string, board or fret can be; nothing is
-//! compiled of it.
+//! Promise: whoever builds a model without a scene is told, by name and value, of what no string, board, fret or finger can be;
+//! nothing is compiled of it.
 
 use low_action_dsp::contact::ContactLaw;
 use low_action_dsp::curve::{CountOrList, Curve, OneOrEach};
+use low_action_dsp::drive::Push;
 use low_action_dsp::scene::FretPlacement;
-use low_action_dsp::{Barrier, Model, Scene, Simulation, SolverSettings, StringParameters};
+use low_action_dsp::{
+    Barrier, Drive, Ledger, Model, Scene, Scratch, Simulation, SolverSettings, State, StringParameters, Touch,
+};
 
 const RATE: f64 = 48_000.0;
 
@@ -68,11 +71,92 @@ fn strings_that_cannot_be_are_refused() {
         refused("tension_limit", StringParameters { tension_limit: wrong, ..STRING });
         refused("youngs_modulus", StringParameters { youngs_modulus: wrong, ..STRING });
         refused("core_radius", StringParameters { core_radius: wrong, ..STRING });
-        refused("loss_0", StringParameters { loss_0: wrong, ..STRING });
         refused("loss_1", StringParameters { loss_1: wrong, ..STRING });
     }
     assert_refused(build(StringParameters { tension: 0.0, ..STRING }), &["tension = 0", "above 0 N"]);
     assert_refused(build(StringParameters { linear_density: 0.0, ..STRING }), &["above 0 kg/m"]);
+}
+
+/// Where a step leaves nothing of a motion, its loss would be infinite and the balance no number.
+#[test]
+fn losses_are_refused_of_which_no_double_could_tell() {
+    for rate in [1e3, RATE, 1e7] {
+        let build = |loss_0| {
+            let string = StringParameters { loss_0, ..STRING };
+            Model::new(string, None, 0, SolverSettings::default(), rate)
+        };
+        for (wrong, shown) in
+            [(-1.0, "-1"), (1.001e12, "1.001e12"), (1e21, "1e21"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")]
+        {
+            let words = format!("loss_0 = {shown} is refused: it must lie between 0 and 1e12 1/s");
+            assert_refused(build(wrong), &[&words]);
+        }
+        // The largest that is accepted is realised, and its balance closes.
+        let model = build(1e12).expect("it can be built");
+        assert!((model.string.loss_0 / 1e12 - 1.0).abs() < 1e-7, "{rate} Hz: {} 1/s", model.string.loss_0);
+        let (mut state, mut scratch) = (State::new(&model), Scratch::new(&model));
+        let mut drive = Drive::new(&model);
+        drive.pushes.push(Push { reading: model.grid.reading(0.3), force: 10.0 });
+        let mut ledger = Ledger::new(&model, &state, model.string.tension);
+        for _ in 0..100 {
+            state.step(&model, &drive, &mut scratch);
+            ledger.record(&model, &state, &scratch, &drive);
+        }
+        assert!(ledger.put_in > 0.0, "{rate} Hz: {} J", ledger.put_in);
+        assert!(ledger.residual_sum.abs() <= 1e-12 * ledger.put_in, "{rate} Hz: {} J", ledger.residual_sum);
+    }
+}
+
+/// Of a program: gestures and scenes never come so far.
+#[test]
+fn fingers_that_cannot_be_are_refused() {
+    const FINGER: Touch =
+        Touch { mass: 5e-3, stiffness: 1e7, exponent: 2.0, damping: 1.0, hand_damping: 5.0 };
+    let model = Model::new(STRING, None, 2, SolverSettings::default(), RATE).expect("it can be built");
+    let place = |touch, [position, height, velocity]: [f64; 3]| {
+        let mut state = State::new(&model);
+        let placed = state.place_finger(&model, 1, touch, position, height, velocity);
+        assert_eq!(placed.is_ok(), state.fingers()[1].is_some());
+        placed.map_err(|error| error.to_string())
+    };
+    let there = [0.3, 1e-3, -1.0];
+    assert_eq!(place(FINGER, there), Ok(()));
+    let refused = |placed: Result<(), String>, words: &str| {
+        let said = placed.expect_err("it is refused");
+        assert!(said.starts_with(words) && !said.contains('\n'), "`{words}` does not begin `{said}`");
+    };
+    for (wrong, shown) in [(-1.0, "-1"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
+        for (name, touch) in [
+            ("mass", Touch { mass: wrong, ..FINGER }),
+            ("stiffness", Touch { stiffness: wrong, ..FINGER }),
+            ("exponent", Touch { exponent: wrong, ..FINGER }),
+            ("damping", Touch { damping: wrong, ..FINGER }),
+            ("hand_damping", Touch { hand_damping: wrong, ..FINGER }),
+        ] {
+            refused(
+                place(touch, there),
+                &format!("finger.{name} = {shown} is refused: it must lie between "),
+            );
+        }
+    }
+    refused(
+        place(Touch { mass: 0.0, ..FINGER }, there),
+        "finger.mass = 0 is refused: it must lie between 1e-7 and 1000 kg",
+    );
+    for (wrong, shown) in [(-1e4, "-10000"), (1e4, "10000"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
+        for (place_of_it, words) in [
+            ([wrong, 1e-3, -1.0], "position"),
+            ([0.3, wrong, -1.0], "height"),
+            ([0.3, 1e-3, wrong], "velocity"),
+        ] {
+            let range = match words {
+                "position" => "it must lie on the string, above 0 and below 0.65 m",
+                "height" => "it must lie between -10 and 10 m",
+                _ => "it must lie between -1000 and 1000 m/s",
+            };
+            refused(place(FINGER, place_of_it), &format!("finger.{words} = {shown} is refused: {range}"));
+        }
+    }
 }
 
 #[test]
