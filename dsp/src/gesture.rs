@@ -227,8 +227,9 @@ pub fn pluck_push(since: f64, step: f64, duration: f64, release: f64) -> f64 {
 /// The part of it that grows.
 fn growing(since: f64, step: f64, duration: f64) -> f64 {
     let (from, to) = ((since - 0.5 * step).max(0.0), (since + 0.5 * step).min(duration));
-    // Less than the smallest normal number has no inverse.
-    if from >= to || duration < 1e-300 {
+    // Less than the smallest normal number has no inverse, and what is that of a longer one than this may be none. It does not
+    // push in any time there is.
+    if from >= to || !(1e-300..=1e300).contains(&duration) {
         return 0.0;
     }
     // ∫cos over an interval is its length times cos(middle)·sin(x)/x, x half its length: no small difference of large numbers.
