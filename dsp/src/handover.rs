@@ -1,9 +1,10 @@
 //! Another model under strings that ring: what one instrument hands to the next, without a click and
 //! without allocating.
 //!
-//! The new instrument is built beforehand, elsewhere. It takes over displacement and motion of each
-//! string (read between the grid points where the grids differ), the fingers with the depth to which
-//! they are pressed in, plucks under way and the gestures that wait. A finger or fret that was in touch
+//! The new instrument is built beforehand, elsewhere. Where its strings are much the same it takes over displacement and
+//! motion of each (read between the grid points where the grids differ), the fingers with the depth to which
+//! they are pressed in, plucks under way and the gestures that wait; where they are not it takes over nothing, and what
+//! waits is dropped with the strings that it was meant for. A finger or fret that was in touch
 //! stays in touch, pressed just as hard; board and frets go on from there to their new places as a luthier's
 //! wrench would move them, and the tension from the old to the new. The step from one set of numbers to
 //! the other changes the energy that the same motion holds: the [`Ledger`] books it, and all work done
@@ -28,8 +29,8 @@ const FADE: f64 = 0.02;
 
 impl Instrument {
     /// Puts `successor` in the place of this instrument. Whatever it has played before is forgotten first.
-    /// If its strings are much the same the sound goes on; otherwise the old sound fades away and the new
-    /// instrument is silent. Either way the sound is continuous, and nothing is allocated
+    /// If its strings are [much the same](Instrument::continues_in) the sound goes on, and so do the gestures that wait; otherwise
+    /// the old sound fades away, the new instrument is silent, and the gestures that wait are dropped. Either way the sound is continuous, and nothing is allocated
     /// or given back: the old instrument stays inside until [`Instrument::take_before`] fetches it.
     ///
     /// # Errors

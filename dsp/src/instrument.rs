@@ -33,7 +33,8 @@ pub struct StringGeometry {
     pub length: f64,
     /// Places of the frets, m from the nut, fret 1 first.
     pub frets: Vec<f64>,
-    /// The largest tension a bend may reach, as a multiple of the string's own.
+    /// The largest tension that the set-up's `max_bend` asks for, as a multiple of the string's own. (Its grid bears as much, and
+    /// half a semitone at least: up to there [`Gesture::Bend`](crate::Gesture::Bend) reaches.)
     pub highest_ratio: f64,
     /// Wave impedance √(Tρ), kg/s.
     pub wave_impedance: f64,
