@@ -182,7 +182,7 @@ the energies half a sample later.
 
 The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to \
 1e-9 of the largest energy, or of all that was put in where that is more (what was taken out again is not \
-counted off), beside what rounding can do.
+counted off), beside what rounding can do; where that is more than 1e-6, a warning says so.
 
 Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the result failed its own check. \
 Told to stop, it leaves nothing half written and ends by the very signal (130 for Ctrl+C, 143 for SIGTERM, as \

@@ -33,6 +33,8 @@ const LARGEST_SCENE: u64 = 16 << 20;
 /// How far the energy balance may be open over a whole run, as a part of the largest energy or of all that was put in, whichever
 /// is more, and beyond what rounding alone may come to. It leaves some 1e-13 a second.
 const BALANCE: f64 = 1e-9;
+/// Where rounding alone may come to more than this part, little or nothing of the balance is checked, and a warning says so.
+const COARSE: f64 = 1e-6;
 /// A trace of more bytes is announced.
 const LARGE_TRACE: u64 = 1_000_000_000;
 /// Samples between two looks at the progress: with the largest scenes a second or so.
@@ -63,7 +65,11 @@ pub(super) fn run(arguments: &SceneArgs) -> Outcome {
     let summary =
         Summary { arguments, scene: &scene, simulation: &simulation, seen, sound, trace_size, elapsed };
     summary.print();
-    check(&name, &seen, sound.as_ref(), simulation.ledgers())
+    check(&name, &seen, sound.as_ref(), simulation.ledgers())?;
+    warnings::coarse(simulation.ledgers())
+        .iter()
+        .for_each(|warning| say("warning", &format!("{name}: {warning}")));
+    Ok(())
 }
 
 /// What the scene is called in messages.
@@ -256,7 +262,7 @@ fn check(name: &str, seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) 
         return fails(format!("{count} samples are too large for 32 bits; the file is kept"));
     }
     for (number, ledger) in (1..).zip(ledgers) {
-        let (open, limit) = (open_part(ledger), BALANCE + ledger.rounding / flow(ledger));
+        let (open, limit) = (open_part(ledger), BALANCE + rounding_part(ledger));
         if open.is_nan() || open > limit {
             return fails(format!(
                 "the energy balance of string {number} is open by {} of its largest energy or of all that was put in, over \
@@ -272,6 +278,11 @@ fn check(name: &str, seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) 
 /// How far a ledger is open in all, as a part of the largest energy or of all that was put in.
 fn open_part(ledger: &Ledger) -> f64 {
     if ledger.residual_sum == 0.0 { 0.0 } else { ledger.residual_sum.abs() / flow(ledger) }
+}
+
+/// How far rounding alone may open it, as the same part.
+fn rounding_part(ledger: &Ledger) -> f64 {
+    ledger.rounding / flow(ledger)
 }
 
 /// What a balance is judged by, J: above 0. (What hands take out again has gone through it, too.)

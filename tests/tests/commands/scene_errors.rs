@@ -469,3 +469,47 @@ fn a_string_that_begins_inside_the_board_is_warned_of() {
     assert_eq!(inside.error.lines().count(), 1, "{}", inside.error);
     assert!(!over.error.contains("warning"), "{}", over.error);
 }
+
+/// A finger of a tonne that a hand drags to and fro over a taut string, with its full force: what flows through that is known to no
+/// digit, and a check that lets all of it pass says so.
+const COARSE: &str = "sample_rate = 44100
+duration = 0.01
+[[string]]
+length = 0.65
+linear_density = 5.25e-3
+tension = 60.0
+youngs_modulus = 2e11
+core_radius = 4.3e-4
+loss_0 = 1.38
+loss_1 = 1.25e-4
+tension_modulation = true
+[[finger]]
+mass = 1e3
+stiffness = 1e9
+exponent = 5.0
+damping = 1e5
+position = [[0.0, 0.3], [0.001, 0.6], [0.002, 0.01], [0.01, 0.64]]
+height = 0.0
+velocity = -1000.0
+force = 1e6
+[fretboard]
+stiffness = 1e13
+exponent = 1.0
+damping = 1e5
+board = -0.0001
+";
+
+#[test]
+fn a_balance_that_rounding_leaves_unchecked_is_warned_of() {
+    let place = workplace();
+    place.write("scene.toml", COARSE);
+    let done = place.run(&["scene", "scene.toml"]);
+    assert_eq!(done.code, 0, "{}", done.error);
+    let warning = "warning: scene.toml: the energy balance of string 1 is checked only to ";
+    assert!(done.error.starts_with(warning), "{}", done.error);
+    assert!(done.error.contains("rounding"), "{}", done.error);
+    assert_eq!(done.error.lines().count(), 1, "{}", done.error);
+    // Where nothing is measured nothing is checked.
+    let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
+    assert_eq!((done.code, done.error.contains("balance")), (0, false), "{}", done.error);
+}
