@@ -30,8 +30,9 @@ const FADE: f64 = 0.02;
 impl Instrument {
     /// Puts `successor` in the place of this instrument. Whatever it has played before is forgotten first.
     /// If its strings are [much the same](Instrument::continues_in) the sound goes on, and so do the gestures that wait; otherwise
-    /// the old sound fades away, the new instrument is silent, and the gestures that wait are dropped. Either way the sound is continuous, and nothing is allocated
-    /// or given back: the old instrument stays inside until [`Instrument::take_before`] fetches it.
+    /// the old sound fades away, the new instrument is silent, and the gestures that wait are dropped. Either way the sound is
+    /// continuous, and nothing is allocated or given back: the old instrument stays inside until
+    /// [`Instrument::take_before`] fetches it.
     ///
     /// # Errors
     /// When `successor` is built for another sample rate, and while the instrument before has not been fetched, from this one
