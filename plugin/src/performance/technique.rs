@@ -106,9 +106,10 @@ pub(crate) struct Parting {
 /// The usual: 40 dB take 0.15 s, and a hand that relaxes as fast as that is itself heard through a bridge; and so slowly that
 /// the string rises from the fret without a sound.
 pub(crate) const RESTING: Parting = Parting { relaxing: 0.4, easing: FINGER_EASING };
-/// Of a finger that has tapped, and is to be off the string before it taps again.
+/// Of a finger that has tapped, and is to be off the string before it taps again; but no sooner than the dampers have come to rest,
+/// in whose 10 ms a string that hangs high over its fret would sound by being let up.
 pub(crate) const TAPPING: Parting =
-    Parting { relaxing: 0.004, easing: Leaving { speed: 0.2, turning: 0.012 } };
+    Parting { relaxing: 0.004, easing: Leaving { speed: 0.05, turning: 0.045 } };
 /// What a fretting finger goes on pressing with when a note has ended, as a multiple of the force at
 /// which the string would leave the fret.
 pub(crate) const HOLDING: f64 = 1.25;
@@ -161,8 +162,6 @@ pub(crate) const HAMMER_LANDING: f64 = 0.001;
 pub(crate) const ANCHOR_RAMP: (f64, f64) = (0.02, 0.003);
 /// How fast a finger is set down behind another, m/s: before that one has left.
 pub(crate) const BEHIND_SPEED: f64 = 0.5;
-/// How fast one that is behind another already is at another fret, s, if no hand's speed keeps it from that.
-pub(crate) const BEHIND_SLIDE: f64 = 0.002;
 /// How a finger plucks the string that it pulls off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pull {

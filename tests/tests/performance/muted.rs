@@ -1,5 +1,5 @@
 //! The promise: a muted note is a knock. What it has of a pitch is gone before it is heard as one, wherever the hand lies, and the
-//! hand leaves for what comes next.
+//! hand leaves for what comes next. Its end is not heard.
 
 use low_action_tests::pitch::off_key;
 use low_action_tests::stage::{Stage, at, cc, decibels, level, off, on, peak};
@@ -48,6 +48,31 @@ fn nothing_of_it_is_left_after_150_milliseconds() {
         assert!(peak(sound) > 0.01);
         let down = decibels(peak(&sound[at(0.15)..at(0.25)]) / peak(&sound[..at(0.05)]));
         assert!(down < -20.0, "{setup} {string}: {down} dB after 150 ms");
+    }
+}
+
+/// A hand that mutes a string stays where it is when the note is over. (One of its fingers was taken away to damp the string nearer to
+/// the saddle: that let go of it, 4 to 10 dB below a soft knock.)
+#[test]
+fn the_end_of_a_muted_note_is_not_heard() {
+    for (setup, string, open, _) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        for fret in [0, 2, 5, 12] {
+            for velocity in [40, 100] {
+                let key = open + fret;
+                let events = [(0.0, cc(23, 2)), (0.0, on(key, velocity)), (0.2, off(key))];
+                let sound = &stage.play(&events, 1.8).strings[0];
+                let heard = |from: f64, to: f64| decibels(peak(&sound[at(from)..at(to)]));
+                let (knock, before, after) = (heard(0.0, 0.05), heard(0.17, 0.2), heard(0.2, 1.8));
+                println!(
+                    "{setup} {string}, fret {fret}, velocity {velocity}: {knock:.1}, {before:.1}, {after:.1} dB"
+                );
+                assert!(
+                    after < (knock - 50.0).max(before),
+                    "{setup} {string}, fret {fret}, velocity {velocity}: {after} dB after a knock of {knock} dB"
+                );
+            }
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The promise: a palm mutes every partial, and whatever the thumb of its hand does beside it. It is back when a pinch has been heard and a slap
 //! has bounced off, and so is one that is laid on meanwhile. It waits on the strings, so that the first note of a riff is as short
-//! as the others.
+//! as the others. An open string is as loud after a stopped one as after itself.
 
 use low_action::performance::PlayerEvent;
 use low_action_dsp::Gesture;
@@ -104,6 +104,37 @@ fn the_first_note_under_a_palm_is_as_loud_as_the_others() {
                     louder.iter().all(|louder| louder.abs() < 2.0),
                     "{setup} {string}, palm {palm}, {rest} s apart: the first two are {louder:?} dB louder than the third"
                 );
+            }
+        }
+    }
+}
+
+/// A finger that leaves for the open string lets that up, which is a pluck of its own, and the palm is on what is struck, not on that.
+/// (Where it left as fast as without a palm the open string was 4 to 7 dB louder.)
+#[test]
+fn an_open_string_under_a_palm_is_as_loud_after_a_stopped_one() {
+    for (setup, string, open) in [("drop-d", 5, 38), ("electric", 5, 40), ("steel", 5, 40), ("bass", 3, 28)] {
+        let mut stage = Stage::alone(setup, string);
+        for palm in [40, 76, 100, 127] {
+            for velocity in [70, 100] {
+                let mut heard = |before: u8| {
+                    let events = [
+                        (0.0, cc(20, palm)),
+                        (0.05, on(open + before, velocity)),
+                        (0.195, off(open + before)),
+                        (0.2, on(open, velocity)),
+                    ];
+                    level(&stage.play(&events, 0.14).strings[0][at(0.2)..])
+                };
+                let after_itself = heard(0);
+                for fret in [3, 5, 12] {
+                    let louder = heard(fret) - after_itself;
+                    println!("{setup}, palm {palm}, velocity {velocity}, after fret {fret}: {louder:.1} dB");
+                    assert!(
+                        (-2.0..4.0).contains(&louder),
+                        "{setup}, palm {palm}, velocity {velocity}: {louder} dB louder after fret {fret}"
+                    );
+                }
             }
         }
     }

@@ -10,10 +10,12 @@ use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
     /// Lays the edge of the hand near the saddle, and a finger of the other hand behind a fretting one,
-    /// which goes on pressing just hard enough.
+    /// which goes on pressing just hard enough. A hand that mutes the string stays where it is, and so does
+    /// a light finger: a string that is let go of sounds.
     pub(crate) fn damp(&mut self, parting: Parting, at: &mut Moment<impl GestureSink>) {
         let near_saddle = self.hands.damper.position.min(FARTHEST_DAMPER * self.sounding_length());
-        for (slot, part) in DAMPERS {
+        let (light, mutes) = (self.light, self.light.is_some() && self.resting[LIGHT]);
+        for (slot, part) in DAMPERS.into_iter().filter(|&(slot, _)| !mutes && light != Some(slot)) {
             self.rest(slot, self.string.geometry.length - part * near_saddle, at);
         }
         if let Some(anchor) = self.anchor.take() {

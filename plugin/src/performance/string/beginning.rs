@@ -73,6 +73,8 @@ impl StringPlayer {
         let by_little = start.fret > self.fingers.capo();
         let leaves = match stilling {
             Some(stilling) if by_little && stilling.comes_at_once(start.wait) => QUICK_LIFT,
+            // Under a palm a string that is let up would be louder than the stroke.
+            _ if self.fingers.palm_rests() => self.fingers.letting_go(0.0),
             _ => self.fingers.letting_go(coming.strength),
         };
         self.fingers.stop(start.fret, stop, coming, leaves, at);
