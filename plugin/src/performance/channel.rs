@@ -9,12 +9,18 @@ use super::technique::{BRIGHTNESS_REACH, FIRMEST};
 /// Farthest a file or keyboard may set its wheel's reach to, semitones.
 const WIDEST_RANGE: f64 = 96.0;
 
-/// Numbers of controllers that change something for all channels, or may.
+/// Numbers of controllers that change something for all channels, or may, or for notes that have begun.
 pub(super) mod controller {
     /// Data entry, upper half.
     pub const DATA_ENTRY: u8 = 6;
     /// Its lower half.
     pub const DATA_ENTRY_LOWER: u8 = 38;
+    /// The sustain pedal.
+    pub const PEDAL: u8 = 64;
+    /// The sostenuto pedal.
+    const SOSTENUTO: u8 = 66;
+    /// First of the messages that stop everything or put it back.
+    const MODE: u8 = 120;
     /// Fret of the capo.
     pub const CAPO: u8 = 26;
     /// First of the keyswitches.
@@ -25,6 +31,11 @@ pub(super) mod controller {
     /// Whether it changes something that belongs to no channel.
     pub fn is_of_all(number: u8) -> bool {
         matches!(number, CAPO | SWITCHES | HAND)
+    }
+
+    /// Whether it makes of notes that have begun, or of what channels mean, what it does not make of those to come.
+    pub fn is_of_begun(number: u8) -> bool {
+        matches!(number, DATA_ENTRY | DATA_ENTRY_LOWER | SOSTENUTO) || number >= MODE
     }
 }
 
@@ -207,7 +218,7 @@ impl Channel {
                 Request::None
             }
             controller::DATA_ENTRY | controller::DATA_ENTRY_LOWER => self.enter_data(number, value),
-            64 => {
+            controller::PEDAL => {
                 let was_down = std::mem::replace(&mut self.pedal, value >= 64);
                 if was_down && !self.pedal { Request::PedalUp } else { Request::None }
             }

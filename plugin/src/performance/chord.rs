@@ -8,9 +8,11 @@
 //! **Strums**: the right hand goes over the strings at one speed, towards the high ones or back, and reaches
 //! the first at once. Notes that are told the same way and time are one strum, whatever their channels.
 //!
-//! What notes do that overlap is in `legato`, what is known of one until it is placed in `waiting`.
+//! What notes do that overlap is in `legato`, what is known of one until it is placed in `waiting`, what comes between them
+//! in `meanwhile`.
 
 mod legato;
+mod meanwhile;
 mod waiting;
 
 use super::articulation::{Articulation, Stop, Stroke};
@@ -40,8 +42,7 @@ impl Performance {
 
     /// Asks for the note of a key that went down so often.
     fn ask_for(&mut self, channel: u8, key: u8, velocity: f64, presses: u32) {
-        let twin =
-            self.chord.iter_mut().find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
+        let twin = self.chord.iter_mut().find(|other| other.is(channel, key));
         if let Some(twin) = twin {
             twin.velocity = twin.velocity.max(velocity);
             twin.presses = twin.presses.saturating_add(presses);
@@ -102,32 +103,17 @@ impl Performance {
         self.compromises.moved_by_octaves -= u64::from(before);
     }
 
-    /// Whether notes that begin now have to be placed before this key goes up: it is one of them, or the one that they take
-    /// over from.
-    pub(super) fn chord_needs(&self, channel: u8, key: u8) -> bool {
-        self.chord.iter().any(|Unplaced { wanted, articulation, .. }| {
-            // Where each string has a channel, only its own key can be the one before.
-            let before = !self.is_by_strings() || wanted.channel == channel;
-            let connected = before && (articulation.legato || self.touching.legato);
-            connected || (wanted.channel, wanted.key) == (channel, key)
-        })
-    }
-
-    /// Whether notes that begin now have to be placed before a wheel, a pressure or a controller of some number moves: what
-    /// comes after a note of its channel is for the next one. Messages of other channels stand between the notes of one
-    /// chord wherever notes have channels of their own.
-    pub(super) fn changes_chord(&self, channel: u8, number: Option<u8>) -> bool {
-        let of_all = channel == MANAGER && (self.is_mpe() || number == Some(controller::DATA_ENTRY));
-        let of_hand = number.is_some_and(controller::is_of_all);
-        of_all || of_hand || self.chord.iter().any(|note| note.wanted.channel == channel)
-    }
-
-    /// Places and plays the notes that began together at `now`.
+    /// Places and plays the notes that began together at `now`, and lets go of the keys that have waited for that.
     pub(super) fn begin_chord(&mut self, out: &mut impl GestureSink) {
         self.take_over_notes(out);
-        if self.chord.is_empty() {
-            return;
+        if !self.chord.is_empty() {
+            self.place_chord(out);
         }
+        self.let_go_after(out);
+    }
+
+    /// Plays the notes of the chord, each on a string of its own.
+    fn place_chord(&mut self, out: &mut impl GestureSink) {
         let time = self.now;
         self.uses.clear();
         self.uses.extend(self.strings.iter().map(|string| string.usage(time)));

@@ -123,6 +123,7 @@ impl Performance {
         out: &mut impl GestureSink,
     ) {
         let Some((request, whose)) = self.change_channels(number, change) else { return };
+        self.tell_chord(request, |channel| whose.is(channel));
         match request {
             Request::Capo(fret) => return self.set_capo(usize::from(fret)),
             Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),

@@ -88,6 +88,8 @@ pub struct Performance {
     compromises: Compromises,
     /// Notes that began at `now` and are not placed yet.
     chord: Vec<Unplaced>,
+    /// Keys that go up, of channels, once the chord has been placed.
+    releases: Vec<(u8, u8)>,
     /// Notes of a chord that wait until its strings are free.
     late: Vec<Late>,
     /// Whether the next stroke back and forth goes back.
@@ -131,6 +133,7 @@ impl Performance {
             taken_over: false,
             compromises: Compromises::default(),
             chord: Vec::with_capacity(LARGEST_CHORD),
+            releases: Vec::with_capacity(LARGEST_CHORD),
             late: Vec::with_capacity(LARGEST_CHORD),
             upward: false,
             switches: None,
@@ -150,14 +153,12 @@ impl Performance {
                 if self.press_switch(channel, key) {
                     self.lay_palm(channel, out);
                 } else {
+                    self.release_before(channel, key, out);
                     self.strike(channel, key, f64::from(velocity.min(1.0)));
                 }
             }
             PlayerEvent::NoteOn { channel, key, .. } | PlayerEvent::NoteOff { channel, key } => {
-                if self.chord_needs(channel, key) {
-                    self.begin_chord(out);
-                }
-                self.let_go(channel, key, out);
+                self.release(channel, key, out);
             }
             PlayerEvent::NoteEnd { channel, key } => {
                 if self.chord_needs(channel, key) {
@@ -166,21 +167,15 @@ impl Performance {
                 self.cut(channel, key, out);
             }
             PlayerEvent::Controller { channel, number, value } => {
-                if self.changes_chord(channel, Some(number)) {
+                if self.changes_chord(channel, number) {
                     self.begin_chord(out);
                 }
                 self.control(channel, |channel| channel.set_controller(number, seven_bits(value)), out);
             }
             PlayerEvent::PitchBend { channel, value } => {
-                if self.changes_chord(channel, None) {
-                    self.begin_chord(out);
-                }
                 self.control(channel, |channel| channel.set_wheel(value), out);
             }
             PlayerEvent::ChannelPressure { channel, pressure } => {
-                if self.changes_chord(channel, None) {
-                    self.begin_chord(out);
-                }
                 self.control(channel, |channel| channel.set_pressure(pressure), out);
             }
             PlayerEvent::Note { channel, key, expression } => self.express(channel, key, expression, out),
@@ -254,6 +249,8 @@ impl Performance {
         (self.compromises, self.now) = (old.compromises, old.now);
         self.chord.clear();
         self.chord.extend_from_slice(&old.chord);
+        self.releases.clear();
+        self.releases.extend_from_slice(&old.releases);
         self.late.clear();
         self.late.extend_from_slice(&old.late);
         (self.upward, self.switches) = (old.upward, old.switches);
@@ -328,6 +325,7 @@ impl Performance {
         self.variation.reset();
         self.compromises = Compromises::default();
         self.chord.clear();
+        self.releases.clear();
         self.late.clear();
         self.upward = false;
         self.switches = self.touching.keyswitches;

@@ -33,5 +33,6 @@ mod staccato;
 mod strums;
 mod switches;
 mod taps;
+mod together;
 mod touches;
 mod tremolo;

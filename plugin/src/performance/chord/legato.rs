@@ -2,7 +2,8 @@
 //! string, if it is there and near enough. Where each string has a channel, it is alone that begins alone on its
 //! string: several are hammered, pulled or slid at once as one is.
 
-use super::{Articulation, HAMMER_REACH, Placement, SLIDE_REACH, Stop, Unplaced};
+use super::{Articulation, HAMMER_REACH, Placement, SLIDE_REACH, Stop, Unplaced, Use};
+use crate::performance::string::StringPlayer;
 use crate::performance::{GestureSink, InputMode, Performance};
 
 impl Performance {
@@ -40,6 +41,14 @@ impl Performance {
             return false;
         }
         let channel = (!self.is_mpe()).then_some(wanted.channel);
+        // What has been placed at this very sample begins with it.
+        let begun = |string: &StringPlayer| {
+            let of_channel = channel.is_none_or(|own| string.channel() == Some(own));
+            of_channel && string.usage(self.now) == Use::Untouchable
+        };
+        if self.strings.iter().any(begun) {
+            return false;
+        }
         let held = self.strings.iter().enumerate().filter_map(|(index, string)| {
             let (since, fret) = string.held(channel)?;
             Some((since, index, fret))

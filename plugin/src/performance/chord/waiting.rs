@@ -21,6 +21,13 @@ pub(in crate::performance) struct Unplaced {
     pub waited: bool,
 }
 
+impl Unplaced {
+    /// Whether it is the note of a key of a channel.
+    pub fn is(&self, channel: u8, key: u8) -> bool {
+        (self.wanted.channel, self.wanted.key) == (channel, key)
+    }
+}
+
 /// What a note has for its own pluck; each thing that can be said of it is kept apart from the others.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::performance) struct OwnPluck {
@@ -62,7 +69,7 @@ impl Late {
 
     /// Whether it is the note of a key of a channel.
     pub fn is(&self, channel: u8, key: u8) -> bool {
-        (self.note.wanted.channel, self.note.wanted.key) == (channel, key)
+        self.note.is(channel, key)
     }
 }
 

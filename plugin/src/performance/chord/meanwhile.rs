@@ -1,0 +1,93 @@
+//! What comes between the notes of a chord, at their own sample. A file has that in any order, so as little as can be tears a
+//! chord apart: what is said of notes that sound is said of those that are yet to be placed, too, and keys that the chord has
+//! to do with go up when it has been placed.
+
+use super::{Articulation, LARGEST_CHORD, MANAGER, Unplaced, controller};
+use crate::performance::channel::Request;
+use crate::performance::{GestureSink, Performance};
+
+impl Performance {
+    /// A key goes up, once the chord has been placed that it is of or that may take over from it.
+    pub(in crate::performance) fn release(&mut self, channel: u8, key: u8, out: &mut impl GestureSink) {
+        if self.chord_needs(channel, key) {
+            if self.releases.len() < LARGEST_CHORD {
+                return self.releases.push((channel, key));
+            }
+            self.begin_chord(out);
+        }
+        self.let_go(channel, key, out);
+    }
+
+    /// A key goes down that has gone up at this very sample: that was of the note before, which is over.
+    pub(in crate::performance) fn release_before(
+        &mut self,
+        channel: u8,
+        key: u8,
+        out: &mut impl GestureSink,
+    ) {
+        if self.chord.iter().any(|note| note.is(channel, key)) {
+            return;
+        }
+        while let Some(index) = self.releases.iter().position(|&release| release == (channel, key)) {
+            self.releases.remove(index);
+            self.let_go(channel, key, out);
+        }
+    }
+
+    /// The keys go up that have waited for the chord.
+    pub(super) fn let_go_after(&mut self, out: &mut impl GestureSink) {
+        for index in 0..self.releases.len() {
+            let (channel, key) = self.releases[index];
+            self.let_go(channel, key, out);
+        }
+        self.releases.clear();
+    }
+
+    /// Whether notes that begin now have to be placed before this key goes up: it is one of them, or the one that they take
+    /// over from.
+    pub(in crate::performance) fn chord_needs(&self, channel: u8, key: u8) -> bool {
+        let needs = |note: &Unplaced| {
+            // Where each string has a channel, only its own key can be the one before.
+            let before = !self.is_by_strings() || note.wanted.channel == channel;
+            let connected = before && (note.articulation.legato || self.touching.legato);
+            connected || note.is(channel, key)
+        };
+        // Notes to come have to hear that a keyswitch asks for a string no more.
+        !self.forces(channel, key) && self.chord.iter().any(needs)
+    }
+
+    /// Whether notes that begin now have to be placed before a controller of some number moves. Most say how notes are played
+    /// that come after it, and those that began before have that by themselves; what is said of those that sound they are
+    /// told (`tell_chord`). Messages of other channels stand between the notes of one chord wherever notes have channels of
+    /// their own.
+    pub(in crate::performance) fn changes_chord(&self, channel: u8, number: u8) -> bool {
+        if controller::is_of_all(number) {
+            return true;
+        }
+        let all = channel == MANAGER && (self.is_mpe() || number == controller::DATA_ENTRY);
+        let is_meant = |own: u8| all || own == channel;
+        let notes = self.chord.iter().any(|note| is_meant(note.wanted.channel));
+        let released = self.releases.iter().any(|&(own, _)| is_meant(own));
+        // A pedal keeps what goes up after it, and what has gone up before it ends.
+        (notes && controller::is_of_begun(number)) || (released && number == controller::PEDAL)
+    }
+
+    /// What channels have said of notes that sound is said of those, too, that have begun now.
+    pub(in crate::performance) fn tell_chord(&mut self, request: Request, is_meant: impl Fn(u8) -> bool) {
+        for index in 0..self.chord.len() {
+            let channel = self.chord[index].wanted.channel;
+            if !is_meant(channel) {
+                continue;
+            }
+            let manner = self.manner(channel);
+            let Articulation { palm, tremolo, .. } = self.channels[usize::from(channel)].articulation;
+            let note = &mut self.chord[index];
+            match request {
+                Request::Press => note.manner.pressure = manner.pressure,
+                Request::Swing => note.manner.vibrato = manner.vibrato,
+                Request::Touch => (note.articulation.palm, note.articulation.tremolo) = (palm, tremolo),
+                _ => {}
+            }
+        }
+    }
+}
