@@ -2,7 +2,7 @@
 //! note as the first did.
 
 use low_action::performance::PlayerEvent;
-use low_action_dsp::Gesture;
+use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::pitch::{cents, frequency_near};
 use low_action_tests::stage::{Stage, amplitude, cc, decibels, hertz, off, on};
 
@@ -93,4 +93,54 @@ fn a_connected_note_has_the_tremolo_of_its_channel() {
     let after = plucks.iter().filter(|&&time| time > 1.0 + 1.0 / 20.0).count();
     assert_eq!((before, after), (0, 0), "{plucks:?}");
     assert!((8..=10).contains(&during), "{plucks:?}");
+}
+
+/// Time (samples), force and place of the strokes of a note that begins at 0.1 s, from the second on.
+fn strokes(told: &[(f64, PlayerEvent)]) -> Vec<(u64, f64, f64)> {
+    let mut events = [told, &[(0.1, on(57, 90)), (1.4, off(57))]].concat();
+    events.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let pluck = |g: &TimedGesture| match g.gesture {
+        Gesture::Pluck { force, position, .. } if g.time > 4_800 => Some((g.time, force, position)),
+        _ => None,
+    };
+    Stage::alone("electric", 2).play(&events, 1.5).gestures.iter().filter_map(pluck).collect()
+}
+
+/// Whatever it is that begins the note, and wherever the hand is.
+#[test]
+fn a_tremolo_is_the_same_whether_it_begins_with_its_note_or_later() {
+    let ways: [&[(u8, u8)]; 6] =
+        [&[(22, 7)], &[(22, 1)], &[(22, 3)], &[(22, 5)], &[(74, 100)], &[(23, 1), (74, 30)]];
+    for way in ways {
+        let told: Vec<_> = way.iter().map(|&(number, value)| (0.0, cc(number, value))).collect();
+        let from = |time| strokes(&[&told[..], &[(time, cc(25, 64))]].concat());
+        let [with, later] = [0.0, 0.15].map(from);
+        // 11.6 a second: half a stroke less in the time that the second comes later.
+        assert!(with.len() >= 14, "{way:?}: {with:?}");
+        assert!(with.len().abs_diff(later.len()) <= 1, "{way:?}: {} and {}", with.len(), later.len());
+        for (n, (with, later)) in with.iter().zip(&later).enumerate() {
+            assert!((with.1 - later.1).abs() < 1e-9, "{way:?}, stroke {n}: {with:?} and {later:?}");
+            assert!((with.2 - later.2).abs() < 1e-4, "{way:?}, stroke {n}: {with:?} and {later:?}");
+        }
+    }
+}
+
+/// A note that takes over goes on with the strokes in turn, as hard as it is itself.
+#[test]
+fn a_tremolo_over_connected_notes_has_the_force_of_each() {
+    let events = [(0.0, cc(25, 64)), (0.0, cc(68, 127)), (0.0, on(57, 120)), (0.5, on(60, 40))];
+    let strokes =
+        Stage::alone("electric", 2).play(&events, 1.0).gestures.into_iter().filter_map(|g| match g.gesture {
+            Gesture::Pluck { force, .. } => Some((g.time, force)),
+            _ => None,
+        });
+    let strokes: Vec<_> = strokes.collect();
+    let (loud, soft): (Vec<_>, Vec<_>) = strokes.into_iter().partition(|stroke| stroke.0 < 24_000);
+    assert!(loud.len() >= 5 && soft.len() >= 5, "{loud:?}, {soft:?}");
+    for pair in loud.windows(2).chain(soft.windows(2)) {
+        let ratio = (pair[1].1 / pair[0].1).min(pair[0].1 / pair[1].1);
+        assert!((ratio - 0.85).abs() < 1e-9, "forth and back in turn: {pair:?}");
+    }
+    let [last, next] = [loud[loud.len() - 1].1, soft[0].1];
+    assert!(next < 0.5 * last, "{last} N, then {next} N");
 }

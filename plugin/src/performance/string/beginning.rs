@@ -16,13 +16,10 @@ impl StringPlayer {
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
         let strength = start.force();
-        let Articulation { mut stroke, stop, .. } = start.articulation;
+        let Articulation { stroke, stop, .. } = start.articulation;
         // A finger that presses no fret has nothing to strike the string against.
         let taps = stroke == Stroke::Tap && stop == Stop::Press && start.fret > self.fingers.capo();
-        // And a thumb beside the plectrum would take up the partial that another finger lets through.
-        if stroke == Stroke::Tap || (stroke == Stroke::Pinch && stop == Stop::Harmonic) {
-            stroke = Stroke::Down;
-        }
+        let stroke = start.stroke();
         // A light finger at a node takes up what it is to take up.
         let stilling = (stills && !taps && stop != Stop::Harmonic).then(|| self.stilling(stroke, start.fret));
         start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
@@ -38,7 +35,7 @@ impl StringPlayer {
         if taps {
             self.begin_tap(&start, strength, &mut at);
         } else {
-            self.begin_stroke(&start, stroke, strength, stilling, &mut at);
+            self.begin_stroke(&start, strength, stilling, &mut at);
         }
         self.follow(time, &start.manner);
     }
@@ -46,22 +43,24 @@ impl StringPlayer {
     /// A finger comes down on the fret, how hard, 0 to 1: once the string is up there.
     fn begin_tap(&mut self, start: &Start, strength: f64, at: &mut Moment<impl GestureSink>) {
         let fret = start.fret;
-        let Some(rising) = self.fingers.let_up(fret, strength, at) else {
-            return self.tap(fret, strength, at);
-        };
-        self.deeds.plan(at.after(rising), Deed::Tap { fret, strength });
-        // Even the shortest note is to be heard.
-        let later = self.samples(rising);
-        if let Some(note) = &mut self.note {
-            note.since += later;
+        let rising = self.fingers.let_up(fret, strength, at);
+        if let Some(rising) = rising {
+            self.deeds.plan(at.after(rising), Deed::Tap { fret, strength });
+            // Even the shortest note is to be heard.
+            let later = self.samples(rising);
+            if let Some(note) = &mut self.note {
+                note.since += later;
+            }
+        } else {
+            self.tap(fret, strength, at);
         }
+        self.tremble_after(rising.unwrap_or(0.0), at);
     }
 
     /// The left hand stops the string, and the right hand strikes it, how hard, 0 to 1, if need be after it has stilled it.
     fn begin_stroke(
         &mut self,
         start: &Start,
-        stroke: Stroke,
         strength: f64,
         stilling: Option<Stilling>,
         at: &mut Moment<impl GestureSink>,
@@ -82,23 +81,33 @@ impl StringPlayer {
         if let Some(stilling) = stilling {
             self.still_before(start.wait, stilling, at);
         }
-        let moved = start.manner.place;
-        let beside = start.deviation.place + moved + self.towards_antinode();
-        let struck = Struck { stroke, strength, beside, moved };
+        let towards_antinode = self.towards_antinode();
+        let Some(note) = &mut self.note else { return };
+        note.struck.beside += towards_antinode;
+        let struck = note.struck;
         if start.wait > 0.0 {
             self.deeds.plan(at.after(start.wait + start.deviation.delay), Deed::Strike(struck));
         } else {
             self.strike(struck, start.deviation.delay, at);
         }
-        if self.tremolo > 0.0 {
-            let lead = if stop == Stop::Harmonic { 0.0 } else { self.stilling(stroke, start.fret).lead };
-            self.deeds.plan(at.after(start.wait + 1.0 / self.tremolo - lead), Deed::Tremolo(struck));
+        self.tremble_after(start.wait, at);
+    }
+
+    /// A tremolo goes on with the note if it has one: a stroke follows upon its first sound, so many seconds from now.
+    fn tremble_after(&mut self, wait: f64, at: &Moment<impl GestureSink>) {
+        if let Some(note) = self.note.filter(|_| self.tremolo > 0.0) {
+            let stills = note.partial.is_none();
+            let lead = if stills { self.stilling(note.struck.stroke, note.fret).lead } else { 0.0 };
+            self.deeds.plan(at.after(wait + 1.0 / self.tremolo - lead), Deed::Tremolo);
         }
     }
 
     /// Writes down that a note begins. Gives back how many strokes a second a tremolo had so far.
     pub(super) fn begin(&mut self, time: u64, start: &Start, strength: f64) -> f64 {
         let Articulation { slide, slide_time, stop, tremolo, .. } = start.articulation;
+        let moved = start.manner.place;
+        let struck =
+            Struck { stroke: start.stroke(), strength, beside: start.deviation.place + moved, moved };
         self.note = Some(Note {
             channel: start.channel,
             key: start.key,
@@ -107,7 +116,7 @@ impl StringPlayer {
             presses: start.presses,
             caught: start.caught,
             fret: start.fret,
-            strength,
+            struck,
             tuning: start.manner.tuning,
             pressure: start.manner.pressure,
             vibrato: start.manner.vibrato,

@@ -19,6 +19,15 @@ pub(super) struct Struck {
     pub moved: f64,
 }
 
+impl Struck {
+    /// Where a stroke goes forth or back, it is of those in turn with another.
+    pub(super) fn in_turn_with(self, before: Self) -> Self {
+        let turns = |stroke| matches!(stroke, Stroke::Down | Stroke::Up);
+        let stroke = if turns(self.stroke) && turns(before.stroke) { before.stroke } else { self.stroke };
+        Self { stroke, ..self }
+    }
+}
+
 /// Something to do at its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deed {
@@ -27,7 +36,7 @@ pub(super) enum Deed {
     /// The hand stills the string for a stroke that follows.
     Still(Stilling),
     /// A stroke of a tremolo, back and forth, with the next one to follow.
-    Tremolo(Struck),
+    Tremolo,
     /// A finger strikes the string behind a fret, how hard, 0 to 1.
     Tap {
         fret: usize,
@@ -70,7 +79,7 @@ impl Deeds {
     pub(super) fn forget_strokes(&mut self) {
         for deed in &mut self.0 {
             *deed = deed.filter(|(_, deed)| {
-                !matches!(deed, Deed::Strike(_) | Deed::Still(_) | Deed::Tremolo(_) | Deed::Tap { .. })
+                !matches!(deed, Deed::Strike(_) | Deed::Still(_) | Deed::Tremolo | Deed::Tap { .. })
             });
         }
     }
@@ -96,7 +105,7 @@ impl Deeds {
     /// A tremolo ends.
     fn forget_tremolo(&mut self) {
         for deed in &mut self.0 {
-            *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Tremolo(_)));
+            *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Tremolo));
         }
     }
 
@@ -127,29 +136,7 @@ impl StringPlayer {
             None => {}
             Some(Deed::Strike(struck)) => self.strike(struck, 0.0, at),
             Some(Deed::Still(stilling)) => still(stilling, at),
-            Some(Deed::Tremolo(struck)) => {
-                if self.tremolo <= 0.0 || self.note.is_none() {
-                    return;
-                }
-                let stroke = match struck.stroke {
-                    Stroke::Down => Stroke::Up,
-                    Stroke::Up => Stroke::Down,
-                    other => other,
-                };
-                let struck = Struck { stroke, ..struck };
-                // Under the pedal it waits: a key below may come back.
-                if let Some(note) = self.note.filter(|note| note.key_down()) {
-                    self.touch_node(0.0, at);
-                    if note.partial.is_some() {
-                        self.strike(struck, 0.0, at);
-                    } else {
-                        let stilling = self.stilling(stroke, note.fret);
-                        still(stilling, at);
-                        self.deeds.plan(at.after(stilling.lead), Deed::Strike(struck));
-                    }
-                }
-                self.deeds.plan(at.after(1.0 / self.tremolo).max(at.time + 1), Deed::Tremolo(struck));
-            }
+            Some(Deed::Tremolo) => self.tremble(at),
             Some(Deed::Tap { fret, strength }) => self.tap(fret, strength, at),
             Some(Deed::LeaveNode) => self.fingers.leave_node(at),
             Some(Deed::Bounce) => {
@@ -164,6 +151,29 @@ impl StringPlayer {
             }
             Some(Deed::LeaveGraze) => self.fingers.leave_graze(at),
         }
+    }
+
+    /// The next stroke of a tremolo, and one to follow.
+    fn tremble(&mut self, at: &mut Moment<impl GestureSink>) {
+        let Some(note) = self.note.as_mut().filter(|_| self.tremolo > 0.0) else { return };
+        note.struck.stroke = match note.struck.stroke {
+            Stroke::Down => Stroke::Up,
+            Stroke::Up => Stroke::Down,
+            other => other,
+        };
+        let note = *note;
+        // Under the pedal it waits: a key below may come back.
+        if note.key_down() {
+            self.touch_node(0.0, at);
+            if note.partial.is_some() {
+                self.strike(note.struck, 0.0, at);
+            } else {
+                let stilling = self.stilling(note.struck.stroke, note.fret);
+                still(stilling, at);
+                self.deeds.plan(at.after(stilling.lead), Deed::Strike(note.struck));
+            }
+        }
+        self.deeds.plan(at.after(1.0 / self.tremolo).max(at.time + 1), Deed::Tremolo);
     }
 
     /// A finger touches the node of a harmonic, and stays for a while after a stroke so many seconds from now.
@@ -192,10 +202,8 @@ impl StringPlayer {
 
     /// The note that sounds, whose string had so many strokes a second before, has a tremolo from now on if it is to have one.
     pub(super) fn begin_tremolo(&mut self, before: f64, at: &Moment<impl GestureSink>) {
-        if let Some(note) = self.note.filter(|_| before == 0.0 && self.tremolo > 0.0) {
-            let beside = self.towards_antinode();
-            let struck = Struck { stroke: Stroke::Down, strength: note.strength, beside, moved: 0.0 };
-            self.deeds.plan(at.after(1.0 / self.tremolo), Deed::Tremolo(struck));
+        if self.note.is_some() && before == 0.0 && self.tremolo > 0.0 {
+            self.deeds.plan(at.after(1.0 / self.tremolo), Deed::Tremolo);
         }
     }
 

@@ -17,7 +17,8 @@ impl StringPlayer {
         self.strike_in_time(&mut self.moment(time, out));
         let strength = start.force();
         self.take_presses(&mut start);
-        if let Some(before) = self.note.filter(Note::key_down) {
+        let before = self.note;
+        if let Some(before) = before.filter(Note::key_down) {
             // Of too many the first is forgotten.
             if self.under.iter().all(Option::is_some) {
                 self.under.rotate_left(1);
@@ -28,6 +29,10 @@ impl StringPlayer {
             }
         }
         let tremolo = self.begin(time, &start, strength);
+        // A tremolo goes on as it was under way.
+        if let (Some(note), Some(before)) = (&mut self.note, before.filter(|_| tremolo > 0.0)) {
+            note.struck = note.struck.in_turn_with(before.struck);
+        }
         self.deeds.forget_tap();
         let (slide, bar) = self.note.map_or((None, false), |note| (note.slide, note.bar));
         let mut at = self.moment(time, out);
@@ -82,13 +87,13 @@ impl StringPlayer {
     pub(super) fn go_back(&mut self, time: u64, out: &mut impl GestureSink) -> bool {
         let Some(latest) = self.under.iter().rposition(Option::is_some) else { return false };
         let (Some(back), Some(from)) = (self.under[latest].take(), self.note) else { return false };
-        self.note = Some(Note { since: time, ..back });
+        self.note = Some(Note { since: time, struck: back.struck.in_turn_with(from.struck), ..back });
         self.bend.begin(back.channel);
         self.deeds.forget_tap();
         let mut at = self.moment(time, out);
         at.tells(self.returning_note(&back, time));
         let (technique, gesture) =
-            self.fingers.change(back.fret, from.slide, from.bar, from.strength, &mut at);
+            self.fingers.change(back.fret, from.slide, from.bar, from.struck.strength, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         self.fingers.press(back.pressure, &mut at);
         self.bend.tune(time, back.tuning);

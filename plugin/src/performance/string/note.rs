@@ -1,6 +1,7 @@
 //! A note: what it is to be, and what is remembered of it while it sounds.
 
-use crate::performance::articulation::Articulation;
+use super::deeds::Struck;
+use crate::performance::articulation::{Articulation, Stop, Stroke};
 use crate::performance::technique::{FIRMEST, SETTLING};
 use crate::performance::variation::Deviation;
 
@@ -41,6 +42,15 @@ impl Start {
     /// How hard the string is plucked, 1 for the hardest velocity, everything counted.
     pub(super) fn force(&self) -> f64 {
         self.strength * self.deviation.force * self.manner.force * self.accent
+    }
+
+    /// The stroke of the right hand that it has, or that a tremolo has of it if it is begun by another hand.
+    pub(super) fn stroke(&self) -> Stroke {
+        match (self.articulation.stroke, self.articulation.stop) {
+            // A thumb beside the plectrum would take up the partial that another finger lets through.
+            (Stroke::Tap, _) | (Stroke::Pinch, Stop::Harmonic) => Stroke::Down,
+            (stroke, _) => stroke,
+        }
     }
 
     /// In what haste its finger comes, 0 to 1. One that came as fast as for a stroke at once would be heard before a stroke that
@@ -95,8 +105,8 @@ pub(crate) struct Note {
     pub caught: bool,
     /// Its fret.
     pub fret: usize,
-    /// How hard it was begun.
-    pub strength: f64,
+    /// How it was struck last, or would be: what a tremolo goes on with.
+    pub(super) struck: Struck,
     /// Its own tuning, semitones.
     pub tuning: f64,
     /// Factor of its finger's force, and depth of its vibrato, 0 to 1: its own or its channel's, whichever was said last.
