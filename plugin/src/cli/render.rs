@@ -184,8 +184,15 @@ fn check_paths(
 /// Tells what came of it.
 fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f64) -> Outcome {
     let Rendered { mix, stems, compromises, lost_events, seconds } = rendered;
-    let Compromises { moved_by_octaves, arpeggiated, left_out, without_string, doubled, bent_short } =
-        compromises;
+    let Compromises {
+        moved_by_octaves,
+        arpeggiated,
+        left_out,
+        without_string,
+        doubled,
+        bent_short,
+        overtaken,
+    } = compromises;
     let warn_of = |count: u64, what: &str| {
         if count > 0 {
             let notes = if count == 1 { "note was" } else { "notes were" };
@@ -195,6 +202,7 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     warn_of(*moved_by_octaves, "moved by octaves: no string gives them as written");
     warn_of(*arpeggiated, "played a moment late: more began at once than there were strings for");
     warn_of(*left_out, "left out: more began at once than anybody could play");
+    warn_of(*overtaken, "left out: another took their string before the hand had got there");
     warn_of(*without_string, "left out: no string gives them in any octave, or their channel has none");
     warn_of(*doubled, "one with another: the same key of the same channel at the same moment");
     warn_of(*bent_short, "bent less far than asked: string or finger goes no farther (max_bend)");

@@ -11,6 +11,8 @@ pub struct Compromises {
     pub arpeggiated: u64,
     /// Notes left out because more than 128 began at one instant, or waited for strings.
     pub left_out: u64,
+    /// Notes left out because another took their string before a strum, or the finger of a tap, had got there.
+    pub overtaken: u64,
     /// Notes left out because no string gives them in any octave, or their channel has no string.
     pub without_string: u64,
     /// Notes that are one with another of their channel and key that begins at the same sample.

@@ -285,6 +285,7 @@ impl Performance {
         for string in &mut self.strings {
             string.advance(until, out);
             self.compromises.bent_short += string.take_bent_short();
+            self.compromises.overtaken += string.take_overtaken();
         }
         self.now = until;
     }

@@ -54,6 +54,8 @@ pub(crate) struct StringPlayer {
     touched: Option<u64>,
     /// Notes bent less far than asked, since that was last asked for.
     bent_short: u64,
+    /// Notes whose string another took before it was struck, since that was last asked for.
+    overtaken: u64,
     /// Whether a note has come back whose key was down under another, since that was last asked for.
     gone_back: bool,
 }
@@ -78,6 +80,7 @@ impl StringPlayer {
             tremolo: 0.0,
             touched: None,
             bent_short: 0,
+            overtaken: 0,
             gone_back: false,
         }
     }
@@ -95,6 +98,7 @@ impl StringPlayer {
         self.tremolo = 0.0;
         self.touched = None;
         self.bent_short = 0;
+        self.overtaken = 0;
         self.gone_back = false;
     }
 
@@ -203,6 +207,11 @@ impl StringPlayer {
     /// Notes bent less far than asked, since this was last called.
     pub(crate) fn take_bent_short(&mut self) -> u64 {
         std::mem::take(&mut self.bent_short)
+    }
+
+    /// Notes whose string another took before it was struck, since this was last called.
+    pub(crate) fn take_overtaken(&mut self) -> u64 {
+        std::mem::take(&mut self.overtaken)
     }
 
     /// Does what has fallen due before `until`, in order of time.

@@ -17,6 +17,7 @@ mod landings;
 mod legato;
 mod mpe;
 mod muted;
+mod overtaken;
 mod palm;
 mod pieces;
 mod pinch;

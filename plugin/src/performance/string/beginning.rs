@@ -11,6 +11,8 @@ impl StringPlayer {
     /// Begins a note; one that sounds gives way.
     pub(crate) fn start(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
         self.strike_in_time(&mut self.moment(time, out));
+        // A hand that is farther away has not come to the string when it turns to this note.
+        self.overtaken += u64::from(self.deeds.await_sound());
         let stills = self.wants_stilling(time);
         self.take_presses(&mut start);
         self.under = [None; UNDER];

@@ -84,6 +84,11 @@ impl Deeds {
         }
     }
 
+    /// Whether a stroke or a tap is yet to come.
+    pub(super) fn await_sound(&self) -> bool {
+        self.0.iter().flatten().any(|(_, deed)| matches!(deed, Deed::Strike(_) | Deed::Tap { .. }))
+    }
+
     /// Takes out the stroke that is to come before a time.
     pub(super) fn take_stroke(&mut self, until: u64) -> Option<Struck> {
         self.0.iter_mut().find_map(|slot| match *slot {

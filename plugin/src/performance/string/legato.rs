@@ -14,7 +14,9 @@ impl StringPlayer {
     /// A note takes over from the one that sounds, whose key stays down under it: by a hammer, a pull or a
     /// slide.
     pub(crate) fn connect(&mut self, time: u64, mut start: Start, out: &mut impl GestureSink) {
-        self.strike_in_time(&mut self.moment(time, out));
+        // The stroke that was to begin the note before is yet to reach the string, and finds this one there.
+        let in_time = self.strike_in_time(&mut self.moment(time, out));
+        self.overtaken += u64::from(!in_time && self.note.is_some_and(|note| note.since > time));
         let strength = start.force();
         self.take_presses(&mut start);
         let before = self.note;

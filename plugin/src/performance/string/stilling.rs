@@ -58,11 +58,13 @@ impl StringPlayer {
     }
 
     /// A stroke whose hand is on its way falls at once, where another note takes its string: no note is lost by having
-    /// waited for a string to be stilled.
-    pub(super) fn strike_in_time(&mut self, at: &mut Moment<impl GestureSink>) {
-        if let Some(struck) = self.deeds.take_stroke(at.after(LONGEST_LEAD) + 1) {
+    /// waited for a string to be stilled. Gives back whether there was one.
+    pub(super) fn strike_in_time(&mut self, at: &mut Moment<impl GestureSink>) -> bool {
+        let struck = self.deeds.take_stroke(at.after(LONGEST_LEAD) + 1);
+        if let Some(struck) = struck {
             self.strike(struck, 0.0, at);
         }
+        struck.is_some()
     }
 }
 

@@ -1,0 +1,107 @@
+//! The promise: no note is lost without being counted. One whose string another takes before a strum, or the finger of a tap, has
+//! got there is left out, as by hands that turn to something else meanwhile; where the hand is on the string already it strikes.
+
+use std::sync::LazyLock;
+
+use low_action::controls::Touching;
+use low_action::performance::{Annotation, GestureSink, InputMode, PlayerEvent, TimedAnnotation};
+use low_action_dsp::TimedGesture;
+use low_action_tests::cases::cases;
+use low_action_tests::hands::{EXACT, Neck, RATE};
+use low_action_tests::stage::{cc, off, on};
+use proptest::prelude::*;
+
+static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
+const CHORD: [u8; 6] = [40, 47, 52, 56, 59, 64];
+
+/// How often strings were made to sound.
+#[derive(Default)]
+struct Heard(u64);
+
+impl GestureSink for Heard {
+    fn gesture(&mut self, _gesture: TimedGesture) {}
+
+    fn annotation(&mut self, told: TimedAnnotation) {
+        self.0 += u64::from(matches!(told.annotation, Annotation::Sounds(_)));
+    }
+}
+
+/// How often strings were made to sound, and the notes that were overtaken, and left out otherwise.
+fn fate(events: &[(u64, PlayerEvent)]) -> (u64, [u64; 2]) {
+    let (mut player, mut heard) = (GUITAR.player(EXACT), Heard::default());
+    player.set_input(InputMode::Keyboard);
+    player.touch(0, &Touching::new(0.0, 2.0), &mut heard);
+    for &(time, event) in events {
+        player.event(time, event, &mut heard);
+    }
+    player.advance(events[events.len() - 1].0 + 10 * RATE as u64, &mut heard);
+    assert!(!player.is_behind());
+    let compromises = player.compromises();
+    let lost =
+        [compromises.overtaken, compromises.left_out + compromises.without_string + compromises.doubled];
+    (heard.0, lost)
+}
+
+fn strummed_again(after: u64) -> (u64, [u64; 2]) {
+    let chord = |time| CHORD.map(|key| (time, on(key, 90)));
+    let up = CHORD.map(|key| (after - 1, off(key)));
+    fate(&[&[(0, cc(21, 127))], &chord(0)[..], &up, &chord(after)].concat())
+}
+
+/// A strum of 0.4 s: 3840 samples from one string to the next.
+#[test]
+fn strings_that_a_strum_has_not_reached_are_left_to_the_next() {
+    for (after, reached) in [(100, 1), (7_100, 2), (11_600, 4), (24_000, 6)] {
+        assert_eq!(strummed_again(after), (reached + 6, [6 - reached, 0]), "{after}");
+    }
+    // The hand is less than 10 ms away, and strikes at once.
+    assert_eq!(strummed_again(7_300), (3 + 6, [3, 0]));
+}
+
+#[test]
+fn a_note_that_takes_over_a_string_before_a_strum_is_the_one_it_strikes() {
+    let [low, high] = [(0, on(64, 90)), (0, on(40, 90))];
+    let told = [(0, cc(21, 127)), (0, cc(68, 127))];
+    let hammered = (4_800, on(67, 90));
+    // The hammer, and two strokes.
+    assert_eq!(fate(&[&told[..], &[low, high, hammered]].concat()), (3, [1, 0]));
+    assert_eq!(fate(&[&told[..], &[low, high, (24_000, on(67, 90))]].concat()), (3, [0, 0]));
+}
+
+/// The finger of the tap before leaves first, in 3 ms.
+#[test]
+fn a_finger_that_has_not_come_down_leaves_its_string_to_another_note() {
+    // On the lowest string, which alone has them.
+    let third = |legato, after: u64| {
+        let told = [(0, cc(22, 7)), (0, cc(68, legato)), (0, on(43, 90))];
+        let again = [(4_800, off(43)), (4_801, on(42, 90)), (4_801 + after, on(44, 90))];
+        fate(&[&told[..], &again].concat())
+    };
+    for legato in [0, 127] {
+        assert_eq!(third(legato, 4_800), (3, [0, 0]), "{legato}");
+        assert_eq!(third(legato, 20), (2, [1, 0]), "{legato}");
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(200))]
+
+    /// Chords of any keys, some before the hand has gone over the one before.
+    #[test]
+    fn each_note_is_played_or_counted(
+        chords in prop::collection::vec((1..9_600_u64, prop::collection::hash_set(36..80_u8, 1..=8)), 1..6),
+        strum in 0..128_u8,
+        stroke in 0..4_u8,
+        taps: bool,
+    ) {
+        let mut time = 0;
+        let mut events = vec![(0, cc(21, strum)), (0, cc(22, if taps { 7 } else { stroke }))];
+        for (step, keys) in &chords {
+            time += step;
+            events.extend(keys.iter().map(|&key| (time, on(key, 90))));
+        }
+        let notes: usize = chords.iter().map(|(_, keys)| keys.len()).sum();
+        let (sounds, [overtaken, lost]) = fate(&events);
+        prop_assert_eq!(sounds + overtaken + lost, notes as u64);
+    }
+}
