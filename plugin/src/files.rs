@@ -64,7 +64,7 @@ impl TextDraft {
 }
 
 /// Links that are followed one after the other, as many as Linux follows.
-const MOST_LINKS: usize = 40;
+pub(crate) const MOST_LINKS: usize = 40;
 
 /// The file that a path leads to: what is written there goes where its links lead, also where nothing is yet.
 ///

@@ -8,6 +8,7 @@
 //! `-`, or else the summary of a scene.
 
 mod arguments;
+mod descriptors;
 mod instrument;
 mod instruments;
 mod names;

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf, is_separator};
 use anyhow::{Context, Result, bail, ensure};
 use tempfile::TempPath;
 
+use super::descriptors::{self, STANDARD_ERROR, STANDARD_OUTPUT};
 use super::names::shown;
 use super::unfinished::Unfinished;
 use crate::files;
@@ -16,7 +17,8 @@ use crate::files;
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Target {
     StandardOutput,
-    /// A device or a pipe: written directly, since it cannot be replaced.
+    StandardError,
+    /// A device, a pipe or something else that is open already: written directly, since it cannot or must not be replaced.
     Stream(PathBuf),
     /// An ordinary file, made or replaced with its permissions: never a link, but what it leads to.
     File(PathBuf),
@@ -46,7 +48,7 @@ impl Draft {
                 let (file, beside) = file.into_parts();
                 (file, Some((beside, unfinished)))
             }
-            Target::StandardOutput | Target::Stream(_) => {
+            Target::StandardOutput | Target::StandardError | Target::Stream(_) => {
                 (tempfile::tempfile().context("cannot make a temporary file")?, None)
             }
         };
@@ -70,9 +72,10 @@ impl Draft {
             (Target::StandardOutput, _) => {
                 copy(&mut self.file, &mut io::stdout().lock()).context("cannot write to standard output")
             }
-            (Target::Stream(path), _) => File::options()
-                .write(true)
-                .open(path)
+            (Target::StandardError, _) => {
+                copy(&mut self.file, &mut io::stderr().lock()).context("cannot write to standard error")
+            }
+            (Target::Stream(path), _) => stream(path)
                 .and_then(|mut stream| copy(&mut self.file, &mut stream))
                 .with_context(|| format!("cannot write {}", shown(path))),
             (Target::File(path), beside) => beside
@@ -94,10 +97,16 @@ pub fn publish_all(mut drafts: Vec<Draft>) -> Result<()> {
 
 impl Target {
     fn find(path: &Path) -> Result<Self> {
-        if path == Path::new("-") {
-            return Ok(Self::StandardOutput);
-        }
         let describe = || format!("cannot write {}", shown(path));
+        match descriptors::descriptor(path) {
+            Some(STANDARD_OUTPUT) => return Ok(Self::StandardOutput),
+            Some(STANDARD_ERROR) => return Ok(Self::StandardError),
+            Some(_) => {
+                fs::metadata(path).with_context(describe)?;
+                return Ok(Self::Stream(path.to_owned()));
+            }
+            None => {}
+        }
         match fs::metadata(path) {
             Ok(found) if found.is_dir() => bail!("cannot write {}: it is a folder", shown(path)),
             Ok(found) if !found.is_file() => Ok(Self::Stream(path.to_owned())),
@@ -127,6 +136,12 @@ fn check_new(path: &Path) -> Result<()> {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error.into()),
         _ => Ok(()),
     }
+}
+
+/// Opens what is not replaced. Where it is a file, it is one that somebody has open: what is in it stays.
+fn stream(path: &Path) -> io::Result<File> {
+    let is_file = fs::metadata(path)?.is_file();
+    File::options().write(true).append(is_file).open(path)
 }
 
 fn copy(from: &mut File, to: &mut impl io::Write) -> io::Result<()> {

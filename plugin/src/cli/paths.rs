@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::descriptors::descriptor;
 use super::names::shown;
 use super::{Failure, Outcome};
 use crate::files;
@@ -30,10 +31,14 @@ pub(super) fn keep_apart(read: &[Named], written: &[Named]) -> Outcome {
     Ok(())
 }
 
-/// Whether two paths lead to one file, or to standard output; devices take any number of results.
+/// Whether two paths lead to one file, or to one thing that is open already, such as standard output; devices take any number
+/// of results.
 fn is_same_file(one: &Path, other: &Path) -> bool {
+    // (Standard output is the file that it goes to.)
+    let [one, other] = [one, other].map(|path| if is_dash(path) { Path::new("/dev/stdout") } else { path });
     let is_device = |path| fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
-    place(one) == place(other) && !is_device(one)
+    let is_open = descriptor(one).is_some_and(|number| descriptor(other) == Some(number));
+    is_open || (place(one) == place(other) && !is_device(one))
 }
 
 /// Where a path leads, by what is there of it: a file that is yet to be made has a folder already, or that has.
@@ -60,6 +65,7 @@ mod tests {
             ("no.wav", "src/no.wav", false),
             ("no.wav", "no.npz", false),
             ("-", "-", true),
+            ("-", "./-", false),
         ] {
             assert_eq!(is_same_file(Path::new(one), Path::new(other)), same, "{one} {other}");
         }
@@ -72,6 +78,20 @@ mod tests {
         let [link, new] = ["link.wav", "new.wav"].map(|name| room.path().join(name));
         std::os::unix::fs::symlink("new.wav", &link).unwrap();
         assert!(is_same_file(&link, &new));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_open_already_is_the_same_by_each_of_its_names() {
+        for (one, other, same) in [
+            ("-", "/dev/stdout", true),
+            ("/dev/fd/1", "/dev/stdout", true),
+            ("/dev/fd/71", "/dev/fd/72", false),
+            ("/dev/null", "/dev/null", false),
+        ] {
+            assert_eq!(is_same_file(Path::new(one), Path::new(other)), same, "{one} {other}");
+            assert_eq!(is_same_file(Path::new(other), Path::new(one)), same, "{one} {other}");
+        }
     }
 
     #[test]

@@ -5,6 +5,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod labels;
+#[cfg(unix)]
+mod open_already;
 mod refusals;
 mod room;
 mod sounds;

@@ -226,6 +226,11 @@ fn a_scene_comes_from_standard_input_and_goes_to_standard_output() {
         assert_eq!(done.code, 0, "{}", done.error);
         assert!(done.output == fs::read(place.path(name)).unwrap(), "{option}");
         assert!(done.error.contains("string 2: N = "), "{}", done.error);
+        // By its other name, too.
+        if cfg!(unix) {
+            let named = place.run(&["scene", "scene.toml", option, "/dev/stdout"]);
+            assert!(named.output == done.output && named.error.contains("string 2: N = "), "{}", named.error);
+        }
     }
 }
 

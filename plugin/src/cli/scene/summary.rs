@@ -5,8 +5,9 @@ use std::io::{self, Write};
 use low_action_dsp::scene::ListeningPoint;
 use low_action_dsp::{Ledger, Scene, Simulation};
 
-use super::{Seen, is_dash, open_part};
+use super::{Seen, open_part};
 use crate::cli::SceneArgs;
+use crate::cli::descriptors::is_standard_output;
 use crate::cli::names::shown;
 use crate::cli::wav::Findings;
 
@@ -29,7 +30,7 @@ impl Summary<'_> {
         let results = [&self.arguments.wav, &self.arguments.trace, &self.arguments.figure];
         let text = self.lines().join("\n") + "\n";
         // A closed output is no reason to fail.
-        if results.into_iter().flatten().any(|path| is_dash(path)) {
+        if results.into_iter().flatten().any(|path| is_standard_output(path)) {
             io::stderr().write_all(text.as_bytes()).ok();
         } else {
             io::stdout().write_all(text.as_bytes()).ok();
