@@ -25,6 +25,12 @@ fn number(signal: &str) -> libc::c_int {
     match signal {
         "HUP" => libc::SIGHUP,
         "INT" => libc::SIGINT,
+        "QUIT" => libc::SIGQUIT,
+        "ALRM" => libc::SIGALRM,
+        "USR1" => libc::SIGUSR1,
+        "USR2" => libc::SIGUSR2,
+        "XCPU" => libc::SIGXCPU,
+        "XFSZ" => libc::SIGXFSZ,
         _ => libc::SIGTERM,
     }
 }
@@ -86,7 +92,13 @@ fn room() -> TempDir {
 fn begin(room: &Path, ignored: &[&str], arguments: &[&str], begun: impl Fn() -> bool) -> Child {
     let ignoring: String = ignored.iter().map(|signal| format!("trap '' {signal}; ")).collect();
     let mut command = Command::new("sh");
-    command.args(["-c", &format!("{ignoring}exec \"$@\""), "sh", env!("CARGO_BIN_EXE_low-action")]);
+    // (Some signals would leave an image of the memory where there is no limit to it.)
+    command.args([
+        "-c",
+        &format!("{ignoring}ulimit -c 0; exec \"$@\""),
+        "sh",
+        env!("CARGO_BIN_EXE_low-action"),
+    ]);
     command.env(FOLDER_VARIABLE, room.join("instruments"));
     command.current_dir(room).args(arguments).stdin(Stdio::null()).stderr(Stdio::null());
     let mut child = command.spawn().unwrap();
@@ -151,9 +163,26 @@ fn is_stopped(signal: &str, ignored: &[&str], arguments: &[&str], begun: impl Fn
 #[test]
 fn a_scene_leaves_nothing() {
     let arguments = ["scene", "long.toml", "--wav", "old.wav", "--trace", "new.npz", "--every", "1000"];
-    for signal in ["INT", "TERM", "HUP"] {
+    for signal in ["INT", "TERM", "HUP", "QUIT", "ALRM", "USR1", "USR2", "XCPU"] {
         is_stopped(signal, &[], &arguments, has_part);
     }
+}
+
+#[test]
+fn a_file_that_may_not_get_longer_is_an_error_and_leaves_nothing() {
+    if ignores("XFSZ") {
+        return;
+    }
+    let room = room();
+    let before = names(room.path());
+    let mut command = Command::new("sh");
+    let limited = "ulimit -f 100; exec \"$0\" render -o old.wav --stems new/stems --tail none";
+    command.args(["-c", limited, env!("CARGO_BIN_EXE_low-action")]).current_dir(room.path());
+    let done = command.env(FOLDER_VARIABLE, room.path().join("instruments")).output().unwrap();
+    let said = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(1), "{said}");
+    assert!(said.starts_with("error: cannot write ") && said.lines().count() == 1, "{said}");
+    assert_eq!(names(room.path()), before);
 }
 
 /// A song that takes minutes, with stems in folders that are not there yet, and labels.

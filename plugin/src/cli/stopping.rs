@@ -1,4 +1,5 @@
-//! What asks the program to stop: Ctrl+C, and where there are such things a request to end and a terminal that is closed.
+//! What asks the program to stop: Ctrl+C, and where there are such things a request to end, a terminal that is closed, and all
+//! else that ends programs which do not mind it.
 
 use std::process;
 
@@ -29,18 +30,23 @@ impl Stop {
 #[cfg(unix)]
 const FIRST_PROCESS: u32 = 1;
 
-/// Has all of them call `stop`, once.
+/// Has all of them call `stop`, once. That a file may not get longer is no such thing: who writes it is told, and can say so.
 ///
 /// Each is left as it is if the program was started with something else for it than the usual: nohup has one ignored,
 /// and shells have Ctrl+C ignored in the background.
 #[cfg(unix)]
 pub(super) fn when_asked(stop: impl FnOnce(Stop) + Send + 'static) {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{
+        SIGALRM, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ,
+    };
     use signal_hook::iterator::Signals;
 
-    let usual = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|&signal| is_usual(signal));
-    if let Ok(mut signals) = Signals::new(usual) {
-        std::thread::spawn(move || signals.forever().next().map(|signal| stop(Stop { signal })));
+    let all = [SIGHUP, SIGINT, SIGTERM, SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ];
+    if let Ok(mut signals) = Signals::new(all.into_iter().filter(|&signal| is_usual(signal))) {
+        std::thread::spawn(move || {
+            let first = signals.forever().find(|&signal| signal != SIGXFSZ);
+            first.map(|signal| stop(Stop { signal }))
+        });
     }
 }
 
