@@ -28,9 +28,8 @@ impl<'a> Chunks<'a> {
             return Err(MidiFileError::NotMidi);
         }
         let (_, header) = next_chunk(&mut rest, "the header")?;
-        let [f0, f1, n0, n1, d0, d1] = *header.first_chunk::<6>().ok_or_else(|| {
-            MidiFileError::Truncated { what: "the header".into(), expected: 6, found: header.len() }
-        })?;
+        let [f0, f1, n0, n1, d0, d1] =
+            *header.first_chunk::<6>().ok_or_else(|| MidiFileError::ShortHeader(header.len()))?;
         let format = u16::from_be_bytes([f0, f1]);
         if format > 2 {
             return Err(MidiFileError::Format(format));
@@ -72,7 +71,8 @@ impl<'a> Chunks<'a> {
 /// Takes one chunk off the front.
 fn next_chunk<'a>(rest: &mut &'a [u8], what: &str) -> Result<(&'a [u8], &'a [u8]), MidiFileError> {
     let truncated = |expected, found| MidiFileError::Truncated { what: what.to_owned(), expected, found };
-    let (head, body) = rest.split_at_checked(8).ok_or_else(|| truncated(8, rest.len()))?;
+    let begun = || MidiFileError::Begun { what: what.to_owned(), found: rest.len() };
+    let (head, body) = rest.split_at_checked(8).ok_or_else(begun)?;
     let (kind, length) = head.split_at(4);
     // The second half of the head is four bytes long.
     let length = length.iter().fold(0_usize, |sum, &byte| sum << 8 | usize::from(byte));

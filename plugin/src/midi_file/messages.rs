@@ -42,6 +42,17 @@ pub enum MidiFileError {
         /// Bytes found.
         found: usize,
     },
+    /// The file ends before it has announced how long something is.
+    #[error("truncated MIDI file: {what} begins with 8 bytes, {found} are left")]
+    Begun {
+        /// The part that is cut off.
+        what: String,
+        /// Bytes found.
+        found: usize,
+    },
+    /// The header announces fewer bytes than it takes.
+    #[error("impossible MIDI header: its chunk has {0} bytes, and at least 6 are needed")]
+    ShortHeader(usize),
     /// The file ends before its last track does, and nobody asked for what is there.
     #[error("{0} (--allow-truncated plays what they hold)")]
     CutOff(CutOff),

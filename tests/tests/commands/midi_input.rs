@@ -189,6 +189,9 @@ fn what_is_no_midi_file_is_refused() {
     }
     assert!(refused(&vec![0; LARGEST_FILE + 1]).contains("at most"));
     assert!(refused(&file(3, 96, &[])).contains("must be 0, 1 or 2"));
+    let message = refused(b"MThd\0\0\0\x04\0\0\0\x01");
+    assert_eq!(message, "impossible MIDI header: its chunk has 4 bytes, and at least 6 are needed");
+    assert_eq!(refused(b"MThd"), "truncated MIDI file: the header begins with 8 bytes, 4 are left");
     for division in [0, 0x8000, 0x8001, 0xE700, 0xE800, 0xFF01] {
         let message = refused(&file(0, division, &[track(&[])]));
         assert!(message.contains("1 to 32767") && message.contains("frames"), "{message}");
