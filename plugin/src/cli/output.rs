@@ -10,7 +10,7 @@ use tempfile::TempPath;
 
 use super::descriptors::{self, STANDARD_ERROR, STANDARD_OUTPUT};
 use super::names::shown;
-use super::unfinished::Unfinished;
+use super::unfinished::{Unfinished, undisturbed};
 use crate::files;
 
 /// Where a result goes.
@@ -49,7 +49,10 @@ impl Draft {
                 (file, Some((beside, unfinished)))
             }
             Target::StandardOutput | Target::StandardError | Target::Stream(_) => {
-                (tempfile::tempfile().context("cannot make a temporary file")?, None)
+                let file = undisturbed(|_| tempfile::tempfile());
+                let folder = std::env::temp_dir();
+                let describe = || format!("cannot make a temporary file in {}", shown(&folder));
+                (file.with_context(describe)?, None)
             }
         };
         Ok(Self { target, file, beside })
