@@ -52,21 +52,21 @@ pub struct RenderArgs {
     #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live, help = qualities())]
     pub quality: Quality,
     /// Samples per second, 8000 to 384000.
-    #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate)]
+    #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate, allow_hyphen_values = true)]
     pub sample_rate: u32,
     /// Sample format: 16 or 24 bit whole numbers, or 32f for floating point.
-    #[arg(short, long, value_name = "16|24|32f", default_value_t = BitDepth::Int24)]
+    #[arg(short, long, value_name = "16|24|32f", default_value_t = BitDepth::Int24, allow_hyphen_values = true)]
     pub bit_depth: BitDepth,
     /// How long to go on after the last event that is for the player, whenever the track itself ends: until it is quiet
     /// (auto, 30 s at most), so many seconds, up to 3600, or not at all (none).
-    #[arg(long, value_name = "auto|SECONDS|none", default_value_t = Tail::Auto)]
+    #[arg(long, value_name = "auto|SECONDS|none", default_value_t = Tail::Auto, allow_hyphen_values = true)]
     pub tail: Tail,
     /// Play only this track, 1 to 65535, counted from 1; tempo changes and registered parameters (bend ranges, MPE) of all tracks
     /// count.
-    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=65_535))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=65_535), allow_hyphen_values = true)]
     pub track: Option<u16>,
     /// Play only this channel, 1 to 16; registered parameters (bend ranges, MPE) of all channels count.
-    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=16))]
+    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=16), allow_hyphen_values = true)]
     pub channel: Option<u8>,
     /// Play what is there of a song whose last track is cut off, instead of refusing it.
     #[arg(long)]
@@ -78,24 +78,24 @@ pub struct RenderArgs {
     pub input: InputChoice,
     /// The first channel that is a string, 1 to 16, with --input strings; the next string has the next channel
     /// [default: 1].
-    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=16))]
+    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=16), allow_hyphen_values = true)]
     pub first_channel: Option<u8>,
     /// Whether that is the set-up's first string, the highest on guitars, or its last [default: first_first].
     #[arg(long, value_name = "ORDER", value_parser = render::parse_choice::<StringOrder>())]
     pub string_order: Option<StringOrder>,
     /// How far a full turn of the pitch wheel bends, 0 to 96 semitones, unless the song says so itself [default: 2]. Not for
     /// MPE: there it is 48, channel 1's 2, or what the song says.
-    #[arg(long, value_name = "SEMITONES", value_parser = render::parse_bend)]
+    #[arg(long, value_name = "SEMITONES", value_parser = render::parse_bend, allow_hyphen_values = true)]
     pub bend_range: Option<f64>,
     /// Pass over what the song says of the bend range (registered parameter 0).
     #[arg(long)]
     pub ignore_rpn: bool,
     /// The fret about which the left hand plays what several strings could give, 1 to 36, unless the song says so itself (CC 28)
     /// [default: it moves as little as it can].
-    #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=Neck::MOST_FRETS as u64))]
+    #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=Neck::MOST_FRETS as u64), allow_hyphen_values = true)]
     pub hand_position: Option<u8>,
     /// Longest music accepted, minutes, above 0 to 1e6.
-    #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes)]
+    #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes, allow_hyphen_values = true)]
     pub max_length: f64,
     /// Also write each string's own sound, mono and before panning, into this folder, as NUMBER-NAME.wav, in place of
     /// files that are there. Each song needs a folder of its own.
@@ -106,14 +106,14 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FILE")]
     pub labels: Option<PathBuf>,
     /// Threads that share the strings among them, 1 to 64 [default: as many as there are processors]. The sound is the same bits.
-    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=64))]
+    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=64), allow_hyphen_values = true)]
     pub threads: Option<u8>,
     /// Size of the small differences between one pluck and the next, 0 (none: the hand does the same each time; what
     /// sounds still depends on how the string moves when it is plucked) to 1.
-    #[arg(long, value_name = "AMOUNT", default_value_t = EngineOptions::VARIATION, value_parser = render::parse_variation)]
+    #[arg(long, value_name = "AMOUNT", default_value_t = EngineOptions::VARIATION, value_parser = render::parse_variation, allow_hyphen_values = true)]
     pub variation: f64,
     /// Which sequence of those differences, 0 to 18446744073709551615.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>(0..=u64::MAX))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
     pub seed: u64,
 }
 
@@ -199,7 +199,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
     /// Keep every N-th sample of the trace, 1 or more, from the first.
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "trace", value_parser = whole::<u64>(1..=u64::MAX))]
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "trace", value_parser = whole::<u64>(1..=u64::MAX), allow_hyphen_values = true)]
     pub every: u64,
     /// Picture to draw (SVG), in place of any that is there: the strings over the board, energies, contact forces,
     /// iterations, penetration.
@@ -228,10 +228,10 @@ pub struct StandAloneArgs {
     #[arg(long, value_name = "NAME", value_parser = ["auto", "jack", "alsa", "core-audio", "wasapi", "none"])]
     pub backend: Option<String>,
     /// Samples per second, 8000 to 384000; JACK has its own.
-    #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate)]
+    #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate, allow_hyphen_values = true)]
     pub sample_rate: u32,
     /// Samples computed at a time, 1 to 65536: fewer answer sooner, more are safer. JACK has its own.
-    #[arg(short, long, value_name = "SAMPLES", default_value_t = 256, value_parser = whole::<u32>(1..=65_536))]
+    #[arg(short, long, value_name = "SAMPLES", default_value_t = 256, value_parser = whole::<u32>(1..=65_536), allow_hyphen_values = true)]
     pub period_size: u32,
     /// Lists outputs and MIDI inputs, and plays nothing.
     #[arg(long)]

@@ -55,6 +55,15 @@ fn wrong_usage_is_code_2() {
             &["render", "song.mid", "--seed", "1.5"],
             "must be a whole number from 0 to 18446744073709551615 (see",
         ),
+        // What begins with a dash and is no option, either.
+        (
+            &["render", "song.mid", "--variation", "-1e-9"],
+            "'-1e-9' for '--variation <AMOUNT>': must be 0 to 1",
+        ),
+        (&["render", "song.mid", "--tail", "-.5"], "'-.5' for '--tail <auto|SECONDS|none>': must be auto"),
+        (&["render", "song.mid", "--tail", "-inf"], "'-inf' for '--tail <auto|SECONDS|none>': must be auto"),
+        (&["render", "song.mid", "--seed", "-x"], "'-x' for '--seed <N>': must be a whole number from 0"),
+        (&["render", "song.mid", "--max-length", "-1e3"], "'-1e3' for '--max-length <MIN>': must be above 0"),
         (&["render", "--bogus"], "'--bogus' found (see low-action render --help)"),
         (
             &["render", "--qualty", "studio"],
@@ -217,6 +226,11 @@ fn devices_are_written_directly() {
     let full = fs::File::options().write(true).open("/dev/full").unwrap();
     let output = room.command(&["render", "song.mid", "-o", "-"]).stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
+    // What goes there waits in a folder for such files.
+    let mut command = room.command(&["render", "song.mid", "-o", "-"]);
+    let output = command.env("TMPDIR", "no/such").output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.starts_with("error: cannot make a temporary file in no/such: "), "{said}");
     // An endless source ends and is refused.
     assert!(room.refuses(1, &["render", "/dev/zero"]).contains("at most"));
 }

@@ -402,6 +402,7 @@ fn wrong_usage_is_told_apart() {
             &["'0' for '--every <N>': must be", EVERY],
         ),
         (&["scene", "scene.toml", "--trace", "x.npz", "--every", "-1"], &["'-1' for '--every <N>'", EVERY]),
+        (&["scene", "scene.toml", "--trace", "x.npz", "--every", "-.5"], &["'-.5' for '--every <N>'", EVERY]),
         (
             &["scene", "scene.toml", "--trace", "x.npz", "--every", "some"],
             &["'some' for '--every <N>'", EVERY],
