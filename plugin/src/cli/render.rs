@@ -49,7 +49,8 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         threads: threads(arguments),
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
-    let mut engine = Engine::new(&options).with_context(|| escaped(&arguments.instrument))?;
+    let mut engine =
+        Engine::new(&options).with_context(|| escaped(&arguments.instrument))?;
     engine.set_input(input);
     let touching = Touching::new(arguments.variation, bend_range);
     let RenderArgs { ignore_rpn, hand_position, .. } = *arguments;
@@ -78,6 +79,11 @@ fn input_mode(arguments: &RenderArgs) -> Result<InputMode, Failure> {
         [("--first-channel", first_channel.is_some()), ("--string-order", string_order.is_some())];
     if arguments.bend_range.is_some() && *input == InputChoice::Mpe {
         let reason = "--bend-range is not for --input mpe: there wheels reach 48 semitones, channel 1's 2, or what the song says";
+        return Err(Failure::Usage(reason.into()));
+    }
+    if arguments.hand_position.is_some() && *input == InputChoice::Strings {
+        let reason =
+            "--hand-position is not for --input strings: there each note has its string, and so its fret";
         return Err(Failure::Usage(reason.into()));
     }
     match of_strings.into_iter().find(|&(_, given)| given && *input != InputChoice::Strings) {

@@ -40,6 +40,10 @@ fn wrong_usage_is_code_2() {
             &["render", "song.mid", "--input", "mpe", "--string-order", "last_first"],
             "--string-order is only for --input strings",
         ),
+        (
+            &["render", "song.mid", "--input", "strings", "--hand-position", "5"],
+            "--hand-position is not for --input strings",
+        ),
         (&["render", "song.mid", "--bend-range", "97"], "0 to 96 semitones"),
         (&["render", "song.mid", "--hand-position", "0"], "must be a whole number from 1 to 36"),
         (
