@@ -27,6 +27,7 @@ mod wav;
 use std::ffi::OsString;
 use std::io::Write;
 
+use anyhow::Context;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
@@ -188,11 +189,11 @@ fn explain(error: &clap::Error, command: Option<&str>) -> Outcome {
 }
 
 /// What came of writing to standard output. A reader who has seen enough and closed it is no failure.
-pub(crate) fn unless_closed(written: std::io::Result<()>) -> std::io::Result<()> {
-    written.or_else(|error| match error.kind() {
-        std::io::ErrorKind::BrokenPipe => Ok(()),
-        _ => Err(error),
-    })
+pub(crate) fn unless_closed(written: std::io::Result<()>) -> anyhow::Result<()> {
+    match written {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        written => written.context("cannot write to standard output"),
+    }
 }
 
 /// A message folded into one line, without orders to the terminal.

@@ -230,6 +230,16 @@ fn devices_are_written_directly() {
     let full = fs::File::options().write(true).open("/dev/full").unwrap();
     let output = room.command(&["render", "song.mid", "-o", "-"]).stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
+    for arguments in [&["--help"][..], &["scene", "--help"], &["instruments"]] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let output = room.command(arguments).stdout(full).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            said.starts_with("error: cannot write to standard output: No space"),
+            "{arguments:?}: {said}"
+        );
+        assert_eq!(output.status.code(), Some(1));
+    }
     // What goes there waits in a folder for such files.
     let mut command = room.command(&["render", "song.mid", "-o", "-"]);
     let output = command.env("TMPDIR", "no/such").output().unwrap();
