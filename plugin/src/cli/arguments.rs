@@ -1,5 +1,6 @@
 //! What each command can be told.
 
+use std::ffi::OsString;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -47,7 +48,7 @@ pub struct RenderArgs {
     /// Set-up that comes with the program (electric, classical, steel, bass, tanpura, ...) or was installed, or
     /// a set-up file; `low-action instruments` lists them.
     #[arg(short, long, value_name = "NAME|FILE", default_value = "electric")]
-    pub instrument: String,
+    pub instrument: OsString,
     /// How much computing.
     #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live, help = qualities())]
     pub quality: Quality,
@@ -213,7 +214,7 @@ pub struct StandAloneArgs {
     /// Set-up that comes with the program or was installed, or a set-up file; `low-action instruments` lists
     /// them.
     #[arg(short, long, value_name = "NAME|FILE", default_value = "electric")]
-    pub instrument: String,
+    pub instrument: OsString,
     /// How much computing.
     #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live, help = qualities())]
     pub quality: Quality,

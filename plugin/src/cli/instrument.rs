@@ -1,5 +1,6 @@
 //! Finding the set-up that `--instrument` names.
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use anyhow::Context;
@@ -10,8 +11,8 @@ use crate::setups::{self, SHIPPED};
 
 /// A set-up that comes with the program or was installed, by name, or one from a file; and where that file is, if one was
 /// read.
-pub(super) fn load(name: &str) -> Result<(Setup, Option<PathBuf>), Failure> {
-    if let Some(setup) = Setup::shipped(name) {
+pub(super) fn load(name: &OsStr) -> Result<(Setup, Option<PathBuf>), Failure> {
+    if let Some(setup) = name.to_str().and_then(Setup::shipped) {
         return Ok((setup, None));
     }
     let (path, _, setup) = file(name)?;
@@ -19,7 +20,7 @@ pub(super) fn load(name: &str) -> Result<(Setup, Option<PathBuf>), Failure> {
 }
 
 /// A set-up that was installed, by name, or one from a file: where it is, its text, and what it says.
-pub(super) fn file(name: &str) -> Result<(PathBuf, String, Setup), Failure> {
+pub(super) fn file(name: &OsStr) -> Result<(PathBuf, String, Setup), Failure> {
     let path = path(name)?;
     let text = setups::read(&path)?;
     let setup = Setup::from_toml(&text).with_context(|| path.display().to_string())?;
@@ -27,14 +28,14 @@ pub(super) fn file(name: &str) -> Result<(PathBuf, String, Setup), Failure> {
 }
 
 /// Where the file is that a name or a path means.
-fn path(name: &str) -> Result<PathBuf, Failure> {
+fn path(name: &OsStr) -> Result<PathBuf, Failure> {
     let path = PathBuf::from(name);
     // A folder is no set-up, whatever it is called.
     if (path.exists() && !path.is_dir()) || path.components().count() > 1 {
         return Ok(path);
     }
     let installed = setups::installed();
-    if let Some(file) = installed.iter().find(|file| file.name == name) {
+    if let Some(file) = installed.iter().find(|file| name == file.name.as_str()) {
         return Ok(file.path.clone());
     }
     if path.extension().is_some() {
@@ -43,5 +44,6 @@ fn path(name: &str) -> Result<PathBuf, Failure> {
     // A bare word is a misspelt name.
     let own = installed.iter().map(|file| file.name.as_str());
     let known = SHIPPED.into_iter().chain(own).collect::<Vec<_>>().join(", ");
+    let name = name.to_string_lossy();
     Err(Failure::Usage(format!("unknown instrument {name:?}: must be {known} or a set-up file")))
 }

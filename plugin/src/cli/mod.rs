@@ -12,6 +12,7 @@ mod descriptors;
 mod instrument;
 mod instruments;
 mod names;
+mod not_text;
 mod npz;
 pub mod output;
 mod paths;
@@ -129,7 +130,7 @@ where
             let command = command_of(&arguments);
             match misspelt_command(&error, command.as_deref(), &arguments) {
                 Some(failure) => Err(failure),
-                None => explain(&error, command.as_deref()),
+                None => explain(&error, command.as_deref(), &arguments),
             }
         }
     };
@@ -168,7 +169,8 @@ fn misspelt_command(error: &clap::Error, command: Option<&str>, arguments: &[OsS
 
 /// Help and version are printed in full; a mistake becomes one line, with what else may have been meant and whose
 /// help says more.
-fn explain(error: &clap::Error, command: Option<&str>) -> Outcome {
+fn explain(error: &clap::Error, command: Option<&str>, arguments: &[OsString]) -> Outcome {
+    let program = command.map_or("low-action".to_owned(), |command| format!("low-action {command}"));
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
             unless_closed(error.print())?;
@@ -177,12 +179,17 @@ fn explain(error: &clap::Error, command: Option<&str>) -> Outcome {
         _ => {
             let text = error.render().to_string();
             let first = text.split("\n\n").next().unwrap_or_default();
-            let first = first.strip_prefix("error: ").unwrap_or(first);
+            let mut first = first.strip_prefix("error: ").unwrap_or(first).to_owned();
+            if error.kind() == ErrorKind::InvalidUtf8 {
+                let mut known = CommandLine::command();
+                known.build();
+                let known = command.and_then(|command| known.find_subcommand(command)).unwrap_or(&known);
+                first = not_text::told(known, arguments).unwrap_or(first);
+            }
             // How to pass a word that begins with a dash is no help to who has misspelt an option.
             let tips = text.lines().map(str::trim).filter(|line| line.starts_with("tip: "));
             let tips: String =
                 tips.filter(|tip| !tip.starts_with("tip: to pass")).map(|tip| format!("; {tip}")).collect();
-            let program = command.map_or("low-action".to_owned(), |command| format!("low-action {command}"));
             Err(Failure::Usage(format!("{first}{tips} (see {program} --help)")))
         }
     }

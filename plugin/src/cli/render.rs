@@ -50,7 +50,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
     let mut engine =
-        Engine::new(&options).with_context(|| escaped(&arguments.instrument))?;
+        Engine::new(&options).with_context(|| escaped(&arguments.instrument.to_string_lossy()))?;
     engine.set_input(input);
     let touching = Touching::new(arguments.variation, bend_range);
     let RenderArgs { ignore_rpn, hand_position, .. } = *arguments;

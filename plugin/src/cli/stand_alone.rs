@@ -19,14 +19,14 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
         return Ok(());
     }
     let mut start = Start { quality: arguments.quality, ..Start::default() };
-    let name = arguments.instrument.as_str();
-    let setup = match (crate::params::InstrumentChoice::named(name), Setup::shipped(name)) {
+    let name = arguments.instrument.to_string_lossy();
+    let setup = match (crate::params::InstrumentChoice::named(&name), Setup::shipped(&name)) {
         (Some(choice), Some(setup)) => {
             start.instrument = choice;
             setup
         }
         _ => {
-            let (path, text, setup) = instrument::file(name)?;
+            let (path, text, setup) = instrument::file(&arguments.instrument)?;
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             start.file = Some((stem.into_owned(), text));
             setup

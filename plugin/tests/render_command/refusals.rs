@@ -186,6 +186,38 @@ fn names_give_no_orders_to_the_terminal() {
     assert!(!said.contains('\u{1b}'), "{said:?}");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn names_of_files_may_be_any_bytes_and_what_else_is_no_text_is_named() {
+    use std::os::unix::ffi::OsStrExt;
+
+    let room = Room::new();
+    let strange =
+        |before: &str| std::ffi::OsStr::from_bytes(&[before.as_bytes(), b"a\xff"].concat()).to_owned();
+    let own = "name = \"own\"\ndescription = \"mine\"\nbased_on = \"electric\"\n";
+    fs::write(room.path("").join(strange("")), own).unwrap();
+    let mut command = room.command(&["render", "song.mid", "-q", "draft", "--tail", "none", "-i"]);
+    let output = command.arg(strange("./")).output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    for (option, value, expected) in [
+        ("--quality", "", "'a\u{fffd}' for '--quality <QUALITY>'"),
+        ("--seed", "", "'a\u{fffd}' for '--seed <N>'"),
+        ("-q", "", "'a\u{fffd}' for '--quality <QUALITY>'"),
+        ("-i", "-q", "'a\u{fffd}' for '--quality <QUALITY>'"),
+        ("--allow-truncated", "--track=", "'a\u{fffd}' for '--track <N>'"),
+    ] {
+        let mut command = room.command(&["render", "song.mid", "-o"]);
+        command.arg(strange("x")).args(["--labels", "x", option]);
+        let output = command.args((option == "-i").then_some("./a")).arg(strange(value)).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            said.starts_with(&format!("error: invalid value {expected}: it is not UTF-8 text (see")),
+            "{said}"
+        );
+        assert_eq!(output.status.code(), Some(2));
+    }
+}
+
 #[test]
 fn an_hour_is_the_limit_unless_another_is_named() {
     let room = Room::new();

@@ -22,7 +22,7 @@ pub(super) struct About<'a> {
     program: &'static str,
     /// As asked for; none for the built-in demo.
     song: Option<String>,
-    instrument: &'a str,
+    instrument: String,
     quality: &'static str,
     /// Hz.
     sample_rate: u32,
@@ -73,7 +73,7 @@ impl Source<'_> {
         About {
             program: concat!("low-action ", env!("CARGO_PKG_VERSION")),
             song: arguments.song.as_ref().map(|song| song.to_string_lossy().into_owned()),
-            instrument: &arguments.instrument,
+            instrument: arguments.instrument.to_string_lossy().into_owned(),
             quality: arguments.quality.name(),
             sample_rate: arguments.sample_rate,
             samples,
