@@ -160,9 +160,11 @@ impl SceneFigure {
         for &(_, lowest, highest) in &record.reach {
             (low, high) = (low.min(1e3 * lowest), high.max(1e3 * highest));
         }
-        // Room for fingers that hover, not for those that fly away.
-        let fingers = record.profiles.iter().map(|profile| profile.extent().1).fold(high, f64::max);
-        high = fingers.min(high + 0.5 * (high - low));
+        // Room for fingers that hover, or whose pads are pressed in deeply, not for those that fly away.
+        let room = 0.5 * (high - low);
+        let extents = record.profiles.iter().map(|profile| profile.extent());
+        let fingers = extents.fold((low, high), |(low, high), found| (low.min(found.0), high.max(found.1)));
+        (low, high) = (fingers.0.max(low - room), fingers.1.min(high + room));
         let margin = 0.08 * (high - low).max(1e-9);
         let length = record.ground.length;
         let title = match self.string_count {
@@ -303,6 +305,20 @@ mod tests {
             let picture = figure.draw("scene").unwrap();
             assert!(picture.contains(energy), "{energy} is not in the picture");
         }
+    }
+
+    #[test]
+    fn fingers_whose_pads_are_pressed_in_deeply_are_shown_too() {
+        let soft =
+            "[[finger]]\nmass = 5e-3\nstiffness = 1e3\nexponent = 2.0\nposition = 0.2\nheight = -0.002\n";
+        let (figure, _) = watched(&format!("{SCENE}{soft}"));
+        let panel = figure.draw_string(1, &figure.strings[0]);
+        let places = panel.layers.iter().filter_map(|layer| match layer {
+            Layer::Dots { points, .. } => Some(points[0].1),
+            _ => None,
+        });
+        let lowest = places.fold(0.0, f64::min);
+        assert!(lowest <= -2.0 && panel.y.range.contains(&lowest), "{lowest} in {:?}", panel.y.range);
     }
 
     #[test]
