@@ -153,6 +153,7 @@ mod instructions;
 pub mod instrument;
 pub mod intonation;
 mod kernel;
+mod large_numbers;
 pub mod model;
 pub mod neck;
 pub mod observed;
