@@ -29,12 +29,13 @@ impl Simulation {
     /// or the whole more than [`MOST_POINTS`], [`MOST_NUMBERS`] and [`MOST_WORK`] allow.
     pub fn new(scene: &Scene) -> Result<Simulation, Error> {
         scene.check()?;
-        check_size(scene)?;
+        let points = check_size(scene)?;
         // Made one after another, and none that there is no room for.
         let mut left = MOST_NUMBERS;
         let strings = (0..scene.string.len())
             .map(|index| SceneString::new(scene, index, &mut left))
             .collect::<Result<_, Error>>()?;
+        check_work(scene, points, MOST_NUMBERS - left)?;
         Ok(Simulation {
             strings,
             sample_rate: scene.sample_rate,
@@ -143,11 +144,11 @@ pub const MOST_POINTS: usize = 1_000_000;
 /// points as its square.
 pub const MOST_NUMBERS: usize = 100_000_000;
 
-/// The most steps of grid points, plucks and fingers that a scene may take: hours of computing.
+/// The most steps of grid points, plucks, fingers and those numbers that a scene may take: hours of computing.
 pub const MOST_WORK: f64 = 1e13;
 
-/// Refuses a scene that would fill the memory or never end, before anything of its size is made.
-fn check_size(scene: &Scene) -> Result<(), Error> {
+/// Refuses a scene that would fill the memory, before anything of its size is made. Returns how many grid points it has.
+fn check_size(scene: &Scene) -> Result<usize, Error> {
     let mut points = 0;
     for (index, spec) in scene.string.iter().enumerate() {
         let string = StringParameters::from_spec(spec);
@@ -161,14 +162,23 @@ fn check_size(scene: &Scene) -> Result<(), Error> {
             return Err(Error::range("sample_rate", plain(scene.sample_rate), accepted));
         }
     }
-    let things = (points + scene.pluck.len() + scene.finger.len()) as f64;
+    Ok(points)
+}
+
+/// Refuses a scene of so many grid points that would never end, with so many numbers that say how contacts answer one another.
+fn check_work(scene: &Scene, points: usize, numbers: usize) -> Result<(), Error> {
+    let things = (points + numbers + scene.pluck.len() + scene.finger.len()) as f64;
     let work = things * scene.duration * scene.sample_rate;
     if work <= MOST_WORK {
         return Ok(());
     }
     let longest = MOST_WORK / (things * scene.sample_rate);
+    let contacts = match numbers {
+        0 => String::new(),
+        _ => format!(" and {numbers} numbers for contacts that share some"),
+    };
     let accepted = format!(
-        "with {points} grid points at {} Hz it must lie between 0 and {} s",
+        "with {points} grid points{contacts} at {} Hz it must lie between 0 and {} s",
         plain(scene.sample_rate),
         plain(at_most(longest))
     );

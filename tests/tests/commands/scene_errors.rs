@@ -219,6 +219,12 @@ fn scenes_too_large_to_compute_are_refused() {
         ),
         &["contacts that share grid points", "1e8 numbers"],
     );
+    // Fewer, for days.
+    let frets = format!("frets = [{}]", crowd[..400].join(", "));
+    let text = SCENE.replace("duration = 0.01", "duration = 1e5").replace("frets = 3", &frets);
+    let error = Simulation::new(&Scene::from_toml(&text).unwrap()).map(drop).unwrap_err().to_string();
+    let words = ["duration = 100000", " numbers for contacts that share some at 44100 Hz", "between 0 and "];
+    assert!(words.iter().all(|words| error.contains(words)), "{error}");
 }
 
 #[test]
