@@ -75,6 +75,8 @@ pub(crate) struct Channel {
 pub(crate) enum Request {
     /// Nothing.
     None,
+    /// So many channels as it has now are members of MPE.
+    Members,
     /// The pedal went up: notes it kept must stop.
     PedalUp,
     /// The sostenuto pedal went down: it keeps what sounds.
@@ -255,7 +257,7 @@ impl Channel {
             // So many member channels, 0 for none.
             (Some(ChosenParameter::MEMBERS), controller::DATA_ENTRY) => {
                 self.members = Some(value.min(15));
-                return Request::None;
+                return Request::Members;
             }
             _ if self.ignores_range => return Request::None,
             (Some(ChosenParameter::WHEEL), controller::DATA_ENTRY) => {

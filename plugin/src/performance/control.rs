@@ -63,11 +63,11 @@ pub(crate) fn announces_mpe(mut events: impl Iterator<Item = PlayerEvent>) -> bo
 
 /// Of whose notes something is asked.
 #[derive(Debug, Clone, Copy)]
-struct Whose {
+pub(super) struct Whose {
     /// Those of this channel,
-    channel: u8,
+    pub channel: u8,
     /// or of all.
-    all: bool,
+    pub all: bool,
 }
 
 impl Whose {
@@ -122,9 +122,13 @@ impl Performance {
         change: impl Fn(&mut Channel) -> Request,
         out: &mut impl GestureSink,
     ) {
+        let was_mpe = self.is_mpe();
         let Some((request, whose)) = self.change_channels(number, change) else { return };
         self.tell_chord(request, |channel| whose.is(channel));
         match request {
+            // Others may announce an upper zone, which there is none of here.
+            Request::Members if number != MANAGER => return,
+            Request::Members => return self.take_members(was_mpe, out),
             Request::Capo(fret) => return self.set_capo(usize::from(fret)),
             Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),
             Request::Hand(fret) => return self.hand.set_home((fret > 0).then_some(fret)),
@@ -143,11 +147,16 @@ impl Performance {
             }
             _ => {}
         }
-        for index in 0..self.strings.len() {
-            self.carry_out(request, whose, index, out);
-        }
+        self.ask(request, whose, out);
         if request == Request::Touch {
             self.lay_palm(number, out);
+        }
+    }
+
+    /// Does to every string what is asked.
+    pub(super) fn ask(&mut self, request: Request, whose: Whose, out: &mut impl GestureSink) {
+        for index in 0..self.strings.len() {
+            self.carry_out(request, whose, index, out);
         }
     }
 
@@ -158,7 +167,6 @@ impl Performance {
         number: u8,
         change: impl Fn(&mut Channel) -> Request,
     ) -> Option<(Request, Whose)> {
-        let was_mpe = self.is_mpe();
         let channel = self.channels.get_mut(usize::from(number))?;
         let before = channel.announced_reach();
         let request = change(channel);
@@ -172,9 +180,6 @@ impl Performance {
         } else if all {
             // Most messages say nothing of hands: what other channels have been told stays.
             self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.hear(&change));
-        }
-        if mpe && !was_mpe {
-            self.begin_mpe();
         }
         Some((request, Whose { channel: number, all }))
     }
@@ -190,14 +195,14 @@ impl Performance {
     }
 
     /// Notes whose keys are down under the ones that sound hear how they are to be played when they come back.
-    fn tell_keys_under(&mut self, request: Request, whose: Whose) {
+    pub(super) fn tell_keys_under(&mut self, request: Request, whose: Whose) {
         let manners: [Manner; CHANNELS] = std::array::from_fn(|channel| self.manner(channel as u8));
         let said = |own: u8| whose.is(own).then(|| manners[usize::from(own)]);
         self.strings.iter_mut().for_each(|string| string.hear(request, said));
     }
 
     /// What a sostenuto pedal no longer holds of them comes back held by its key alone.
-    fn let_fall_under(&mut self, whose: Whose) {
+    pub(super) fn let_fall_under(&mut self, whose: Whose) {
         let caught: [bool; CHANNELS] = std::array::from_fn(|channel| self.sostenuto(channel as u8));
         let fallen = |own: u8| whose.is(own) && !caught[usize::from(own)];
         self.strings.iter_mut().for_each(|string| string.let_fall_under(fallen));
@@ -212,7 +217,8 @@ impl Performance {
             (self.channels[usize::from(channel)].articulation, self.sostenuto(channel));
         let string = &mut self.strings[index];
         match request {
-            Request::None | Request::Capo(_) | Request::Switches(_) | Request::Hand(_) => {}
+            Request::None | Request::Members | Request::Capo(_) | Request::Switches(_) | Request::Hand(_) => {
+            }
             Request::Touch => string.set_touch(time, &articulation, out),
             Request::PedalUp if pedal => {}
             Request::PedalUp => string.pedal_up(time, channel, out),
@@ -252,14 +258,6 @@ impl Performance {
             if !string.is_played() && string.channel().map_or(!by_strings, |own| own == number) {
                 string.set_palm(self.now, palm, out);
             }
-        }
-    }
-
-    /// From now on the first channel speaks for all, with what it has said before.
-    pub(super) fn begin_mpe(&mut self) {
-        let all = self.channels[usize::from(MANAGER)].articulation;
-        for member in &mut self.channels[usize::from(MANAGER) + 1..] {
-            member.articulation = member.articulation.under(&all);
         }
     }
 

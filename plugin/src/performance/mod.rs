@@ -4,7 +4,7 @@
 //! [`low_action_dsp::TimedGesture`]s: which string and fret (`hand`), notes that begin together or take over
 //! from one another (`chord`), what fingers and plucks a note takes from its start to its silence (`string`),
 //! how hands are told to play (`articulation`, `switches`), what pedals and wheels say (`channel`) and do to
-//! it (`control`, `expressions`, `bend`), and how one pluck differs from the next (`variation`). Beside the gestures it
+//! it (`control`, `meaning`, `expressions`, `bend`), and how one pluck differs from the next (`variation`). Beside the gestures it
 //! tells what becomes of the notes ([`Annotation`]), for labels. There are no host types here, nothing is allocated after
 //! construction, and the result depends only on the events and their times, not on how the time between them is cut
 //! into blocks.
@@ -21,6 +21,7 @@ mod event;
 mod expressions;
 mod fingers;
 mod hand;
+mod meaning;
 mod moment;
 mod parameter;
 mod played;
@@ -78,6 +79,8 @@ pub struct Performance {
     usual_stop: Stop,
     variation: Variation,
     input: InputMode,
+    /// Whether channels have begun to be notes of MPE, or ceased to be, and the strings have yet to hear of it.
+    means_otherwise: bool,
     /// The hands as the set-up has them.
     hands: Player,
     /// Length of the strings, m; of the shortest.
@@ -128,6 +131,7 @@ impl Performance {
             channels: std::array::from_fn(|_| Channel::new(style.bend_range)),
             variation: Variation::new(style.variation, style.seed),
             input: InputMode::default(),
+            means_otherwise: false,
             hands: hands.clone(),
             touching: Touching::new(style.variation, style.bend_range),
             taken_over: false,
@@ -148,6 +152,7 @@ impl Performance {
     pub fn event(&mut self, time: u64, event: PlayerEvent, out: &mut impl GestureSink) {
         let time = time.max(self.now);
         self.advance(time, out);
+        self.follow_meaning(out);
         match event {
             PlayerEvent::NoteOn { channel, key, velocity } if velocity > 0.0 => {
                 if self.press_switch(channel, key) {
@@ -227,25 +232,13 @@ impl Performance {
         }
     }
 
-    /// Channels mean something else from now on.
-    pub fn set_input(&mut self, input: InputMode) {
-        if input == self.input {
-            return;
-        }
-        let was_mpe = self.is_mpe();
-        self.input = input;
-        if self.is_mpe() && !was_mpe {
-            self.begin_mpe();
-        }
-        self.follow_wheels();
-    }
-
     /// Takes over from another player in the middle of the music: pedals, wheels and, if the strings go on
     /// sounding, notes, fingers and the place of the hand. Nothing is allocated.
     pub fn take_over(&mut self, old: &Self, strings_go_on: bool) {
         self.channels.clone_from(&old.channels);
         self.variation.clone_from(&old.variation);
-        (self.input, self.touching) = (old.input, old.touching);
+        (self.input, self.means_otherwise) = (old.input, old.means_otherwise);
+        self.touching = old.touching;
         (self.compromises, self.now) = (old.compromises, old.now);
         self.chord.clear();
         self.chord.extend_from_slice(&old.chord);
@@ -275,6 +268,7 @@ impl Performance {
     /// follow.
     pub fn advance(&mut self, until: u64, out: &mut impl GestureSink) {
         if until > self.now {
+            self.follow_meaning(out);
             self.begin_chord(out);
             self.begin_late(until, out);
             self.advance_strings(until, out);
@@ -328,7 +322,7 @@ impl Performance {
         self.chord.clear();
         self.releases.clear();
         self.late.clear();
-        self.upward = false;
+        (self.upward, self.means_otherwise) = (false, false);
         self.switches = self.touching.keyswitches;
         self.hand.set_home(self.touching.hand_position);
         self.now = 0;

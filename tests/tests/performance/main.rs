@@ -16,6 +16,7 @@ mod goes_on;
 mod landings;
 mod legato;
 mod mpe;
+mod mpe_comes_and_goes;
 mod muted;
 mod overtaken;
 mod palm;

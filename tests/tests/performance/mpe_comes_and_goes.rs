@@ -1,0 +1,141 @@
+//! The promise: channels may become notes of MPE and cease to be while notes sound. Pedals, wheels, pressure and vibrato of the
+//! first channel act on the notes of others from then on, or no longer.
+
+use std::sync::LazyLock;
+
+use low_action::controls::Touching;
+use low_action::performance::{InputMode, Performance, PlayerEvent};
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::hands::{EXACT, Neck, control, note, play, wheel};
+
+static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
+
+/// A registered parameter of a channel is set at a sample.
+fn registered(at: u64, channel: u8, parameter: u8, value: u8) -> Vec<(u64, PlayerEvent)> {
+    [(101, 0), (100, parameter), (6, value)]
+        .map(|(number, value)| (at, control(channel, number, value)))
+        .to_vec()
+}
+
+/// So many members are announced at a sample.
+fn members(at: u64, count: u8) -> Vec<(u64, PlayerEvent)> {
+    registered(at, 0, 6, count)
+}
+
+fn up(channel: u8, key: u8) -> PlayerEvent {
+    PlayerEvent::NoteOff { channel, key }
+}
+
+/// Takes events without waiting for what comes of them.
+fn tell(player: &mut Performance, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
+    let mut gestures = Vec::new();
+    events.iter().for_each(|&(time, event)| player.event(time, event, &mut gestures));
+    gestures
+}
+
+/// One way out of MPE, at a sample.
+type Leaving = fn(&mut Performance, u64);
+
+/// By the keyboard and by the player's choice.
+const LEAVINGS: [Leaving; 2] = [
+    |player, at| {
+        tell(player, &members(at, 0));
+    },
+    |player, _| player.set_input(InputMode::Keyboard),
+];
+
+/// A player in MPE as it was announced.
+fn announced() -> Performance {
+    let mut player = GUITAR.player(EXACT);
+    tell(&mut player, &members(0, 15));
+    player
+}
+
+#[test]
+fn notes_that_only_the_first_channel_keeps_end_when_it_speaks_for_itself_alone() {
+    for (way, leave) in LEAVINGS.iter().enumerate() {
+        for pedal in [64, 66] {
+            let sounds = |own_pedal: bool, key_up: bool| {
+                let mut player = announced();
+                tell(&mut player, &[(0, note(1, 52)), (2400, control(0, pedal, 127))]);
+                if own_pedal {
+                    tell(&mut player, &[(2400, control(1, pedal, 127))]);
+                }
+                if key_up {
+                    tell(&mut player, &[(4800, up(1, 52))]);
+                }
+                player.advance(9600, &mut Vec::new());
+                assert!(player.sounds(1, 52), "a pedal is down: way {way}, CC {pedal}");
+                leave(&mut player, 9600);
+                player.advance(19_200, &mut Vec::new());
+                player.sounds(1, 52)
+            };
+            assert!(!sounds(false, true), "way {way}, CC {pedal}");
+            assert!(sounds(true, true), "its own pedal is down: way {way}, CC {pedal}");
+            assert!(sounds(false, false), "its key is down: way {way}, CC {pedal}");
+        }
+    }
+}
+
+#[test]
+fn a_key_that_is_down_comes_back_from_under_a_note_that_nothing_keeps_any_more() {
+    for leave in LEAVINGS {
+        let mut player = announced();
+        player.touch(0, &Touching { legato: true, ..Touching::new(0.0, 2.0) }, &mut Vec::new());
+        let pedal = [(0, control(0, 64, 127)), (0, note(1, 57)), (24_000, note(2, 59))];
+        tell(&mut player, &pedal);
+        tell(&mut player, &[(36_000, up(2, 59))]);
+        player.advance(48_000, &mut Vec::new());
+        assert!(player.sounds(2, 59));
+        leave(&mut player, 48_000);
+        player.advance(60_000, &mut Vec::new());
+        assert!(!player.sounds(2, 59) && player.sounds(1, 57));
+    }
+}
+
+/// What the tension was last bent by, semitones.
+fn bent(gestures: &[TimedGesture]) -> f64 {
+    let mut ratios = gestures.iter().rev().filter_map(|g| match g.gesture {
+        Gesture::Bend { tension_ratio, .. } => Some(tension_ratio),
+        _ => None,
+    });
+    6.0 * ratios.next().unwrap_or(1.0).log2()
+}
+
+fn assert_near(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-6, "{found} instead of {expected}");
+}
+
+#[test]
+fn a_wheel_that_is_held_stands_for_what_it_does_in_mpe_from_the_announcement_on() {
+    let held = [(0, note(2, 40)), (2400, wheel(2, 1.0 / 48.0))];
+    let after = |told: &[(u64, PlayerEvent)]| {
+        bent(&play(&mut GUITAR.player(EXACT), &[&held[..], told, &[(24_000, control(2, 7, 1))]].concat()))
+    };
+    assert_near(after(&[]), 2.0 / 48.0);
+    assert_near(after(&members(9600, 15)), 1.0);
+    assert_near(after(&[members(9600, 15), members(14_400, 0)].concat()), 2.0 / 48.0);
+}
+
+#[test]
+fn the_first_channels_hand_swings_for_others_only_while_it_speaks_for_them() {
+    for leave in LEAVINGS {
+        let mut player = announced();
+        tell(&mut player, &[(0, control(0, 1, 127)), (0, note(1, 52))]);
+        let mut gestures = Vec::new();
+        player.advance(24_000, &mut gestures);
+        let swings = |gestures: &[TimedGesture]| {
+            gestures
+                .iter()
+                .filter(|g| matches!(g.gesture, Gesture::Bend { .. } | Gesture::Slide { .. }))
+                .count()
+        };
+        assert!(swings(&gestures) > 20);
+        leave(&mut player, 24_000);
+        // It comes to rest within half a swing.
+        player.advance(48_000, &mut Vec::new());
+        gestures.clear();
+        player.advance(96_000, &mut gestures);
+        assert_eq!(swings(&gestures), 0);
+    }
+}
