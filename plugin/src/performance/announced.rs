@@ -43,6 +43,9 @@ impl Performance {
             channel.take_reach(reach);
             channel.members = members;
         }
+        if self.is_mpe() {
+            self.agree_on_reach();
+        }
         self.switches = announced.switches.unwrap_or(self.switches);
         self.hand.set_home(announced.home.unwrap_or(self.hand.home()));
         self.set_capo(announced.capo);

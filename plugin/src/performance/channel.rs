@@ -156,6 +156,11 @@ impl Channel {
         }
     }
 
+    /// Nothing is announced of its reach.
+    pub(crate) fn forget_reach(&mut self) {
+        (self.range, self.announced) = ((self.usual_range, 0.0), false);
+    }
+
     /// No pedal holds anything any more, wherever it stands: what is pressed next goes down anew.
     pub(crate) fn forget_pedals(&mut self) {
         (self.pedal, self.sostenuto) = (false, false);

@@ -1,6 +1,6 @@
 //! Channels begin to be notes of MPE, or cease to be: what then becomes of the notes that sound.
 
-use super::channel::Request;
+use super::channel::{Channel, Request};
 use super::control::{MANAGER, Whose};
 use super::{CHANNELS, GestureSink, InputMode, Performance};
 
@@ -27,6 +27,10 @@ impl Performance {
         if !mpe && !was_mpe {
             return;
         }
+        if mpe {
+            // So the specification of MPE has it: whatever reach was announced before is past.
+            self.channels.iter_mut().for_each(Channel::forget_reach);
+        }
         if mpe && !was_mpe {
             self.begin_mpe();
         }
@@ -41,6 +45,14 @@ impl Performance {
         for member in &mut self.channels[usize::from(MANAGER) + 1..] {
             member.articulation = member.articulation.under(&all);
         }
+        self.agree_on_reach();
+    }
+
+    /// What has been announced of one member counts for all, if it was announced when they were none yet.
+    pub(super) fn agree_on_reach(&mut self) {
+        let members = &mut self.channels[usize::from(MANAGER) + 1..];
+        let announced = members.iter().find_map(Channel::announced_reach);
+        members.iter_mut().for_each(|member| member.take_reach(announced));
     }
 
     /// If channels have come to mean something else: notes end that no pedal keeps any more, and those that the first channel's

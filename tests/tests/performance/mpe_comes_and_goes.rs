@@ -1,5 +1,6 @@
 //! The promise: channels may become notes of MPE and cease to be while notes sound. Pedals, wheels, pressure and vibrato of the
-//! first channel act on the notes of others from then on, or no longer.
+//! first channel act on the notes of others from then on, or no longer, and wheels reach as far as the specification has it until
+//! they are told otherwise: all members equally far.
 
 use std::sync::LazyLock;
 
@@ -20,6 +21,11 @@ fn registered(at: u64, channel: u8, parameter: u8, value: u8) -> Vec<(u64, Playe
 /// So many members are announced at a sample.
 fn members(at: u64, count: u8) -> Vec<(u64, PlayerEvent)> {
     registered(at, 0, 6, count)
+}
+
+/// A member's wheel is said to reach so many semitones.
+fn reach(at: u64, channel: u8, semitones: u8) -> Vec<(u64, PlayerEvent)> {
+    registered(at, channel, 0, semitones)
 }
 
 fn up(channel: u8, key: u8) -> PlayerEvent {
@@ -102,6 +108,12 @@ fn bent(gestures: &[TimedGesture]) -> f64 {
     6.0 * ratios.next().unwrap_or(1.0).log2()
 }
 
+/// What is left after events of a note of channel 3 on an open string, bent by a part of a whole turn.
+fn bent_after(told: &[&[(u64, PlayerEvent)]], turn: f32) -> f64 {
+    let notes = [(4800, note(2, 40)), (9600, wheel(2, turn))];
+    bent(&play(&mut GUITAR.player(EXACT), &[&told.concat()[..], &notes].concat()))
+}
+
 fn assert_near(found: f64, expected: f64) {
     assert!((found - expected).abs() < 1e-6, "{found} instead of {expected}");
 }
@@ -115,6 +127,36 @@ fn a_wheel_that_is_held_stands_for_what_it_does_in_mpe_from_the_announcement_on(
     assert_near(after(&[]), 2.0 / 48.0);
     assert_near(after(&members(9600, 15)), 1.0);
     assert_near(after(&[members(9600, 15), members(14_400, 0)].concat()), 2.0 / 48.0);
+    // A reach that was announced for MPE goes when MPE is announced again.
+    let narrow = [members(4800, 15), reach(4800, 5, 24)].concat();
+    assert_near(after(&narrow), 0.5);
+    assert_near(after(&[narrow, members(9600, 15)].concat()), 1.0);
+}
+
+#[test]
+fn all_members_reach_equally_far_whatever_was_announced_first() {
+    let part = 1.0 / 48.0;
+    // What comes before the announcement of MPE is past, on whichever channel.
+    for own in [1, 2] {
+        assert_near(bent_after(&[&reach(0, own, 12), &members(0, 15)], part), 1.0);
+        assert_near(bent_after(&[&members(0, 15), &reach(0, own, 12)], part), 0.25);
+    }
+    // That of the first channel, too.
+    let by_first = |told: &[&[(u64, PlayerEvent)]]| bent_after(&[&told.concat(), &[(0, wheel(0, 0.5))]], 0.0);
+    assert_near(by_first(&[&reach(0, 0, 1), &members(0, 15)]), 1.0);
+    assert_near(by_first(&[&members(0, 15), &reach(0, 0, 1)]), 0.5);
+    // Where the player has chosen MPE nobody may announce it, and what has been announced of one counts for all.
+    let chosen = |told: &[(u64, PlayerEvent)], turned: u8| {
+        let mut player = GUITAR.player(EXACT);
+        player.set_input(InputMode::Keyboard);
+        tell(&mut player, told);
+        player.set_input(InputMode::Mpe);
+        bent(&play(&mut player, &[(4800, note(turned, 40)), (9600, wheel(turned, part))]))
+    };
+    for turned in [1, 2] {
+        assert_near(chosen(&[], turned), 1.0);
+        assert_near(chosen(&reach(0, 1, 12), turned), 0.25);
+    }
 }
 
 #[test]
