@@ -83,6 +83,11 @@ impl Order {
         file.or_else(|| Setup::shipped(self.instrument.id()))
     }
 
+    /// Whether it is of the same instrument, whatever was done to that: only another one can have other strings.
+    pub fn is_of_the_same(&self, other: &Self) -> bool {
+        (self.instrument, self.file) == (other.instrument, other.file)
+    }
+
     /// The same, but as the set-up comes.
     pub fn untouched(&self) -> Self {
         let luthier = Luthier { quality: self.luthier.quality, ..Luthier::default() };

@@ -29,7 +29,7 @@ pub(super) struct Playing {
     refused: Option<Order>,
     /// What the workshop has been asked for and is not played yet.
     asked: Option<Order>,
-    /// The sample at which something else than what plays was asked for.
+    /// The sample at which the instrument of that was first asked for: notes since then are meant for it.
     asked_at: u64,
     /// A finished engine waiting until the last one has faded.
     ready: Option<Finished>,

@@ -64,7 +64,8 @@ impl Playing {
             self.workshop.order(wanted);
         }
         if wanted != self.asked.or(self.refused).unwrap_or(self.order) {
-            if self.asked.is_none() {
+            // What follows of the same instrument is meant by the notes that began since it was first asked for.
+            if self.asked.is_none_or(|before| !wanted.is_of_the_same(&before)) {
                 self.asked_at = self.engine.now();
             }
             self.asked = (wanted != self.order).then_some(wanted);
@@ -94,9 +95,11 @@ mod tests {
     use std::thread::sleep;
     use std::time::{Duration, Instant};
 
+    use nice_plug::prelude::Enum;
+
     use super::*;
     use crate::engine::Quality;
-    use crate::params::LowActionParams;
+    use crate::params::{InstrumentChoice, LowActionParams};
     use crate::plugin::meters::Meters;
     use crate::plugin::shelf::Shelf;
 
@@ -164,6 +167,33 @@ mod tests {
         fade(&mut playing);
         playing.exchange(other(1.1));
         assert_eq!(meters.exchanges(), 1);
+    }
+
+    /// Another instrument.
+    fn another(action: f64) -> Order {
+        let mut order = other(action);
+        order.instrument = InstrumentChoice::from_index(3);
+        order
+    }
+
+    #[test]
+    fn notes_count_from_when_the_instrument_was_asked_for_that_is_to_play_them() {
+        let meters = Arc::new(Meters::default());
+        let mut playing = playing(order(), false, &meters);
+        let mut asked_after = |wanted| {
+            let (mut left, mut right) = ([0.0; 512], [0.0; 512]);
+            playing.engine.process(&mut left, &mut right);
+            // Whatever is built meanwhile is not fetched.
+            playing.ask(wanted);
+            playing.asked_at / 512
+        };
+        // Another action of the same instrument, then another instrument, and that with other actions.
+        assert_eq!(
+            [other(1.1), another(1.1), another(1.2), another(1.3)].map(&mut asked_after),
+            [1, 2, 2, 2]
+        );
+        // Back to the one that plays, with another action, and to another one once more.
+        assert_eq!([other(1.4), other(1.5), another(1.5)].map(&mut asked_after), [5, 5, 7]);
     }
 
     /// Nothing can be built from it: no string is as heavy as the lowest and bears the tension of the highest key.
