@@ -168,6 +168,11 @@ impl Engine {
         self.performance.set_input(input);
     }
 
+    /// Whether channels are notes of MPE now.
+    pub(crate) fn is_mpe(&self) -> bool {
+        self.performance.is_mpe()
+    }
+
     /// Has contacts solved so exactly from the next sample on: Newton iterations at most, and the change of
     /// penetration, m, at which they stop, each brought into its range.
     pub fn set_effort(&mut self, max_iterations: usize, tolerance: f64) {

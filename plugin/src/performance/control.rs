@@ -47,7 +47,7 @@ impl InputMode {
 /// channel, and of the one that bends all.
 const MPE_RANGES: (f64, f64) = (48.0, 2.0);
 /// The channel that acts on all in MPE.
-pub(super) const MANAGER: u8 = 0;
+pub(crate) const MANAGER: u8 = 0;
 
 /// Whether MPE is announced by any of these events, which are in order of time.
 pub(crate) fn announces_mpe(mut events: impl Iterator<Item = PlayerEvent>) -> bool {
@@ -79,7 +79,7 @@ impl Whose {
 
 impl Performance {
     /// Whether channel 0 acts on the notes of all.
-    pub(super) fn is_mpe(&self) -> bool {
+    pub(crate) fn is_mpe(&self) -> bool {
         let announced = self.channels[usize::from(MANAGER)].members.is_some_and(|members| members > 0);
         self.input == InputMode::Mpe || (self.input == InputMode::Auto && announced)
     }
@@ -182,6 +182,13 @@ impl Performance {
             self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.hear(&change));
         }
         Some((request, Whose { channel: number, all }))
+    }
+
+    /// All keys of a channel go up, in MPE of the first one its own alone.
+    pub(super) fn release_keys(&mut self, channel: u8, out: &mut impl GestureSink) {
+        let whose = Whose { channel, all: false };
+        self.forget_keys(whose);
+        self.ask(Request::ReleaseKeys, whose, out);
     }
 
     /// All keys go up: also keyswitches, those of notes that come late, and those under the ones that sound.

@@ -27,6 +27,12 @@ pub enum PlayerEvent {
         /// Key, 0 to 127.
         key: u8,
     },
+    /// All keys of a channel go up, however often each went down, as a host has it; pedals go on holding. In MPE, too, it is that
+    /// channel's alone.
+    KeysOff {
+        /// Channel, 0 to 15.
+        channel: u8,
+    },
     /// A controller moves.
     Controller {
         /// Channel, 0 to 15.
@@ -91,6 +97,7 @@ impl PlayerEvent {
             Self::NoteOn { channel, .. }
             | Self::NoteOff { channel, .. }
             | Self::NoteEnd { channel, .. }
+            | Self::KeysOff { channel }
             | Self::Controller { channel, .. }
             | Self::PitchBend { channel, .. }
             | Self::ChannelPressure { channel, .. }

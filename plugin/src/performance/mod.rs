@@ -41,7 +41,7 @@ use channel::Channel;
 use chord::{Late, Unplaced};
 pub use compromises::Compromises;
 pub use control::InputMode;
-pub(crate) use control::announces_mpe;
+pub(crate) use control::{MANAGER, announces_mpe};
 pub use event::{Expression, PlayerEvent, StringDeed};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
 pub use moment::GestureSink;
@@ -170,6 +170,12 @@ impl Performance {
                     self.begin_chord(out);
                 }
                 self.cut(channel, key, out);
+            }
+            PlayerEvent::KeysOff { channel } => {
+                if self.changes_chord(channel, None) {
+                    self.begin_chord(out);
+                }
+                self.release_keys(channel, out);
             }
             PlayerEvent::Controller { channel, number, value } => {
                 if self.changes_chord(channel, number) {

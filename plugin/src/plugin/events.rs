@@ -10,7 +10,7 @@ use nice_plug::prelude::*;
 
 use super::voices::Voices;
 use crate::params::{LowActionParams, poly};
-use crate::performance::{Expression, PlayerEvent};
+use crate::performance::{Expression, MANAGER, PlayerEvent};
 use crate::pitch_wheel;
 
 /// The softest note there is, as a velocity: the smallest of MIDI's that is not a note-off.
@@ -65,10 +65,11 @@ fn single(range: &RangeInclusive<u8>) -> Option<u8> {
     (range.start() == range.end()).then_some(*range.start())
 }
 
-/// Hands an event on, at its sample.
+/// Hands an event on, at its sample. In MPE the first channel speaks for all.
 pub(super) fn translate(
     event: NoteEvent<()>,
     params: &LowActionParams,
+    mpe: bool,
     voices: &mut Voices,
     mut send: impl FnMut(u32, PlayerEvent),
 ) {
@@ -128,7 +129,8 @@ pub(super) fn translate(
         NoteEvent::MidiCC { channel, cc: number, value, .. } => {
             // All sound off, all notes off, and the four mode messages that imply it.
             if matches!(number, 120 | 123..=127) {
-                voices.lift_keys(&(channel..=channel), &(0..=127));
+                let all = mpe && channel == MANAGER;
+                voices.lift_keys(&if all { 0..=15 } else { channel..=channel }, &(0..=127));
             }
             send(PlayerEvent::Controller { channel, number, value });
         }
@@ -142,9 +144,6 @@ pub(super) fn translate(
     }
 }
 
-/// Controller by which a channel lets go of all its keys.
-const ALL_NOTES_OFF: u8 = 123;
-
 /// Lifts the keys meant: of one key a press, of all keys of a channel every one.
 fn lift(address: Address, voices: &mut Voices, mut send: impl FnMut(PlayerEvent)) {
     let lifted = address.voice.id().and_then(|id| voices.lift(id));
@@ -155,7 +154,8 @@ fn lift(address: Address, voices: &mut Voices, mut send: impl FnMut(PlayerEvent)
     for channel in channels {
         send(match single(&keys) {
             Some(key) => PlayerEvent::NoteOff { channel, key },
-            None => PlayerEvent::Controller { channel, number: ALL_NOTES_OFF, value: 0.0 },
+            // No controller: in MPE the first channel's would lift the keys of all.
+            None => PlayerEvent::KeysOff { channel },
         });
     }
 }

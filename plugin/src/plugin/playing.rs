@@ -144,7 +144,8 @@ impl Playing {
     /// Takes an event of the host's.
     pub fn event(&mut self, event: NoteEvent<()>, params: &LowActionParams) {
         let engine = &mut self.engine;
-        events::translate(event, params, &mut self.voices, |offset, event| engine.event(offset, event));
+        let mpe = engine.is_mpe();
+        events::translate(event, params, mpe, &mut self.voices, |offset, event| engine.event(offset, event));
     }
 
     /// Plays what was done with the editor's strings, at once.

@@ -116,6 +116,20 @@ fn a_channel_that_is_reset_leaves_what_the_pedals_of_the_first_hold() {
 }
 
 #[test]
+fn keys_that_a_host_lifts_are_those_of_the_channel_that_it_names() {
+    for lifted in [0, 3, 5] {
+        let mut player = GUITAR.player(EXACT);
+        player.set_input(InputMode::Mpe);
+        // One of them twice, and a pedal.
+        let down = [(0, note(0, 40)), (0, note(3, 60)), (4800, note(3, 60)), (4800, control(5, 64, 127))];
+        let host = [(4800, note(5, 64)), (24_000, PlayerEvent::KeysOff { channel: lifted })];
+        play(&mut player, &[&down[..], &host].concat());
+        let sounds = [(0, 40), (3, 60), (5, 64)].map(|(channel, key)| player.sounds(channel, key));
+        assert_eq!(sounds, [lifted != 0, lifted != 3, true], "{lifted}");
+    }
+}
+
+#[test]
 fn what_two_sostenuto_pedals_hold_ends_when_both_are_up() {
     for ups in [[3, 0], [0, 3]] {
         let mut player = GUITAR.player(EXACT);

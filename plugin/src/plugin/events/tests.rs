@@ -22,8 +22,13 @@ fn choked_at(voices: &mut Voices, id: i32, channel: Channel, key: Key) -> Vec<Pl
 }
 
 fn translated(voices: &mut Voices, event: NoteEvent<()>) -> Vec<PlayerEvent> {
+    translated_in(false, voices, event)
+}
+
+/// Where channels are notes of MPE, or not.
+fn translated_in(mpe: bool, voices: &mut Voices, event: NoteEvent<()>) -> Vec<PlayerEvent> {
     let mut sent = Vec::new();
-    translate(event, &LowActionParams::default(), voices, |_, event| sent.push(event));
+    translate(event, &LowActionParams::default(), mpe, voices, |_, event| sent.push(event));
     sent
 }
 
@@ -106,6 +111,35 @@ fn what_was_let_go_of_with_all_others_is_let_go_of_once() {
     }
 }
 
+/// A host's note-off means the channel that it names; a controller of the first one, in MPE, all.
+#[test]
+fn only_controllers_of_the_first_channel_let_go_of_all_in_mpe() {
+    let (voice_id, key) = (VoiceID::Wildcard, Key::Wildcard);
+    let of_channel = |channel| {
+        let channel = Channel::Number(channel);
+        NoteEvent::NoteOff { timing: 0, voice_id, channel, key, velocity: 0.0 }
+    };
+    for mpe in [false, true] {
+        // Whether a note of another channel is still known as one whose note-off is to come.
+        let left = |event: NoteEvent<()>| {
+            let mut voices = Voices::default();
+            voices.begin(1, 2, 45);
+            translated_in(mpe, &mut voices, event);
+            // Its key goes down again in the same block.
+            voices.begin(2, 2, 45);
+            !ended(&mut voices, 1).is_empty()
+        };
+        for cc in [120, 123, 127] {
+            let controller = |channel| NoteEvent::MidiCC { timing: 0, channel, cc, value: 0.0 };
+            assert_eq!(left(controller(0)), !mpe, "{cc}");
+            assert!(left(controller(3)) && !left(controller(2)), "{cc}");
+        }
+        assert!(left(of_channel(0)) && !left(of_channel(2)));
+        let sent = translated_in(mpe, &mut Voices::default(), of_channel(0));
+        assert_eq!(sent, [PlayerEvent::KeysOff { channel: 0 }]);
+    }
+}
+
 #[test]
 fn a_choke_ends_its_own_note_alone() {
     let mut voices = Voices::default();
@@ -173,7 +207,7 @@ fn automation_moves_what_a_note_has_for_itself_along() {
         NoteEvent::PolyModulation { timing: 0, voice_id: 7, poly_modulation_id, normalized_offset: 0.2 };
     let mut factor = |event| {
         let mut sent = Vec::new();
-        translate(event, &params, &mut voices, |_, event| sent.push(event));
+        translate(event, &params, false, &mut voices, |_, event| sent.push(event));
         match sent[..] {
             [PlayerEvent::Note { channel: 2, key: 45, expression: Expression::FingerForce(factor) }] => {
                 factor
