@@ -81,21 +81,38 @@ impl Draft {
             (Target::Stream(path), _) => stream(path)
                 .and_then(|mut stream| copy(&mut self.file, &mut stream))
                 .with_context(|| format!("cannot write {}", shown(path))),
-            (Target::File(path), beside) => beside
-                .map_or(Ok(()), |(beside, _unfinished)| beside.persist(path).map_err(|error| error.error))
-                .with_context(|| format!("cannot write {}", shown(path))),
+            (Target::File(path), beside) => {
+                beside.map_or(Ok(()), |(beside, _unfinished)| rename(beside, path))
+            }
         }
     }
 }
 
+fn rename(finished: TempPath, path: &Path) -> Result<()> {
+    finished
+        .persist(path)
+        .map_err(|error| error.error)
+        .with_context(|| format!("cannot write {}", shown(path)))
+}
+
 /// Lets several finished results appear. What has to be copied, to a device or a pipe, may still fail, and comes first; the
-/// others only have to be renamed.
+/// others only have to be renamed, and whoever asks the program to stop meanwhile waits until they are.
 ///
 /// # Errors
 /// As for one; no file appears after a device or a pipe that takes no more.
-pub fn publish_all(mut drafts: Vec<Draft>) -> Result<()> {
-    drafts.sort_by_key(|draft| matches!(draft.target, Target::File(_)));
-    drafts.into_iter().try_for_each(Draft::publish)
+pub fn publish_all(drafts: Vec<Draft>) -> Result<()> {
+    let (files, copies): (Vec<Draft>, Vec<Draft>) =
+        drafts.into_iter().partition(|draft| matches!(draft.target, Target::File(_)));
+    copies.into_iter().try_for_each(Draft::publish)?;
+    let (mut finished, mut unfinished) = (Vec::new(), Vec::new());
+    for Draft { target, beside, .. } in files {
+        if let (Target::File(path), Some((beside, entry))) = (target, beside) {
+            finished.push((beside, path));
+            unfinished.push(entry);
+        }
+    }
+    // They leave the list after their places have been taken.
+    undisturbed(|_| finished.into_iter().try_for_each(|(beside, path)| rename(beside, &path)))
 }
 
 impl Target {
