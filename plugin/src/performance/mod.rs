@@ -172,7 +172,7 @@ impl Performance {
                 self.cut(channel, key, out);
             }
             PlayerEvent::KeysOff { channel } => {
-                if self.changes_chord(channel, None) {
+                if self.chord.iter().any(|note| note.wanted.channel == channel) {
                     self.begin_chord(out);
                 }
                 self.release_keys(channel, out);
