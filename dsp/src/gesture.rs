@@ -104,7 +104,7 @@ pub const FINGERS_PER_STRING: usize = 7;
 /// The largest force of a hand either way, N, in scenes, too: far below where differences of forces overflow.
 pub const MOST_FORCE: f64 = 1e6;
 
-/// The highest place for a finger over a string, m; for scenes and programs it is the lowest below it, too.
+/// The highest place for a finger over a string, m; in scenes it is the lowest below it, too.
 pub const MOST_CLEARANCE: f64 = 10.0;
 
 /// The largest velocity that a string or a finger may begin with, m/s.

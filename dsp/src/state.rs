@@ -1,10 +1,11 @@
 //! The state of one string: all that must be remembered from one sample to the next.
 
 use crate::curve::Curve;
+use crate::digits::plain;
 use crate::error::{Error, within};
 use crate::field::{Ends, Field};
 use crate::finger::Finger;
-use crate::gesture::{FASTEST, MOST_CLEARANCE, Touch};
+use crate::gesture::{FASTEST, Touch};
 use crate::grid::Reading;
 use crate::model::Model;
 use crate::roomy::Roomy;
@@ -203,8 +204,8 @@ impl State {
         reading.of(&self.motion) / model.grid.time_step
     }
 
-    /// Puts a finger into a slot: at a place (m from the nut), a height (m, [10](MOST_CLEARANCE) either way) and a velocity
-    /// (m/s, 1000 either way). What was in the slot is taken away.
+    /// Puts a finger into a slot: at a place (m from the nut), a height (m, any that is finite) and a velocity (m/s, 1000
+    /// either way). What was in the slot is taken away.
     ///
     /// # Errors
     /// When the place is off the string, a number of the touch, the height or the velocity is out of its range, or the pad is too
@@ -222,7 +223,10 @@ impl State {
         velocity: f64,
     ) -> Result<(), Error> {
         let position = model.grid.check_place("finger.position", position)?;
-        within("finger.height", height, -MOST_CLEARANCE, MOST_CLEARANCE, "m")?;
+        // Over a string that swings far it may be anywhere.
+        if !height.is_finite() {
+            return Err(Error::range("finger.height", plain(height), "it must be a finite number of metres"));
+        }
         within("finger.velocity", velocity, -FASTEST, FASTEST, "m/s")?;
         let law = model.finger_law(&touch)?;
         self.put_finger(slot, Finger::over(model, touch, law, position, height, velocity));

@@ -144,17 +144,17 @@ fn fingers_that_cannot_be_are_refused() {
         "finger.mass = 0 is refused: it must lie between 1e-7 and 1000 kg",
     );
     for (wrong, shown) in [(-1e4, "-10000"), (1e4, "10000"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
-        for (place_of_it, words) in [
-            ([wrong, 1e-3, -1.0], "position"),
-            ([0.3, wrong, -1.0], "height"),
-            ([0.3, 1e-3, wrong], "velocity"),
+        for (begins, name, range) in [
+            ([wrong, 1e-3, -1.0], "position", "it must lie on the string, above 0 and below 0.65 m"),
+            ([0.3, wrong, -1.0], "height", "it must be a finite number of metres"),
+            ([0.3, 1e-3, wrong], "velocity", "it must lie between -1000 and 1000 m/s"),
         ] {
-            let range = match words {
-                "position" => "it must lie on the string, above 0 and below 0.65 m",
-                "height" => "it must lie between -10 and 10 m",
-                _ => "it must lie between -1000 and 1000 m/s",
-            };
-            refused(place(FINGER, place_of_it), &format!("finger.{words} = {shown} is refused: {range}"));
+            // Over a string that swings far it may be anywhere.
+            if name == "height" && wrong.is_finite() {
+                assert_eq!(place(FINGER, begins), Ok(()));
+            } else {
+                refused(place(FINGER, begins), &format!("finger.{name} = {shown} is refused: {range}"));
+            }
         }
     }
 }
