@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use low_action_dsp::Gesture;
 
-use super::fingers::Fingers;
+use super::fingers::{Fingers, Pulled};
 use super::technique::{
     BEND_INTERVAL, BEND_RAMP, BEND_SPEED, OUT_OF_TUNE, SLID_STAYS, VIBRATO, VIBRATO_STEP,
 };
@@ -29,6 +29,8 @@ pub(crate) struct Bend {
     vibrato: f64,
     /// Bend by tension last sent, semitones.
     sent: f64,
+    /// The tension for it, as a multiple of the string's own: what stops the string counts, too.
+    ratio: f64,
     /// All of the bend as last told, semitones.
     told: f64,
     /// Frets the finger has been slid by.
@@ -48,19 +50,17 @@ pub(crate) struct Bend {
 impl Bend {
     /// A straight string.
     pub(crate) fn new() -> Self {
-        Self::default()
+        Self { ratio: 1.0, ..Self::default() }
     }
 
-    /// A new note begins: from now on its channel's wheel counts, and its finger has not slid.
+    /// A new note begins: from now on its channel's wheel counts, its finger has not slid, and what it is bent by takes
+    /// another tension.
     pub(crate) fn begin(&mut self, channel: u8) {
         self.channel = Some(channel);
         self.tuning = 0.0;
         self.vibrato = 0.0;
-        if self.slid != 0 || self.glided != 0.0 {
-            self.slid = 0;
-            self.glided = 0.0;
-            self.followed = f64::NAN;
-        }
+        (self.slid, self.glided) = (0, 0.0);
+        self.followed = f64::NAN;
     }
 
     /// The note begins on a string at rest: what bends it then has done so before it sounds.
@@ -68,6 +68,12 @@ impl Bend {
         self.unheard = Some(time);
         self.ready = time;
         self.due = self.due.map(|_| time);
+    }
+
+    /// Something else stops the string.
+    pub(crate) fn renew(&mut self, time: u64) {
+        self.followed = f64::NAN;
+        self.plan(time);
     }
 
     /// The note is over, and with it its tuning.
@@ -116,7 +122,6 @@ impl Bend {
     /// Sends what is due. Gives back whether wheel and tuning ask for more than string and finger can do.
     pub(crate) fn send(&mut self, fingers: &mut Fingers, at: &mut Moment<impl GestureSink>) -> bool {
         self.due = None;
-        self.ready = at.after(BEND_INTERVAL);
         let asked = self.wheel + self.tuning;
         let most = 6.0 * libm::log2(fingers.geometry().highest_ratio);
         let unheard = self.unheard.take() == Some(at.time);
@@ -152,14 +157,16 @@ impl Bend {
             reached = moved + tension;
             pulled = tension + self.arm + swing;
         }
-        let change = pulled - self.sent;
-        if change != 0.0 {
-            self.sent = pulled;
-            let tension_ratio = fingers.tension_ratio(pulled);
-            at.does(Gesture::Bend { tension_ratio, duration: pulling(change) });
+        let change = pulled - std::mem::replace(&mut self.sent, pulled);
+        let Pulled { ratio, semitones } = fingers.pulled(pulled);
+        if taken > 0.0 || ratio != self.ratio {
+            self.ready = at.after(BEND_INTERVAL);
         }
-        // The grid of the string bears no more.
-        let semitones = moved + pulled.min(most);
+        if ratio != self.ratio {
+            self.ratio = ratio;
+            at.does(Gesture::Bend { tension_ratio: ratio, duration: pulling(change) });
+        }
+        let semitones = moved + semitones;
         if semitones != self.told {
             self.told = semitones;
             at.tells(Annotation::Bent { semitones, duration: taken.max(pulling(change)) });

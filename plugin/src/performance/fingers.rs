@@ -11,9 +11,10 @@ mod legato;
 mod pulling;
 mod sighted;
 mod stopping;
+mod tension;
 mod touches;
 
-use low_action_dsp::setup::{Player, frequency, tension_ratio};
+use low_action_dsp::setup::{Player, frequency};
 use low_action_dsp::{FINGERS_PER_STRING, FingerSlot, Gesture, StringGeometry, Touch};
 
 use super::articulation::Stroke;
@@ -23,6 +24,7 @@ use super::{GestureSink, Moment, PlayedString};
 use held::Grip;
 use leaving::hurried;
 pub(super) use leaving::{QUIET_LIFT, lift_force, lifting};
+pub(super) use tension::Pulled;
 
 /// A finger behind a fret, or a bar over one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -167,21 +169,6 @@ impl Fingers {
             let force = self.force();
             at.does(Gesture::Press { finger: finger.slot, force, duration: PRESSURE_RAMP });
         }
-    }
-
-    /// The factor of tension that raises what sounds by so many semitones. Stopping the string has added to
-    /// its tension, which pulling has to outdo: as much as its fret stands nearer to the nut than equal
-    /// temperament has it. A tighter string gives way less, so the addition falls about with the root of the
-    /// tension (fitted to measured bends).
-    pub(crate) fn tension_ratio(&self, semitones: f64) -> f64 {
-        let PlayedString { geometry, .. } = &self.string;
-        let crown = self.fretting.filter(|finger| !finger.bar).and_then(|finger| {
-            let crown = geometry.frets.get(finger.fret.checked_sub(1)?)?;
-            Some((geometry.length - crown) / geometry.length * libm::exp2(finger.fret as f64 / 12.0))
-        });
-        let added = crown.map_or(0.0, |ratio| ratio * ratio - 1.0);
-        let ratio = tension_ratio(semitones);
-        (ratio + added * (ratio - 1.0 / ratio.sqrt())).min(geometry.highest_ratio)
     }
 
     /// What a finger stops the string with, N.

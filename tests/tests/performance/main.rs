@@ -27,6 +27,7 @@ mod presses;
 mod pulls;
 mod repeats;
 mod rest;
+mod retensioned;
 mod runs;
 mod sighted;
 mod slides;

@@ -41,8 +41,9 @@ impl StringPlayer {
                 self.fingers.lift_from(&mut at);
                 self.rest_later(time);
             }
-            StringDeed::Damp => self.silence(time, None),
+            StringDeed::Damp => return self.silence(time, None),
         }
+        self.bend.renew(time);
     }
 
     /// The string sounds on without a note of its own, and an ending that was under way is called off.

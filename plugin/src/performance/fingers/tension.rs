@@ -1,0 +1,45 @@
+//! What tension raises a string that is stopped.
+
+use low_action_dsp::setup::tension_ratio;
+
+use super::Fingers;
+use crate::performance::PlayedString;
+
+/// What pulling does to a string.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Pulled {
+    /// Its tension, as a multiple of its own.
+    pub ratio: f64,
+    /// By how much that raises what sounds, semitones: less than asked where its grid bears no more.
+    pub semitones: f64,
+}
+
+impl Fingers {
+    /// The tension that raises what sounds by so many semitones. Stopping the string has added to
+    /// its tension, which pulling has to outdo: as much as its fret stands nearer to the nut than equal
+    /// temperament has it. A tighter string gives way less, so the addition falls about with the root of the
+    /// tension (fitted to measured bends).
+    pub(crate) fn pulled(&self, semitones: f64) -> Pulled {
+        let (added, most) = (self.added_tension(), self.string.geometry.highest_ratio);
+        let alone = tension_ratio(semitones);
+        let ratio = alone + added * (alone - 1.0 / alone.sqrt());
+        if ratio <= most {
+            return Pulled { ratio, semitones };
+        }
+        // The same backwards, where each turn leaves a hundredth of what is off.
+        let reached = (0..3).fold(most, |alone, _| (most + added / alone.sqrt()) / (1.0 + added));
+        Pulled { ratio: most, semitones: 6.0 * libm::log2(reached) }
+    }
+
+    /// What stopping the string has added to its tension, as a part of it.
+    fn added_tension(&self) -> f64 {
+        let PlayedString { geometry, .. } = &self.string;
+        let finger = self.fretting.filter(|finger| !finger.bar);
+        let fret = finger.map_or(self.capo[1], |finger| finger.fret);
+        let crown = fret.checked_sub(1).and_then(|index| geometry.frets.get(index));
+        crown.map_or(0.0, |crown| {
+            let ratio = (geometry.length - crown) / geometry.length * libm::exp2(fret as f64 / 12.0);
+            ratio * ratio - 1.0
+        })
+    }
+}
