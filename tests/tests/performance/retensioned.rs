@@ -4,10 +4,11 @@
 use std::sync::LazyLock;
 
 use low_action::controls::Touching;
-use low_action::performance::{InputMode, PlayerEvent, StringDeed};
+use low_action::performance::{Annotation, GestureSink, InputMode, PlayerEvent, StringDeed, TimedAnnotation};
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, RATE, control, note, play, wheel};
-use low_action_tests::stage::{off, on};
+use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{Stage, at, hertz, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 
@@ -103,4 +104,53 @@ fn straight_strings_are_not_pulled() {
     let notes = [(0, on(40, 90)), (9_600, off(40)), (96_000, on(52, 90)), (105_600, on(45, 90))];
     let mut player = GUITAR.player(EXACT);
     assert_eq!(found(&play(&mut player, &notes)), []);
+}
+
+/// Two semitones by a wheel that is turned between the notes, or stays where it is.
+#[test]
+fn what_is_heard_is_in_tune() {
+    let mut stage = Stage::alone("electric", usize::from(LOW));
+    for keys in [[40, 52], [52, 40], [45, 57]] {
+        let events =
+            [(0.0, on(keys[0], 90)), (0.2, off(keys[0])), (0.3, wheel(0, 1.0)), (2.0, on(keys[1], 90))];
+        let sound = &stage.play(&events, 3.4).strings[0];
+        let pitch = hertz(f64::from(keys[1]) + 2.0);
+        let off = cents(frequency_near(&sound[at(2.5)..], RATE, pitch), pitch);
+        assert!(off.abs() < 2.0, "{keys:?}: {off} cents");
+    }
+}
+
+/// What bends are told to go to, semitones.
+#[derive(Default)]
+struct Told(Vec<f64>);
+
+impl GestureSink for Told {
+    fn gesture(&mut self, _: TimedGesture) {}
+
+    fn annotation(&mut self, told: TimedAnnotation) {
+        if let Annotation::Bent { semitones, .. } = told.annotation {
+            self.0.push(semitones);
+        }
+    }
+}
+
+/// Two semitones are the most that this string is pulled; on a fret its grid has no room for all of it.
+#[test]
+fn a_bend_is_told_to_go_as_far_as_it_goes() {
+    let mut stage = Stage::alone("steel", usize::from(LOW));
+    for fret in [0, 12] {
+        let events = [(0.0, on(40 + fret, 90)), (0.3, wheel(0, 1.0))];
+        let sound = stage.play(&events, 1.8).strings.remove(0);
+        stage.performance.reset();
+        let mut told = Told::default();
+        for (time, event) in events {
+            stage.performance.event((time * RATE) as u64, event, &mut told);
+        }
+        stage.performance.advance(RATE as u64, &mut told);
+        let [semitones] = told.0[..] else { panic!("{:?}", told.0) };
+        assert!(if fret == 0 { semitones == 2.0 } else { (1.92..1.97).contains(&semitones) }, "{semitones}");
+        let pitch = hertz(f64::from(40 + fret) + semitones);
+        let off = cents(frequency_near(&sound[at(0.8)..], RATE, pitch), pitch);
+        assert!(off.abs() < 2.5, "fret {fret}, told {semitones}: {off} cents");
+    }
 }
