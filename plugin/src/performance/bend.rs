@@ -27,6 +27,8 @@ pub(crate) struct Bend {
     arm: f64,
     /// Depth of the vibrato, 0 to 1.
     vibrato: f64,
+    /// Since which sample the hand swings.
+    swings: Option<u64>,
     /// Bend by tension last sent, semitones.
     sent: f64,
     /// The tension for it, as a multiple of the string's own: what stops the string counts, too.
@@ -63,11 +65,15 @@ impl Bend {
         self.followed = f64::NAN;
     }
 
-    /// The note begins on a string at rest: what bends it then has done so before it sounds.
-    pub(crate) fn begin_at_rest(&mut self, time: u64) {
-        self.unheard = Some(time);
-        self.ready = time;
-        self.due = self.due.map(|_| time);
+    /// The note is struck, and begins at its pitch: the hand swings from there, even if it did so before. On a string at rest what
+    /// else bends it has done so before it sounds.
+    pub(crate) fn begin_struck(&mut self, time: u64, at_rest: bool) {
+        self.swings = None;
+        if at_rest {
+            self.unheard = Some(time);
+            self.ready = time;
+        }
+        self.due = self.due.map(|_| time.max(self.ready));
     }
 
     /// Something else stops the string.
@@ -108,9 +114,10 @@ impl Bend {
         self.plan(time);
     }
 
-    /// The fretting hand swings so deep, 0 to 1.
+    /// The fretting hand swings so deep, 0 to 1. One that swings already goes on, for a note that is not struck, too.
     pub(crate) fn set_vibrato(&mut self, time: u64, depth: f64) {
         self.vibrato = depth;
+        self.swings = (depth > 0.0).then(|| self.swings.unwrap_or(time));
         self.plan(time);
     }
 
@@ -129,13 +136,9 @@ impl Bend {
         // Within a sample, since labels divide by durations. A finger that slides takes its time even so: it is heard.
         let sample = 1.0 / at.sample_rate;
         let pulling = |change| if unheard { sample } else { duration(change) };
-        let mut swing = 0.0;
-        if self.vibrato > 0.0 {
-            let (rate, depth) = VIBRATO;
-            let seconds = at.after(VIBRATO_STEP) as f64 / at.sample_rate;
-            swing = self.vibrato * depth * libm::sin(TAU * rate * seconds);
-            self.due = Some(at.after(VIBRATO_STEP));
-        }
+        // What is pulled before the note leaves the swing out.
+        let before = unheard && !fingers.glides();
+        let swing = if before { 0.0 } else { self.swing(at) };
         self.followed = asked;
         let mut pulled = self.arm;
         let (reached, moved);
@@ -157,6 +160,10 @@ impl Bend {
             reached = moved + tension;
             pulled = tension + self.arm + swing;
         }
+        if self.swings.is_some() {
+            let next = if before { at.after(taken).max(at.time + 1) } else { at.after(VIBRATO_STEP) };
+            self.due = Some(next);
+        }
         let change = pulled - std::mem::replace(&mut self.sent, pulled);
         let Pulled { ratio, semitones } = fingers.pulled(pulled);
         if taken > 0.0 || ratio != self.ratio {
@@ -172,6 +179,14 @@ impl Bend {
             at.tells(Annotation::Bent { semitones, duration: taken.max(pulling(change)) });
         }
         (asked - reached).abs() > OUT_OF_TUNE
+    }
+
+    /// How far the hand has swung when its next goal follows, semitones.
+    fn swing(&self, at: &Moment<impl GestureSink>) -> f64 {
+        let Some(since) = self.swings else { return 0.0 };
+        let (rate, depth) = VIBRATO;
+        let seconds = at.after(VIBRATO_STEP).saturating_sub(since) as f64 / at.sample_rate;
+        self.vibrato * depth * libm::sin(TAU * rate * seconds)
     }
 
     /// By how many frets the finger slides for wheel and tuning that ask for so much, where pulling reaches so far, semitones. What
@@ -192,7 +207,7 @@ impl Bend {
     fn plan(&mut self, time: u64) {
         let asked = self.wheel + self.tuning;
         let straight = asked - f64::from(self.slid) + self.arm == self.sent && asked == self.followed;
-        if (!straight || self.vibrato > 0.0) && self.due.is_none() {
+        if (!straight || self.swings.is_some()) && self.due.is_none() {
             self.due = Some(time.max(self.ready));
         }
     }

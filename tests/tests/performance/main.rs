@@ -39,3 +39,4 @@ mod taps;
 mod together;
 mod touches;
 mod tremolo;
+mod vibrato;

@@ -27,9 +27,7 @@ impl StringPlayer {
         start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
         self.call_off(&mut self.moment(time, out));
         self.begin(time, &start, strength);
-        if !stills {
-            self.bend.begin_at_rest(time);
-        }
+        self.bend.begin_struck(time, !stills);
         let mut at = self.moment(time, out);
         at.tells(self.new_note(&start));
         self.fingers.press(start.manner.pressure, &mut at);
