@@ -109,7 +109,7 @@ pub(crate) const RESTING: Parting = Parting { relaxing: 0.4, easing: FINGER_EASI
 /// Of a finger that has tapped, and is to be off the string before it taps again; but no sooner than the dampers have come to rest,
 /// in whose 10 ms a string that hangs high over its fret would sound by being let up.
 pub(crate) const TAPPING: Parting =
-    Parting { relaxing: 0.004, easing: Leaving { speed: 0.05, turning: 0.045 } };
+    Parting { relaxing: 0.004, easing: Leaving { speed: 0.05, turning: 0.03 } };
 /// What a fretting finger goes on pressing with when a note has ended, as a multiple of the force at
 /// which the string would leave the fret.
 pub(crate) const HOLDING: f64 = 1.25;
@@ -162,6 +162,10 @@ pub(crate) const HAMMER_LANDING: f64 = 0.001;
 pub(crate) const ANCHOR_RAMP: (f64, f64) = (0.02, 0.003);
 /// How fast a finger is set down behind another, m/s: before that one has left.
 pub(crate) const BEHIND_SPEED: f64 = 0.5;
+/// How fast one that is behind another already is at another fret, s, and how far off that may be, frets: where more go by under it
+/// they are heard, and another comes down.
+pub(crate) const BEHIND_SLIDE: f64 = 0.002;
+pub(crate) const BEHIND_REACH: usize = 2;
 /// How a finger plucks the string that it pulls off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pull {

@@ -124,7 +124,7 @@ fn an_open_string_under_a_palm_is_as_loud_after_a_stopped_one() {
                         (0.195, off(open + before)),
                         (0.2, on(open, velocity)),
                     ];
-                    level(&stage.play(&events, 0.14).strings[0][at(0.2)..])
+                    level(&stage.play(&events, 0.34).strings[0][at(0.2)..])
                 };
                 let after_itself = heard(0);
                 for fret in [3, 5, 12] {

@@ -91,7 +91,7 @@ fn a_note_between_the_two_before_it_is_as_loud_as_alone() {
             if setup == "ukulele" && frets[1] > 12 {
                 continue;
             }
-            for (velocity, most) in [(20, 7.8), (60, 4.4), (95, 4.4)] {
+            for (velocity, most) in [(30, 7.8), (60, 4.4), (95, 4.4)] {
                 let run = levels(&mut stage, open, &frets, 0.1, velocity);
                 let louder = run[2] - levels(&mut stage, open, &frets[2..], 0.1, velocity)[0];
                 println!(

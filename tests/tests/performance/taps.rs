@@ -114,7 +114,7 @@ fn letting_go_of_a_tap_is_soft() {
                     "{setup} {string}, fret {fret}, velocity {velocity}: {tap:.1}, {rings:.1}, {gone:.1} dB"
                 );
                 assert!(
-                    gone < (tap - 10.0).max(rings + 2.0),
+                    gone < (tap - 9.0).max(rings + 2.0),
                     "{setup} {string}, fret {fret}, velocity {velocity}: {gone} dB after a tap of {tap} dB"
                 );
             }

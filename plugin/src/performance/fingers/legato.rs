@@ -127,8 +127,9 @@ impl Fingers {
         Some(pluck)
     }
 
-    /// A finger stops the string behind the one of a slot before that one leaves: one that is behind it at that very fret already, or
-    /// a new one. What held the string down elsewhere behind it goes for that, unheard; dragged over the frets, it would scrape.
+    /// A finger stops the string behind the one of a slot before that one leaves: one that is behind it already and near enough to come
+    /// to the fret, or a new one. What held the string down farther off behind it goes for that, unheard; dragged over the frets, it
+    /// would scrape.
     pub(super) fn stop_behind(
         &mut self,
         fret: usize,
@@ -136,13 +137,18 @@ impl Fingers {
         anchor: Option<Finger>,
         at: &mut Moment<impl GestureSink>,
     ) {
-        let Some(anchor) = anchor.filter(|anchor| anchor.fret == fret && anchor.free.is_none()) else {
+        let Some(anchor) = anchor.filter(|anchor| anchor.fret.abs_diff(fret) <= BEHIND_REACH) else {
             self.come_down(fret, Down::on(fret), BEHIND_SPEED, at);
             return;
         };
-        self.fretting = Some(Finger { grip: Grip::Presses, ..anchor });
+        let finger = anchor.slot;
+        if anchor.fret != fret || anchor.free.is_some() {
+            let position = self.string.geometry.finger_position(fret);
+            at.does(Gesture::Slide { finger, position, duration: BEHIND_SLIDE });
+        }
+        self.fretting = Some(Finger { fret, free: None, grip: Grip::Presses, ..anchor });
         self.next_slot = leaving;
-        let (finger, force) = (anchor.slot, self.force());
+        let force = self.force();
         at.does(Gesture::Press { finger, force, duration: ANCHOR_RAMP.1 });
     }
 
