@@ -29,7 +29,7 @@ impl<'a> Chunks<'a> {
         }
         let (_, header) = next_chunk(&mut rest, "the header")?;
         let [f0, f1, n0, n1, d0, d1] =
-            *header.first_chunk::<6>().ok_or_else(|| MidiFileError::ShortHeader(header.len()))?;
+            *header.first_chunk::<6>().ok_or(MidiFileError::ShortHeader(header.len()))?;
         let format = u16::from_be_bytes([f0, f1]);
         if format > 2 {
             return Err(MidiFileError::Format(format));
