@@ -134,8 +134,11 @@ const OF_NO_KEY: [&str; 3] = ["unknown key", "key with no value", "unquoted keys
 const NO_VALUE: &str =
     "this is no value: numbers look like 0.5 or 5e-3, texts stand in quotes, lists in square brackets";
 
+/// What is said of a whole number that the reader has no room for, and names as one of 128 bits.
+const TOO_LARGE: &str = ", expected one up to 9.2e18: larger numbers have a point or an exponent, as 1e20";
+
 /// Words of the TOML reader, and what they are for who writes the file.
-const WORDS: [(&str, &str); 23] = [
+const WORDS: [(&str, &str); 21] = [
     ("string values must be quoted, expected literal string", NO_VALUE),
     ("invalid float, expected `nan`", NO_VALUE),
     ("invalid float, expected `inf`", NO_VALUE),
@@ -157,8 +160,6 @@ const WORDS: [(&str, &str); 23] = [
     ("expected a string", "expected a text"),
     ("expected a boolean", "expected `true` or `false`"),
     ("expected variant identifier", "expected a text"),
-    (" as i128", ""),
-    (" as u128", ""),
 ];
 
 /// Kinds of types that have a name of their own, which follows, and what both are in a file.
@@ -170,7 +171,9 @@ const TYPES: [(&str, &str); 3] = [
 
 /// A message of the TOML reader without Rust's names of types.
 fn in_plain_words(message: &str) -> String {
-    let message = WORDS.iter().fold(message.to_owned(), |text, (rust, plain)| text.replace(rust, plain));
+    let large = message.split_once(" as i128").or_else(|| message.split_once(" as u128"));
+    let message = large.map_or(message.to_owned(), |(number, _)| number.to_owned() + TOO_LARGE);
+    let message = WORDS.iter().fold(message, |text, (rust, plain)| text.replace(rust, plain));
     TYPES.iter().fold(message, |text, (rust, plain)| match text.rsplit_once(*rust) {
         Some((before, after)) => {
             let rest = after.trim_start_matches(|c: char| c.is_alphanumeric() || "_:".contains(c));

@@ -153,7 +153,6 @@ mod instructions;
 pub mod instrument;
 pub mod intonation;
 mod kernel;
-mod large_numbers;
 pub mod model;
 pub mod neck;
 pub mod observed;

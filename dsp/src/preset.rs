@@ -4,7 +4,6 @@ use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
 use crate::error::Error;
-use crate::large_numbers::with_points;
 use crate::setup::Setup;
 
 /// The set-ups that show what strings over frets can do: name and file.
@@ -58,7 +57,6 @@ pub(crate) fn read<T: DeserializeOwned>(
     text: &str,
     base: impl Fn(&str) -> Result<&'static str, Error>,
 ) -> Result<T, Error> {
-    let text = &*with_points(text);
     let mut table: Table = toml::from_str(text).map_err(|error| Error::syntax(&error, text))?;
     let Some(name) = table.remove(BASE) else {
         return toml::from_str(text).map_err(|error| Error::syntax(&error, text));

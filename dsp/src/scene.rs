@@ -11,7 +11,6 @@ use crate::choice::choice;
 use crate::curve::{CountOrList, Curve, OneOrEach};
 use crate::error::Error;
 use crate::gesture::Touch;
-use crate::large_numbers::with_points;
 
 /// A whole simulation: strings, what they may hit, what acts on them, what is listened to.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -47,7 +46,6 @@ impl Scene {
     /// the grid (a string too short for it, a stiffness too high for it) is refused when the scene is
     /// built.
     pub fn from_toml(text: &str) -> Result<Scene, Error> {
-        let text = &*with_points(text);
         let scene: Scene = toml::from_str(text).map_err(|error| Error::syntax(&error, text))?;
         scene.check()?;
         Ok(scene)

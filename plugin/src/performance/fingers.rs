@@ -287,10 +287,10 @@ impl Fingers {
         }
     }
 
-    /// The finger that is still leaving near a fret behind the one that stops the string, which a note there wants back.
-    fn call_back(&mut self, fret: usize, time: u64) -> Option<Finger> {
+    /// The finger that is still leaving behind the one that stops the string, which a note there wants back.
+    fn call_back(&mut self, time: u64) -> Option<Finger> {
         let (finger, until) = self.departing[self.next_slot]?.back?;
-        if time >= until || finger.bar || finger.fret.abs_diff(fret) > BEHIND_REACH {
+        if time >= until || finger.bar {
             return None;
         }
         self.departing[finger.slot] = None;

@@ -21,7 +21,7 @@ impl Fingers {
         leaves: Leaving,
         at: &mut Moment<impl GestureSink>,
     ) {
-        let called_back = if self.gives_way_to(fret) { self.call_back(fret, at.time) } else { None };
+        let called_back = if self.gives_way_to(fret) { self.call_back(at.time) } else { None };
         self.make_way(at);
         self.lay_capo(at);
         self.home = fret;
