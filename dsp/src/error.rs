@@ -135,7 +135,8 @@ const NO_VALUE: &str =
     "this is no value: numbers look like 0.5 or 5e-3, texts stand in quotes, lists in square brackets";
 
 /// What is said of a whole number that the reader has no room for, and names as one of 128 bits.
-const TOO_LARGE: &str = ", expected one up to 9.2e18: larger numbers have a point or an exponent, as 1e20";
+const TOO_LARGE: &str =
+    ", expected one of at most 18 digits: larger numbers have a point or an exponent, as 1e20";
 
 /// Words of the TOML reader, and what they are for who writes the file.
 const WORDS: [(&str, &str); 21] = [

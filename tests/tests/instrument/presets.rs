@@ -268,7 +268,7 @@ fn what_is_wrong_with_a_change_is_named_by_its_keys() {
         ("[pickup]\naperture = []", "pickup: invalid type: list, expected a number"),
         (
             "[neck]\naction = 99999999999999999999",
-            "line 3, action: invalid type: integer `99999999999999999999`, expected one up to 9.2e18",
+            "line 3, action: invalid type: integer `99999999999999999999`, expected one of at most 18 digits",
         ),
         (
             "[pickup]\nkind = \"laser\"",
