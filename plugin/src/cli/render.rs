@@ -192,6 +192,7 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     let Rendered { mix, stems, compromises, lost_events, seconds } = rendered;
     let Compromises {
         moved_by_octaves,
+        moved_strings,
         arpeggiated,
         left_out,
         without_string,
@@ -206,6 +207,10 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
         }
     };
     warn_of(*moved_by_octaves, "moved by octaves: no string gives them as written");
+    warn_of(
+        *moved_strings,
+        "struck again on another string: those that began up to 30 ms later needed theirs",
+    );
     warn_of(*arpeggiated, "played a moment late: more began at once than there were strings for");
     warn_of(*left_out, "left out: more began at once than anybody could play");
     warn_of(*overtaken, "left out: another took their string before the hand had got there");

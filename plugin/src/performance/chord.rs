@@ -8,9 +8,12 @@
 //! **Strums**: the right hand goes over the strings at one speed, towards the high ones or back, and reaches
 //! the first at once. Notes that are told the same way and time are one strum, whatever their channels.
 //!
+//! Notes that begin a moment after others are of their chord, too (`just_begun`).
+//!
 //! What notes do that overlap is in `legato`, what is known of one until it is placed in `waiting`, what comes between them
 //! in `meanwhile`.
 
+mod just_begun;
 mod legato;
 mod meanwhile;
 mod waiting;
@@ -63,6 +66,7 @@ impl Performance {
                     own: OwnPluck::PLAIN,
                     articulation,
                     waited: false,
+                    on: None,
                 });
             }
             Some(_) => self.compromises.left_out += 1,
@@ -117,14 +121,21 @@ impl Performance {
         let time = self.now;
         self.uses.clear();
         self.uses.extend(self.strings.iter().map(|string| string.usage(time)));
-        self.wanted.clear();
-        self.wanted.extend(self.chord.iter().map(|note| note.wanted));
-        self.placements.clear();
-        self.placements.resize(self.wanted.len(), None);
-        self.hand.place(&self.wanted, &self.uses, &mut self.placements);
+        self.join_just_begun();
+        let position = self.hand.position();
+        self.find_places();
+        if self.displaces_just_begun() {
+            self.leave_just_begun();
+            self.hand.return_to(position);
+            self.find_places();
+        }
         self.find_other_ways();
+        self.make_room();
         for index in 0..self.chord.len() {
             let Some(placement) = self.placements[index] else { continue };
+            if self.chord[index].on == Some(placement.string) {
+                continue;
+            }
             let strum = self.strum(index);
             let start = self.start(index, placement, strum.as_ref());
             let (channel, string) = (start.channel, placement.string);
@@ -132,11 +143,26 @@ impl Performance {
             self.strings[string].expect_palm(palm);
             self.strings[string].start(time, start, out);
             self.strings[string].bend(time, channel, bend);
+            self.begun[string] = Some(self.chord[index]);
         }
-        if self.chord.iter().any(|note| note.articulation.stroke == Stroke::Alternate) {
+        if self.chord.iter().any(|note| note.articulation.stroke == Stroke::Alternate) && !self.goes_on() {
             self.upward = !self.upward;
         }
         self.chord.clear();
+    }
+
+    /// Finds the hand a place, and each note of the chord a string, as the strings may be used.
+    fn find_places(&mut self) {
+        for note in &self.chord {
+            if let Unplaced { on: Some(string), wanted: Wanted { channel, key, .. }, .. } = *note {
+                self.uses[string] = Use::Begun { channel, key };
+            }
+        }
+        self.wanted.clear();
+        self.wanted.extend(self.chord.iter().map(|note| note.wanted));
+        self.placements.clear();
+        self.placements.resize(self.wanted.len(), None);
+        self.hand.place(&self.wanted, &self.uses, &mut self.placements);
     }
 
     /// How a note of the chord is to be played, with the usual way to stop strings on this instrument.
@@ -151,7 +177,7 @@ impl Performance {
         let Unplaced { wanted, velocity, asked, presses, manner, own, .. } = self.chord[index];
         let mut articulation = self.articulation(index);
         if articulation.stroke == Stroke::Alternate {
-            articulation.stroke = if self.upward { Stroke::Up } else { Stroke::Down };
+            articulation.stroke = if self.goes_back() { Stroke::Up } else { Stroke::Down };
         }
         let Placement { string, fret } = placement;
         let (mut wait, mut accent) = (0.0, 1.0);
@@ -183,7 +209,7 @@ impl Performance {
     fn strum(&self, index: usize) -> Option<Strum> {
         let way = |articulation: &Articulation| match articulation.stroke {
             Stroke::Up => true,
-            Stroke::Alternate => self.upward,
+            Stroke::Alternate => self.goes_back(),
             _ => false,
         };
         let told = self.chord[index].articulation;

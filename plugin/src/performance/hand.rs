@@ -4,7 +4,8 @@
 //! the same instant are placed together, each on a string of its own, where the whole costs least:
 //! moving the hand and reaching out of it cost by the fret, an open string costs nothing to a hand
 //! low on the neck and a little to one far up (its sound stands out), and lower frets are slightly
-//! preferred. A key that still sounds is struck again where it is. A hand that has been told where on the neck
+//! preferred. A key that still sounds is struck again where it is, and a note that has just begun stays there unless
+//! another needs its string. A hand that has been told where on the neck
 //! to play moves from there for each of them, and not from where it went for the one before.
 //!
 //! **Who gives way** when no free string can give the note: a note kept only by the pedal, or else
@@ -47,6 +48,13 @@ pub(crate) enum Use {
         since: u64,
         /// Whether its key is down (or only the pedal keeps it).
         key_down: bool,
+    },
+    /// A note has just begun that looks for a string once more.
+    Begun {
+        /// Its channel.
+        channel: u8,
+        /// Its key as sent.
+        key: u8,
     },
     /// A note began at this very instant.
     Untouchable,
@@ -163,6 +171,16 @@ impl Hand {
             let nearest = self.position.min(fret).max((fret + 1).saturating_sub(SPAN));
             self.position = nearest.max(1);
         }
+    }
+
+    /// The fret under its first finger.
+    pub(crate) fn position(&self) -> usize {
+        self.position
+    }
+
+    /// Goes back to where it was.
+    pub(crate) fn return_to(&mut self, position: usize) {
+        self.position = position;
     }
 
     /// Frets between a fret and those under the hand.

@@ -91,6 +91,8 @@ pub struct Performance {
     compromises: Compromises,
     /// Notes that began at `now` and are not placed yet.
     chord: Vec<Unplaced>,
+    /// The note of a chord that each string began last.
+    begun: Vec<Option<Unplaced>>,
     /// Keys that go up, of channels, once the chord has been placed.
     releases: Vec<(u8, u8)>,
     /// Notes of a chord that wait until its strings are free.
@@ -137,6 +139,7 @@ impl Performance {
             taken_over: false,
             compromises: Compromises::default(),
             chord: Vec::with_capacity(LARGEST_CHORD),
+            begun: vec![None; count],
             releases: Vec::with_capacity(LARGEST_CHORD),
             late: Vec::with_capacity(LARGEST_CHORD),
             upward: false,
@@ -253,12 +256,14 @@ impl Performance {
         self.late.clear();
         self.late.extend_from_slice(&old.late);
         (self.upward, self.switches) = (old.upward, old.switches);
+        self.begun.fill(None);
         self.hand.set_home(old.hand.home());
         if strings_go_on {
             self.hand.take_over(&old.hand);
             for (string, old) in self.strings.iter_mut().zip(&old.strings) {
                 string.take_over(old);
             }
+            self.begun.iter_mut().zip(&old.begun).for_each(|(begun, old)| *begun = *old);
             self.set_capo(self.hand.capo());
         } else {
             // It may have played before.
@@ -326,6 +331,7 @@ impl Performance {
         self.variation.reset();
         self.compromises = Compromises::default();
         self.chord.clear();
+        self.begun.fill(None);
         self.releases.clear();
         self.late.clear();
         (self.upward, self.means_otherwise) = (false, false);

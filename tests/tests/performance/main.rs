@@ -32,6 +32,7 @@ mod runs;
 mod sighted;
 mod slides;
 mod sound;
+mod spread;
 mod staccato;
 mod strums;
 mod switches;

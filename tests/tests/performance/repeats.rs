@@ -1,6 +1,7 @@
 //! The promise: a note that is struck again while it rings is as loud as where it was struck before, at every tempo: the hand
 //! stills a string before it plucks it anew, and is late by no more than it says.
 
+use low_action::performance::InputMode;
 use low_action_dsp::Gesture;
 use low_action_tests::numbers::largest;
 use low_action_tests::stage::{Stage, cc, level, off, on};
@@ -99,6 +100,8 @@ fn a_stroke_on_a_string_that_rings_comes_hardly_later() {
 fn a_stroke_on_its_way_falls_before_what_follows() {
     for legato in [0, 127] {
         let mut stage = Stage::alone("bass", 3);
+        // Notes that a keyboard has at such a moment are a chord.
+        stage.performance.set_input(InputMode::Strings { first: 0, from_last: false });
         let first = [(0.0, cc(68, legato)), (0.0, on(28, 90)), (0.4, off(28)), (0.4, on(30, 90))];
         let played = stage.play(&[&first[..], &[(0.401, on(33, 90))]].concat(), 0.6);
         let made = |sounds: fn(&Gesture) -> bool| {

@@ -46,7 +46,7 @@ impl Performance {
             let of_channel = channel.is_none_or(|own| string.channel() == Some(own));
             of_channel && string.usage(self.now) == Use::Untouchable
         };
-        if self.strings.iter().any(begun) {
+        if self.strings.iter().any(begun) || self.follows_just_begun() {
             return false;
         }
         let held = self.strings.iter().enumerate().filter_map(|(index, string)| {

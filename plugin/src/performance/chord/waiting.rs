@@ -19,6 +19,8 @@ pub(in crate::performance) struct Unplaced {
     pub articulation: Articulation,
     /// Whether it has waited for a string.
     pub waited: bool,
+    /// The string on which it has just begun, if it has.
+    pub on: Option<usize>,
 }
 
 impl Unplaced {

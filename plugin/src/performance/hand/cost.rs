@@ -15,6 +15,8 @@ const OPEN: (f64, f64) = (0.3, 2.0);
 pub(super) const AGAIN: f64 = -8.0;
 /// A harmonic that is hardly heard there; more than any movement.
 const UNHEARD: f64 = 80.0;
+/// Striking a note that has just begun once more on another string; more than any movement, too.
+const BEGIN_AGAIN: f64 = 60.0;
 /// Taking a string from a note kept by the pedal, and from one whose key is down; more than any
 /// movement.
 const STEAL_PEDAL: f64 = 100.0;
@@ -46,7 +48,7 @@ impl Hand {
     fn cost(&self, position: usize, note: Wanted, string: usize, uses: &[Use]) -> f64 {
         let Some(fret) = self.fret(&note, string) else { return f64::INFINITY };
         let steal = match uses[string] {
-            Use::Free => 0.0,
+            Use::Free | Use::Begun { .. } => 0.0,
             Use::Untouchable => return f64::INFINITY,
             Use::Taken { channel, key, .. } if (channel, key) == (note.channel, note.key) => AGAIN,
             Use::Taken { since, key_down, .. } => {
@@ -57,6 +59,10 @@ impl Hand {
                 STEAL_YOUNGER * older as f64 + if key_down { STEAL_KEY } else { STEAL_PEDAL }
             }
         };
+        let moved = uses.iter().enumerate().any(|(other, &usage)| {
+            other != string && usage == Use::Begun { channel: note.channel, key: note.key }
+        });
+        let steal = if moved { steal + BEGIN_AGAIN } else { steal };
         if note.harmonic && self.strings[string].is_deaf_to(fret, self.order(string, note.pitch)) {
             return UNHEARD + steal;
         }

@@ -1,5 +1,7 @@
 //! What keeps a note sounding, and lets it end: its key, the pedals, and the messages that stop everything.
 
+use std::ops::Range;
+
 use super::{Ending, Note, StringPlayer, UNDER};
 use crate::performance::technique::SHORTEST_NOTE;
 use crate::performance::{Annotation, GestureSink};
@@ -49,6 +51,12 @@ impl StringPlayer {
     /// Its note, if the key of that is down and it began at some sample or later.
     pub(crate) fn note_since(&self, since: u64) -> Option<Note> {
         self.note.filter(|note| note.key_down() && note.since >= since)
+    }
+
+    /// The note that began here in such a time, if its key is down and no pedal has caught it.
+    pub(crate) fn begun_in(&self, time: Range<u64>) -> Option<Note> {
+        let begun = self.plucked_at.is_some_and(|at| time.contains(&at));
+        self.note.filter(|note| begun && note.key_down() && !note.caught)
     }
 
     /// A sostenuto pedal of a channel goes down: it catches the note if its key is down. What another one has caught, as in

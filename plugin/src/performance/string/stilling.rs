@@ -57,6 +57,13 @@ impl StringPlayer {
         }
     }
 
+    /// The note is played elsewhere: a stroke that is on its way does not come. Gives back whether there was one.
+    pub(crate) fn give_up_stroke(&mut self) -> bool {
+        let awaited = self.deeds.await_sound();
+        self.deeds.forget_strokes();
+        awaited
+    }
+
     /// A stroke whose hand is on its way falls at once, where another note takes its string: no note is lost by having
     /// waited for a string to be stilled. Gives back whether there was one.
     pub(super) fn strike_in_time(&mut self, at: &mut Moment<impl GestureSink>) -> bool {

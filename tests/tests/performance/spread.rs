@@ -1,0 +1,157 @@
+//! The promise: a chord whose notes come up to 30 ms apart, as from hands on a keyboard, is a chord: whatever fits on the strings
+//! when it begins at one sample sounds then, too, none of it hammered on another's string. A note that has to make room is struck
+//! once more on a string of its own, and that is counted.
+
+use std::sync::LazyLock;
+
+use low_action::controls::Touching;
+use low_action::performance::{
+    Annotation, Compromises, Excitation, GestureSink, InputMode, Performance, PlayerEvent, Technique,
+    TimedAnnotation,
+};
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::cases::cases;
+use low_action_tests::hands::{EXACT, Neck, note};
+use low_action_tests::stage::{cc, off, on};
+use proptest::prelude::*;
+
+static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
+/// Samples: as far apart as notes of one chord may be.
+const TOGETHER: u64 = 1_440;
+
+/// How strings were made to sound: sample, string, and by what.
+#[derive(Default)]
+struct Heard(Vec<(u64, usize, Technique)>);
+
+impl Heard {
+    fn strings(&self) -> Vec<usize> {
+        self.0.iter().map(|sounds| sounds.1).collect()
+    }
+
+    fn techniques(&self) -> Vec<Technique> {
+        self.0.iter().map(|sounds| sounds.2).collect()
+    }
+}
+
+impl GestureSink for Heard {
+    fn gesture(&mut self, _gesture: TimedGesture) {}
+
+    fn annotation(&mut self, TimedAnnotation { time, string, annotation }: TimedAnnotation) {
+        if let Annotation::Sounds(Excitation { technique, .. }) = annotation {
+            self.0.push((time, string, technique));
+        }
+    }
+}
+
+/// Plays events and what follows up to some sample.
+fn played(events: &[(u64, PlayerEvent)], until: u64) -> (Performance, Heard) {
+    let (mut player, mut heard) = (GUITAR.player(EXACT), Heard::default());
+    player.touch(0, &Touching::new(0.0, 2.0), &mut heard);
+    for &(time, event) in events {
+        player.event(time, event, &mut heard);
+    }
+    player.advance(until, &mut heard);
+    (player, heard)
+}
+
+proptest! {
+    #![proptest_config(cases(300))]
+
+    #[test]
+    fn what_fits_at_once_sounds(
+        notes in prop::collection::hash_map(36..84_u8, 0..=TOGETHER, 1..=6),
+        legato: bool,
+    ) {
+        let mut notes: Vec<_> = notes.into_iter().map(|(key, after)| (4_800 + after, on(key, 90))).collect();
+        notes.sort_by_key(|note| note.0);
+        let told = [(0, cc(68, if legato { 127 } else { 0 }))];
+        let at_once: Vec<_> = notes.iter().map(|&(_, note)| (4_800, note)).collect();
+        let sounding = |notes: &[(u64, PlayerEvent)]| {
+            let (player, heard) = played(&[&told[..], notes].concat(), 9_600);
+            let keys: Vec<_> = (0..128).filter(|&key| player.sounds(0, key)).collect();
+            (keys, player.compromises(), heard.techniques())
+        };
+        let (keys, compromises, _) = sounding(&at_once);
+        prop_assume!(compromises == Compromises::default());
+        prop_assert_eq!(keys.len(), notes.len());
+        let (spread, compromises, techniques) = sounding(&notes);
+        prop_assert_eq!(&spread, &keys);
+        let moved_strings = compromises.moved_strings;
+        prop_assert_eq!(compromises, Compromises { moved_strings, ..Compromises::default() });
+        prop_assert_eq!(techniques.len() as u64, keys.len() as u64 + moved_strings);
+        prop_assert!(techniques.iter().all(|&technique| technique == Technique::Pluck), "{techniques:?}");
+    }
+}
+
+/// Only the highest string gives the third note; as long as nothing is known of that, the second is played there. Hands still
+/// the string before they strike it once more.
+#[test]
+fn a_note_makes_room_for_one_that_follows() {
+    let chord = [(0, on(59, 90)), (100, on(64, 90)), (200, on(84, 90))];
+    let (player, heard) = played(&chord, 4_800);
+    let struck: Vec<_> = heard.0.iter().map(|&(time, string, _)| (time, string)).collect();
+    assert_eq!(struck, [(0, 1), (100, 0), (200, 4), (243, 0)]);
+    assert!([59, 64, 84].iter().all(|&key| player.sounds(0, key)));
+    assert_eq!(player.compromises().moved_strings, 1);
+}
+
+#[test]
+fn keys_that_have_gone_up_or_long_sounded_make_no_room() {
+    // A run, whose notes do not overlap, and one whose notes are 30 ms apart and one sample.
+    let run = [(0, on(64, 90)), (400, off(64)), (401, on(84, 90))];
+    let slow = [(0, on(64, 90)), (TOGETHER + 1, on(84, 90))];
+    for notes in [&run[..], &slow] {
+        let (player, heard) = played(notes, 9_600);
+        assert_eq!(heard.strings(), [0, 0]);
+        assert_eq!(player.compromises(), Compromises::default());
+    }
+    let (player, _) = played(&[(0, on(64, 90)), (TOGETHER, on(84, 90))], 9_600);
+    assert_eq!(player.compromises().moved_strings, 1);
+}
+
+/// Nothing that is there goes: what no string is left for moves by an octave, or comes a moment later.
+#[test]
+fn a_note_too_many_takes_no_string() {
+    // The lowest string alone has both.
+    let (player, _) = played(&[(0, on(40, 90)), (300, on(41, 90))], 9_600);
+    assert!(player.sounds(0, 40) && player.sounds(0, 41));
+    assert_eq!(player.compromises(), Compromises { moved_by_octaves: 1, ..Compromises::default() });
+    let keys = [40, 45, 50, 55, 59, 64];
+    let six = keys.iter().zip(0..).map(|(&key, index)| (100 * index, on(key, 90)));
+    let (player, _) = played(&six.chain([(700, on(67, 90))]).collect::<Vec<_>>(), 1_500);
+    assert!(keys.iter().all(|&key| player.sounds(0, key)));
+    assert_eq!(player.compromises(), Compromises { arpeggiated: 1, ..Compromises::default() });
+}
+
+#[test]
+fn a_key_struck_again_and_a_string_asked_for_count_more() {
+    let (_, heard) = played(&[(0, on(64, 90)), (500, off(64)), (600, on(64, 90))], 9_600);
+    assert_eq!(heard.strings(), [0, 0]);
+    // The first string of keyswitches from 0 on, held: it has one note after the other.
+    let told = [(0, cc(27, 1)), (0, on(13, 90))];
+    let (_, heard) = played(&[&told[..], &[(4_800, on(64, 90)), (5_000, on(66, 90))]].concat(), 9_600);
+    assert_eq!(heard.strings(), [0, 0]);
+    // Where each string has a channel, what it sends last is right.
+    let by_strings = InputMode::Strings { first: 0, from_last: false };
+    let notes = [(0, note(0, 64)), (300, note(0, 66))];
+    let gestures = GUITAR.told(by_strings, &Touching::new(0.0, 2.0), &notes);
+    let plucked = gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).map(|g| g.string);
+    assert_eq!(plucked.collect::<Vec<_>>(), [0, 0]);
+}
+
+/// The notes of a strum that come apart are struck in the way of the first, and the next strum in the other.
+#[test]
+fn a_stroke_back_and_forth_turns_once_for_a_chord() {
+    let told = [(0, cc(22, 2))];
+    let chord = |time: u64, apart: u64| {
+        let time = move |index: u64| time + index * apart;
+        [40, 47, 52, 56].into_iter().zip(0..).map(move |(key, index)| (time(index), on(key, 90)))
+    };
+    let strokes = |apart| {
+        let events: Vec<_> =
+            told.into_iter().chain(chord(4_800, apart)).chain(chord(48_000, apart)).collect();
+        played(&events, 96_000).1.techniques()
+    };
+    assert_eq!(strokes(0), [[Technique::Pluck; 4], [Technique::UpStroke; 4]].concat());
+    assert_eq!(strokes(200), strokes(0));
+}
