@@ -4,6 +4,7 @@
 //! held down behind it (`anchor`), so that a pull-off finds it there, or touch the string lightly.
 
 mod excitation;
+mod hammering;
 mod held;
 mod landing;
 mod leaving;

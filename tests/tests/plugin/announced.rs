@@ -18,7 +18,7 @@ fn announcements() -> [Score; 5] {
 }
 
 /// A note that is too low with the capo, bent by the first channel's wheel and its own, with a keyswitch for the sixth string; and
-/// one that three strings have.
+/// one that three strings have, too late to be of a chord with them.
 fn notes() -> Score {
     vec![
         (0, Action::Parameter(parameter("relax"), 0.0)),
@@ -27,7 +27,7 @@ fn notes() -> Score {
         (0, Action::Midi([0xE0, 0, 80])),
         (0, Action::Midi([0xE2, 0, 68])),
         (100, Action::NoteOn { channel: 0, key: 52, velocity: 100 }),
-        (200, Action::NoteOn { channel: 0, key: 64, velocity: 100 }),
+        (2_000, Action::NoteOn { channel: 0, key: 64, velocity: 100 }),
     ]
 }
 

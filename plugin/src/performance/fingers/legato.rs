@@ -80,7 +80,7 @@ impl Fingers {
             Some(old) => at.does(old.gives_way()),
             None => {}
         }
-        self.come_down(fret, stopped, HAMMER_SPEED.0 + HAMMER_SPEED.1 * strength.min(1.0), at)
+        self.come_down(fret, stopped, self.hammer_speed(fret, strength), at)
     }
 
     /// The finger that stops the string leaves, for another to strike it at a fret, how hard, 0 to 1. Gives back in how many

@@ -32,13 +32,8 @@ impl Fingers {
         for old in [self.anchor.take(), self.fretting.take()].into_iter().flatten() {
             at.does(old.gives_way());
         }
-        self.come_down_at(
-            fret,
-            Down::on(self.capo[1]),
-            position,
-            HAMMER_SPEED.0 + HAMMER_SPEED.1 * POINTED,
-            at,
-        );
+        let speed = self.hammer_speed(fret, POINTED);
+        self.come_down_at(fret, Down::on(self.capo[1]), position, speed, at);
         if let Some(finger) = &mut self.fretting {
             finger.free = Some(position);
         }

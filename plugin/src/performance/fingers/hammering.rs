@@ -1,0 +1,26 @@
+//! How fast a finger comes that is to make a string sound by itself.
+
+use std::f64::consts::PI;
+
+use super::Fingers;
+use crate::performance::technique::*;
+
+impl Fingers {
+    /// Speed of a finger that hammers on a fret or taps it, how hard, 0 to 1, in m/s: such that the note is about as loud as it is
+    /// plucked as hard, on every string, as far as fingers are so fast.
+    ///
+    /// What a finger stops at the fret, at speed v, had been turning about the saddle: it leaves partial n of a string with the
+    /// period T an amplitude of v T / (π² n²). A pluck with the force F, where a part β of the string sounds on its other side,
+    /// leaves 2 F L sin(π n β) / (π² n² H), H being the tension: the first partial is the same at v = F sin(π β) / Z, with the
+    /// impedance Z = H T / (2 L).
+    pub(super) fn hammer_speed(&self, fret: usize, strength: f64) -> f64 {
+        let geometry = &self.string.geometry;
+        let sounding = geometry.length - geometry.finger_position(fret);
+        let pluck = self.hands.pluck_position.min(FARTHEST_PLUCK * sounding);
+        let impedance = self.string.tension * self.open_period() / (2.0 * geometry.length);
+        let force = strength * self.hands.pluck_force;
+        let as_loud = force * libm::sin(PI * pluck / sounding) / impedance;
+        let Hammer { part, slowest, limit } = HAMMER;
+        slowest + part * as_loud / (1.0 + part * as_loud / limit)
+    }
+}
