@@ -209,7 +209,7 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     warn_of(*moved_by_octaves, "moved by octaves: no string gives them as written");
     warn_of(
         *moved_strings,
-        "struck again on another string: those that began up to 30 ms later needed theirs",
+        "struck again on another string: others of their chord that began a moment later needed theirs",
     );
     warn_of(*arpeggiated, "played a moment late: more began at once than there were strings for");
     warn_of(*left_out, "left out: more began at once than anybody could play");

@@ -8,7 +8,7 @@
 //! **Strums**: the right hand goes over the strings at one speed, towards the high ones or back, and reaches
 //! the first at once. Notes that are told the same way and time are one strum, whatever their channels.
 //!
-//! Notes that begin a moment after others are of their chord, too (`just_begun`).
+//! Notes that begin a moment after others are of their chord, too, as in a strum that a keyboard plays (`just_begun`).
 //!
 //! What notes do that overlap is in `legato`, what is known of one until it is placed in `waiting`, what comes between them
 //! in `meanwhile`.
@@ -122,6 +122,7 @@ impl Performance {
         self.uses.clear();
         self.uses.extend(self.strings.iter().map(|string| string.usage(time)));
         self.join_just_begun();
+        self.count_chord();
         let position = self.hand.position();
         self.find_places();
         if self.displaces_just_begun() {

@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct Compromises {
     /// Notes moved by octaves because no string, or none that was left, gives them.
     pub moved_by_octaves: u64,
-    /// Notes struck once more, on another string, because one that began up to 30 ms after them needed theirs.
+    /// Notes struck once more, on another string, because one of their chord that began a moment after them needed theirs.
     pub moved_strings: u64,
     /// Notes that came a moment late because strings did not suffice for all of their instant.
     pub arpeggiated: u64,

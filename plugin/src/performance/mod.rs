@@ -93,6 +93,9 @@ pub struct Performance {
     chord: Vec<Unplaced>,
     /// The note of a chord that each string began last.
     begun: Vec<Option<Unplaced>>,
+    /// When the last chord began, and went on, samples.
+    chord_began: u64,
+    chord_went_on: u64,
     /// Keys that go up, of channels, once the chord has been placed.
     releases: Vec<(u8, u8)>,
     /// Notes of a chord that wait until its strings are free.
@@ -140,6 +143,8 @@ impl Performance {
             compromises: Compromises::default(),
             chord: Vec::with_capacity(LARGEST_CHORD),
             begun: vec![None; count],
+            chord_began: 0,
+            chord_went_on: 0,
             releases: Vec::with_capacity(LARGEST_CHORD),
             late: Vec::with_capacity(LARGEST_CHORD),
             upward: false,
@@ -257,6 +262,7 @@ impl Performance {
         self.late.extend_from_slice(&old.late);
         (self.upward, self.switches) = (old.upward, old.switches);
         self.begun.fill(None);
+        (self.chord_began, self.chord_went_on) = (old.chord_began, old.chord_went_on);
         self.hand.set_home(old.hand.home());
         if strings_go_on {
             self.hand.take_over(&old.hand);
@@ -332,6 +338,7 @@ impl Performance {
         self.compromises = Compromises::default();
         self.chord.clear();
         self.begun.fill(None);
+        (self.chord_began, self.chord_went_on) = (0, 0);
         self.releases.clear();
         self.late.clear();
         (self.upward, self.means_otherwise) = (false, false);

@@ -304,6 +304,8 @@ pub(crate) const BAR_SHARE: f64 = 0.5;
 /// Notes that begin within so long of one another while their keys are down are one chord for the left hand, s. The notes of chords
 /// that pianists play come some 10 to 30 ms apart; those of the fastest runs, 40.
 pub(crate) const TOGETHER: f64 = 0.03;
+/// How long a chord can take whose notes each come in that time, s: six strings 25 ms apart.
+pub(crate) const LONGEST_CHORD: f64 = 0.15;
 /// How long the rest of a chord waits that has more notes than strings, s from note to note.
 pub(crate) const ARPEGGIO: f64 = 0.07;
 /// Where a hand mutes an open string, as a part of its length from the nut, and how far on its next finger lies, as a part of what

@@ -1,6 +1,6 @@
-//! The promise: a chord whose notes come up to 30 ms apart, as from hands on a keyboard, is a chord: whatever fits on the strings
-//! when it begins at one sample sounds then, too, none of it hammered on another's string. A note that has to make room is struck
-//! once more on a string of its own, and that is counted.
+//! The promise: a chord whose notes come up to 30 ms one after another, as from hands on a keyboard or in a strum, is a chord:
+//! whatever fits on the strings when it begins at one sample sounds then, too, none of it hammered on another's string. A note that
+//! has to make room is struck once more on a string of its own, and that is counted.
 
 use std::sync::LazyLock;
 
@@ -16,7 +16,7 @@ use low_action_tests::stage::{cc, off, on};
 use proptest::prelude::*;
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
-/// Samples: as far apart as notes of one chord may be.
+/// Samples: as far as a note of a chord may be from the next.
 const TOGETHER: u64 = 1_440;
 
 /// How strings were made to sound: sample, string, and by what.
@@ -62,12 +62,18 @@ proptest! {
         notes in prop::collection::hash_map(36..84_u8, 0..=TOGETHER, 1..=6),
         legato: bool,
     ) {
-        let mut notes: Vec<_> = notes.into_iter().map(|(key, after)| (4_800 + after, on(key, 90))).collect();
-        notes.sort_by_key(|note| note.0);
+        let mut notes: Vec<_> = notes.into_iter().map(|(key, after)| (after, key)).collect();
+        notes.sort_unstable();
+        let mut time = 4_800;
+        let in_turn = |(after, key)| {
+            time += after;
+            (time, on(key, 90))
+        };
+        let notes: Vec<_> = notes.into_iter().map(in_turn).collect();
         let told = [(0, cc(68, if legato { 127 } else { 0 }))];
         let at_once: Vec<_> = notes.iter().map(|&(_, note)| (4_800, note)).collect();
         let sounding = |notes: &[(u64, PlayerEvent)]| {
-            let (player, heard) = played(&[&told[..], notes].concat(), 9_600);
+            let (player, heard) = played(&[&told[..], notes].concat(), 24_000);
             let keys: Vec<_> = (0..128).filter(|&key| player.sounds(0, key)).collect();
             (keys, player.compromises(), heard.techniques())
         };

@@ -5,16 +5,21 @@
 use super::{Manner, Stroke, Unplaced, Use};
 use crate::performance::Performance;
 use crate::performance::hand::LARGEST_CHORD;
-use crate::performance::technique::TOGETHER;
+use crate::performance::technique::{LONGEST_CHORD, TOGETHER};
 
 impl Performance {
-    /// The note of the chord that a string has just begun, as it is now; `None` if it has not, or is to begin that again.
-    fn just_begun(&self, string: usize) -> Option<Unplaced> {
+    /// The sample so many seconds before now.
+    fn before(&self, seconds: f64) -> u64 {
+        self.now.saturating_sub((seconds * self.sample_rate).round() as u64)
+    }
+
+    /// The note of a chord that a string has begun at some sample or later, as it is now; `None` if there is none, or it is to begin
+    /// again.
+    fn begun_since(&self, string: usize, since: u64) -> Option<Unplaced> {
         // Where each string has a channel there is nothing to choose.
         if self.is_by_strings() {
             return None;
         }
-        let since = self.now.saturating_sub((TOGETHER * self.sample_rate).round() as u64);
         let begun = self.begun[string]?;
         let note = self.strings[string].begun_in(since..self.now)?;
         let (channel, key) = (note.channel, note.key);
@@ -26,15 +31,34 @@ impl Performance {
         Some(Unplaced { presses: note.presses, manner, on: Some(string), ..begun })
     }
 
+    /// The same of a moment ago.
+    fn just_begun(&self, string: usize) -> Option<Unplaced> {
+        self.begun_since(string, self.before(TOGETHER))
+    }
+
+    /// Notes begin now: with those before them, if they come in time.
+    pub(super) fn count_chord(&mut self) {
+        if self.chord_went_on < self.before(TOGETHER) {
+            self.chord_began = self.now;
+        }
+        self.chord_went_on = self.now;
+    }
+
     /// Whether a note that begins now is of a chord some of whose notes have just begun.
     pub(super) fn follows_just_begun(&self) -> bool {
         (0..self.strings.len()).any(|string| self.just_begun(string).is_some())
     }
 
-    /// Notes that have just begun are placed with the chord.
+    /// Notes that have just begun are placed with the chord, and so are those before them that each came in time for the next, as
+    /// those of a strum do.
     pub(super) fn join_just_begun(&mut self) {
+        if self.chord_went_on < self.before(TOGETHER) {
+            return;
+        }
+        let since = self.chord_began.max(self.before(LONGEST_CHORD));
         for string in 0..self.strings.len() {
-            if let Some(note) = self.just_begun(string).filter(|_| self.chord.len() < LARGEST_CHORD) {
+            let begun = self.begun_since(string, since);
+            if let Some(note) = begun.filter(|_| self.chord.len() < LARGEST_CHORD) {
                 self.chord.push(note);
             }
         }
@@ -46,7 +70,7 @@ impl Performance {
         placed.filter(|(note, _)| note.on.is_some()).any(|(_, placement)| placement.is_none())
     }
 
-    /// They are left where they are, and nobody takes their strings who is not bound to that very one.
+    /// They are left where they are, and nobody takes the strings of the last of them who is not bound to that very one.
     pub(super) fn leave_just_begun(&mut self) {
         self.chord.retain(|note| note.on.is_none());
         for string in 0..self.strings.len() {
