@@ -71,6 +71,8 @@ struct Departing {
 pub(crate) struct Fingers {
     string: PlayedString,
     hands: Player,
+    /// Where the set-up has plucks, m from the saddle, wherever the right hand is told to go.
+    usual_place: f64,
     fretting: Option<Finger>,
     /// A finger held down behind the one that sounds.
     anchor: Option<Finger>,
@@ -100,10 +102,11 @@ pub(crate) struct Fingers {
 impl Fingers {
     /// No finger near the string.
     pub(crate) fn new(string: PlayedString, hands: Player) -> Self {
-        let capo_touch = hands.fretting.touch;
+        let (usual_place, capo_touch) = (hands.pluck_position, hands.fretting.touch);
         Self {
             string,
             hands,
+            usual_place,
             fretting: None,
             anchor: None,
             next_slot: 0,

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use low_action::controls::Touching;
-use low_action::performance::PlayerEvent;
+use low_action::performance::{InputMode, PlayerEvent};
 use low_action_dsp::setup::tension_ratio;
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, RATE, play};
@@ -118,6 +118,22 @@ fn a_tap_comes_as_fast_as_it_is_to_be_loud() {
     let [first, last] = forces[..] else { panic!("{gestures:?}") };
     let soft = last / braked.expect("it is thrown");
     assert!((0.105..0.115).contains(&soft) && near(first, 0.2 * last), "{soft} m/s, {forces:?} N");
+}
+
+/// Wherever the plectrum is meanwhile.
+#[test]
+fn a_tap_is_as_fast_beside_the_saddle() {
+    let speed = |moved: f64| {
+        let mut touching = Touching::new(0.0, 2.0);
+        touching.pluck_position = moved;
+        let events = [(0, cc(22, 7)), (0, on(66, 80))];
+        let gestures = GUITAR.told(InputMode::Keyboard, &touching, &events);
+        gestures.iter().find_map(|timed| match timed.gesture {
+            Gesture::Throw { speed, .. } => Some(speed),
+            _ => None,
+        })
+    };
+    assert_eq!(speed(-0.1), speed(0.0));
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::performance::technique::*;
 
 impl Fingers {
     /// Speed of a finger that hammers on a fret or taps it, how hard, 0 to 1, in m/s: such that the note is about as loud as it is
-    /// plucked as hard, on every string, as far as fingers are so fast.
+    /// plucked as hard at the usual place, on every string, as far as fingers are so fast.
     ///
     /// What a finger stops at the fret, at speed v, had been turning about the saddle: it leaves partial n of a string with the
     /// period T an amplitude of v T / (π² n²). A pluck with the force F, where a part β of the string sounds on its other side,
@@ -16,7 +16,7 @@ impl Fingers {
     pub(super) fn hammer_speed(&self, fret: usize, strength: f64) -> f64 {
         let geometry = &self.string.geometry;
         let sounding = geometry.length - geometry.finger_position(fret);
-        let pluck = self.hands.pluck_position.min(FARTHEST_PLUCK * sounding);
+        let pluck = self.usual_place.min(FARTHEST_PLUCK * sounding);
         let impedance = self.string.tension * self.open_period() / (2.0 * geometry.length);
         let force = strength * self.hands.pluck_force;
         let as_loud = force * libm::sin(PI * pluck / sounding) / impedance;
