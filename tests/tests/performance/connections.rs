@@ -22,13 +22,15 @@ fn a_finger_that_taps_sounds_by_its_own_speed() {
     for (setup, string, open) in STRINGS {
         let mut stage = Stage::alone(setup, string);
         let mut before = 0.0;
-        for velocity in [20, 64, 127] {
+        for velocity in [20, 64, 100, 127] {
             let played = stage.play(&[(0.0, cc(22, 7)), (0.0, on(open + 7, velocity))], 0.8);
             assert_eq!(plucks(&played.gestures), 0);
             let sound = &played.strings[0];
             let loud = peak(&sound[..at(0.3)]);
-            // On thin strings no finger is much faster than that of velocity 64.
-            assert!(loud > 1.05 * before, "{setup} {string} at {velocity}: {loud} after {before}");
+            // Above velocity 64 fingers are not much faster, and where their way takes a period its end takes from its beginning: on
+            // the thinnest string 0.1 dB is left of that from 64 to 100. (At one speed for all strings it was 1.6 dB or more.)
+            let louder = if velocity <= 64 { 1.2 } else { 1.0 };
+            assert!(loud > louder * before, "{setup} {string} at {velocity}: {loud} after {before}");
             assert!(
                 off_key(&sound[at(0.2)..], f64::from(open + 7)).abs() < 3.0,
                 "{setup} {string} at {velocity}"
