@@ -2,7 +2,8 @@
 //! a hand bends, in goals at a bounded rate. Before a note on a string at rest nobody hears it pulled: it begins in tune.
 //!
 //! Wheel and tuning pull the string as far as its set-up lets tension go. Past that a finger that stops the
-//! string slides to the nearest fret and pulling does the rest; an open string stays where pulling ends.
+//! string slides to the nearest fret and pulling does the rest; an open string stays where pulling ends. A finger that has ceased to
+//! press, as its note is over, stays where it has slid or glided to, and pulling does what it can.
 
 use std::f64::consts::TAU;
 
@@ -151,11 +152,14 @@ impl Bend {
             self.glided = goal;
         } else {
             let wanted = fingers.can_slide(self.frets_to_slide(asked, most));
-            if wanted != self.slid {
-                taken = duration(f64::from(wanted - self.slid));
-                self.slid = fingers.slide(wanted, taken, at).0;
+            let way = duration(f64::from(wanted - self.slid));
+            let (slid, slide) = fingers.slide(wanted, way, at);
+            if slide.is_some() {
+                taken = way;
             }
-            moved = f64::from(self.slid);
+            self.slid = slid;
+            // Where a finger has glided to it stays, once it has ceased to press.
+            moved = f64::from(self.slid) + self.glided;
             let tension = (asked - moved).clamp(-most, most);
             reached = moved + tension;
             pulled = tension + self.arm + swing;

@@ -21,6 +21,8 @@ pub(super) mod controller {
     const SOSTENUTO: u8 = 66;
     /// First of the messages that stop everything or put it back.
     const MODE: u8 = 120;
+    /// Puts everything back.
+    pub const RESET: u8 = 121;
     /// Fret of the capo.
     pub const CAPO: u8 = 26;
     /// First of the keyswitches.
@@ -28,9 +30,10 @@ pub(super) mod controller {
     /// Where on the neck the left hand plays.
     pub const HAND: u8 = 28;
 
-    /// Whether it changes something that belongs to no channel.
-    pub fn is_of_all(number: u8) -> bool {
-        matches!(number, CAPO | SWITCHES | HAND)
+    /// Whether it changes something that belongs to no channel; where notes have channels of their own, one of them that is reset
+    /// does not.
+    pub fn is_of_all(number: u8, mpe: bool) -> bool {
+        matches!(number, CAPO | SWITCHES | HAND) || (number == RESET && !mpe)
     }
 
     /// Whether it makes of notes that have begun, or of what channels mean, what it does not make of those to come.
@@ -238,7 +241,7 @@ impl Channel {
             controller::HAND => Request::Hand(value),
             120 => Request::Silence,
             // Reset all controllers leaves the wheel's reach alone (MIDI recommended practice 15).
-            121 => {
+            controller::RESET => {
                 self.pedal = false;
                 self.sostenuto = false;
                 self.manner = Manner::PLAIN;

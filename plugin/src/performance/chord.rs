@@ -25,6 +25,7 @@ use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
 use super::string::{Manner, Start};
 use super::technique::*;
 use super::{CHANNELS, GestureSink, Performance};
+pub(super) use just_begun::JustBegun;
 pub(super) use waiting::{Late, OwnPluck, Unplaced};
 
 /// The way of the right hand over the strings of a chord.
@@ -125,6 +126,7 @@ impl Performance {
         self.count_chord();
         let position = self.hand.position();
         self.find_places();
+        self.stay_just_begun();
         if self.displaces_just_begun() {
             self.leave_just_begun();
             self.hand.return_to(position);
@@ -134,7 +136,7 @@ impl Performance {
         self.make_room();
         for index in 0..self.chord.len() {
             let Some(placement) = self.placements[index] else { continue };
-            if self.chord[index].on == Some(placement.string) {
+            if self.chord[index].on.is_some_and(|on| on.string == placement.string) {
                 continue;
             }
             let strum = self.strum(index);
@@ -144,7 +146,7 @@ impl Performance {
             self.strings[string].expect_palm(palm);
             self.strings[string].start(time, start, out);
             self.strings[string].bend(time, channel, bend);
-            self.begun[string] = Some(self.chord[index]);
+            self.just_begun.note(string, self.chord[index]);
         }
         if self.chord.iter().any(|note| note.articulation.stroke == Stroke::Alternate) && !self.goes_on() {
             self.upward = !self.upward;
@@ -155,8 +157,8 @@ impl Performance {
     /// Finds the hand a place, and each note of the chord a string, as the strings may be used.
     fn find_places(&mut self) {
         for note in &self.chord {
-            if let Unplaced { on: Some(string), wanted: Wanted { channel, key, .. }, .. } = *note {
-                self.uses[string] = Use::Begun { channel, key };
+            if let Unplaced { on: Some(on), wanted: Wanted { channel, key, .. }, .. } = *note {
+                self.uses[on.string] = Use::Begun { channel, key };
             }
         }
         self.wanted.clear();

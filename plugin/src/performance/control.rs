@@ -72,7 +72,7 @@ pub(super) struct Whose {
 
 impl Whose {
     /// Whether those of a channel are meant.
-    fn is(self, channel: u8) -> bool {
+    pub fn is(self, channel: u8) -> bool {
         self.all || channel == self.channel
     }
 }
@@ -118,16 +118,16 @@ impl Performance {
     /// Changes a channel's state and carries the consequences to the strings.
     pub(super) fn control(
         &mut self,
-        number: u8,
+        sender: u8,
         change: impl Fn(&mut Channel) -> Request,
         out: &mut impl GestureSink,
     ) {
         let was_mpe = self.is_mpe();
-        let Some((request, whose)) = self.change_channels(number, change) else { return };
+        let Some((request, whose)) = self.change_channels(sender, change) else { return };
         self.tell_chord(request, |channel| whose.is(channel));
         match request {
             // Others may announce an upper zone, which there is none of here.
-            Request::Members if number != MANAGER => return,
+            Request::Members if sender != MANAGER => return,
             Request::Members => return self.take_members(was_mpe, out),
             Request::Capo(fret) => return self.set_capo(usize::from(fret)),
             Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),
@@ -139,7 +139,7 @@ impl Performance {
                 self.tell_keys_under(request, whose);
                 self.let_fall_under(whose);
                 // What no channel owns, any of them puts back; in MPE the one that speaks for all.
-                if number == MANAGER || !self.is_mpe() {
+                if sender == MANAGER || !self.is_mpe() {
                     self.set_capo(0);
                     self.set_switches(self.touching.keyswitches);
                     self.hand.set_home(self.touching.hand_position);
@@ -149,7 +149,7 @@ impl Performance {
         }
         self.ask(request, whose, out);
         if request == Request::Touch {
-            self.lay_palm(number, out);
+            self.lay_palms(Whose { channel: sender, all: false }, out);
         }
     }
 
@@ -164,16 +164,16 @@ impl Performance {
     /// whose; nothing if there is no such channel.
     fn change_channels(
         &mut self,
-        number: u8,
+        sender: u8,
         change: impl Fn(&mut Channel) -> Request,
     ) -> Option<(Request, Whose)> {
-        let channel = self.channels.get_mut(usize::from(number))?;
+        let channel = self.channels.get_mut(usize::from(sender))?;
         let before = channel.announced_reach();
         let request = change(channel);
         let reach = channel.announced_reach();
         let mpe = self.is_mpe();
-        let announces = mpe && number != MANAGER && reach != before;
-        let all = (mpe && number == MANAGER) || announces;
+        let announces = mpe && sender != MANAGER && reach != before;
+        let all = (mpe && sender == MANAGER) || announces;
         if announces {
             // The reach of the wheel that one member announces is that of all.
             self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.take_reach(reach));
@@ -181,7 +181,7 @@ impl Performance {
             // Most messages say nothing of hands: what other channels have been told stays.
             self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.hear(&change));
         }
-        Some((request, Whose { channel: number, all }))
+        Some((request, Whose { channel: sender, all }))
     }
 
     /// All keys of a channel go up, in MPE of the first one its own alone.
@@ -257,13 +257,15 @@ impl Performance {
         self.welcome_back(index, out);
     }
 
-    /// The palm of a channel waits for notes on strings where nobody plays: those of its last notes, and those that have had none.
-    pub(super) fn lay_palm(&mut self, number: u8, out: &mut impl GestureSink) {
-        let Some(channel) = self.channels.get(usize::from(number)) else { return };
-        let (palm, by_strings) = (channel.articulation.palm, self.is_by_strings());
-        for string in &mut self.strings {
-            if !string.is_played() && string.channel().map_or(!by_strings, |own| own == number) {
-                string.set_palm(self.now, palm, out);
+    /// The palms of channels wait for notes on strings where nobody plays: those of their last notes, and those that have had none.
+    pub(super) fn lay_palms(&mut self, whose: Whose, out: &mut impl GestureSink) {
+        let (by_strings, count) = (self.is_by_strings(), self.strings.len());
+        for (index, string) in self.strings.iter_mut().enumerate() {
+            let own = string.channel().or_else(|| self.input.channel_of(index, count));
+            let meant = own.map_or(!by_strings, |own| whose.is(own));
+            let told = self.channels.get(usize::from(own.unwrap_or(whose.channel)));
+            if let Some(channel) = told.filter(|_| meant && !string.is_played()) {
+                string.set_palm(self.now, channel.articulation.palm, out);
             }
         }
     }

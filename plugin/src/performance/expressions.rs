@@ -8,6 +8,38 @@ use super::{CHANNELS, Expression, GestureSink, Performance};
 
 /// The widest tuning of a note that is taken at its word, semitones: what CLAP's hosts may ask for.
 const WIDEST: f64 = 120.0;
+/// The largest factor of a force that is.
+const LARGEST: f64 = 100.0;
+
+/// What an expression says, in the units of the hands and within what they take.
+enum Said {
+    /// Of the note as long as it sounds.
+    Note(Own),
+    /// Of its pluck: how far brightness moves it from the saddle, m.
+    Brightness(f64),
+    /// How far it is moved besides, m.
+    PluckPlace(f64),
+    /// Factor of its force.
+    PluckForce(f64),
+}
+
+impl From<Expression> for Said {
+    fn from(expression: Expression) -> Self {
+        let part = |value: f32| f64::from(value).clamp(0.0, 1.0);
+        let factor = |value: f32| f64::from(value).clamp(0.0, LARGEST);
+        match expression {
+            Expression::Tuning(semitones) => {
+                Self::Note(Own::Tuning(f64::from(semitones).clamp(-WIDEST, WIDEST)))
+            }
+            Expression::Pressure(pressure) => Self::Note(Own::Pressure(pressure_factor(pressure))),
+            Expression::FingerForce(force) => Self::Note(Own::Pressure(factor(force))),
+            Expression::Vibrato(depth) => Self::Note(Own::Vibrato(part(depth))),
+            Expression::Brightness(bright) => Self::Brightness((1.0 - 2.0 * part(bright)) * BRIGHTNESS_REACH),
+            Expression::PluckPlace(metres) => Self::PluckPlace(f64::from(metres)),
+            Expression::PluckForce(force) => Self::PluckForce(factor(force)),
+        }
+    }
+}
 
 impl Performance {
     /// Something changes about all notes of a channel and a key (`None`: of any).
@@ -50,33 +82,21 @@ impl Performance {
         }
         // The latest note of the key: one that begins now, or waits for a string, before any that sounds.
         let late = self.late.iter_mut().filter(|late| late.key_down()).map(|late| &mut late.note);
-        let note = self
-            .chord
-            .iter_mut()
-            .chain(late)
-            .find(|other| (other.wanted.channel, other.wanted.key) == (channel, key));
+        let note = self.chord.iter_mut().chain(late).find(|other| other.is(channel, key));
+        let said = Said::from(expression);
         if let Some(Unplaced { manner, own, .. }) = note {
-            match expression {
-                Expression::Tuning(semitones) => manner.tuning = f64::from(semitones).clamp(-WIDEST, WIDEST),
-                Expression::Pressure(pressure) => manner.pressure = pressure_factor(pressure),
-                Expression::Brightness(part) => {
-                    own.brightness = (1.0 - 2.0 * f64::from(part).clamp(0.0, 1.0)) * BRIGHTNESS_REACH;
-                }
-                Expression::Vibrato(depth) => manner.vibrato = f64::from(depth).clamp(0.0, 1.0),
-                Expression::PluckPlace(metres) => own.place = f64::from(metres),
-                Expression::PluckForce(factor) => own.force = f64::from(factor).clamp(0.0, 100.0),
-                Expression::FingerForce(factor) => manner.pressure = f64::from(factor).clamp(0.0, 100.0),
+            match said {
+                Said::Note(Own::Tuning(semitones)) => manner.tuning = semitones,
+                Said::Note(Own::Pressure(factor)) => manner.pressure = factor,
+                Said::Note(Own::Vibrato(depth)) => manner.vibrato = depth,
+                Said::Brightness(metres) => own.brightness = metres,
+                Said::PluckPlace(metres) => own.place = metres,
+                Said::PluckForce(factor) => own.force = factor,
             }
             return;
         }
-        let own = match expression {
-            Expression::Tuning(semitones) => Own::Tuning(f64::from(semitones).clamp(-WIDEST, WIDEST)),
-            Expression::Pressure(pressure) => Own::Pressure(pressure_factor(pressure)),
-            Expression::FingerForce(factor) => Own::Pressure(f64::from(factor).clamp(0.0, 100.0)),
-            Expression::Vibrato(depth) => Own::Vibrato(f64::from(depth).clamp(0.0, 1.0)),
-            // It has been plucked already.
-            Expression::Brightness(_) | Expression::PluckPlace(_) | Expression::PluckForce(_) => return,
-        };
+        // Else it has been plucked already.
+        let Said::Note(own) = said else { return };
         // Rather where the key's note sounds than where it is down under another.
         let sounding = self.strings.iter().position(|string| string.is_of(channel, key));
         let under = || self.strings.iter().position(|string| string.sounds(channel, key));

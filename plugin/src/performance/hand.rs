@@ -44,7 +44,7 @@ pub(crate) enum Use {
         channel: u8,
         /// Its key as sent.
         key: u8,
-        /// When it began, samples.
+        /// When it is first heard, samples.
         since: u64,
         /// Whether its key is down (or only the pedal keeps it).
         key_down: bool,

@@ -38,7 +38,7 @@ pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedA
 pub use announced::Announced;
 use articulation::Stop;
 use channel::Channel;
-use chord::{Late, Unplaced};
+use chord::{JustBegun, Late, Unplaced};
 pub use compromises::Compromises;
 pub use control::InputMode;
 pub(crate) use control::{MANAGER, announces_mpe};
@@ -91,11 +91,7 @@ pub struct Performance {
     compromises: Compromises,
     /// Notes that began at `now` and are not placed yet.
     chord: Vec<Unplaced>,
-    /// The note of a chord that each string began last.
-    begun: Vec<Option<Unplaced>>,
-    /// When the last chord began, and went on, samples.
-    chord_began: u64,
-    chord_went_on: u64,
+    just_begun: JustBegun,
     /// Keys that go up, of channels, once the chord has been placed.
     releases: Vec<(u8, u8)>,
     /// Notes of a chord that wait until its strings are free.
@@ -142,9 +138,7 @@ impl Performance {
             taken_over: false,
             compromises: Compromises::default(),
             chord: Vec::with_capacity(LARGEST_CHORD),
-            begun: vec![None; count],
-            chord_began: 0,
-            chord_went_on: 0,
+            just_begun: JustBegun::new(count),
             releases: Vec::with_capacity(LARGEST_CHORD),
             late: Vec::with_capacity(LARGEST_CHORD),
             upward: false,
@@ -164,7 +158,7 @@ impl Performance {
         match event {
             PlayerEvent::NoteOn { channel, key, velocity } if velocity > 0.0 => {
                 if self.press_switch(channel, key) {
-                    self.lay_palm(channel, out);
+                    self.lay_palms(self.switched_by(channel), out);
                 } else {
                     self.release_before(channel, key, out);
                     self.strike(channel, key, f64::from(velocity.min(1.0)));
@@ -261,15 +255,13 @@ impl Performance {
         self.late.clear();
         self.late.extend_from_slice(&old.late);
         (self.upward, self.switches) = (old.upward, old.switches);
-        self.begun.fill(None);
-        (self.chord_began, self.chord_went_on) = (old.chord_began, old.chord_went_on);
+        self.just_begun.take_over(&old.just_begun, strings_go_on);
         self.hand.set_home(old.hand.home());
         if strings_go_on {
             self.hand.take_over(&old.hand);
             for (string, old) in self.strings.iter_mut().zip(&old.strings) {
                 string.take_over(old);
             }
-            self.begun.iter_mut().zip(&old.begun).for_each(|(begun, old)| *begun = *old);
             self.set_capo(self.hand.capo());
         } else {
             // It may have played before.
@@ -337,8 +329,7 @@ impl Performance {
         self.variation.reset();
         self.compromises = Compromises::default();
         self.chord.clear();
-        self.begun.fill(None);
-        (self.chord_began, self.chord_went_on) = (0, 0);
+        self.just_begun.reset();
         self.releases.clear();
         self.late.clear();
         (self.upward, self.means_otherwise) = (false, false);

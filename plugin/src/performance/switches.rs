@@ -2,7 +2,7 @@
 
 use super::Performance;
 use super::articulation::SWITCHES;
-use super::channel::Channel;
+use super::control::Whose;
 
 /// Strings that have a keyswitch.
 const STRINGS: u8 = 8;
@@ -22,11 +22,12 @@ impl Performance {
     /// A key goes down; `true` if it is a keyswitch. One for the hands counts until the next one, also for
     /// notes of the same instant; one for a string while it is down.
     pub(super) fn press_switch(&mut self, channel: u8, key: u8) -> bool {
-        let Some(number) = self.switch(key) else { return false };
-        for own in self.switched_by(channel) {
-            match number.checked_sub(SWITCHES) {
+        let Some(switch) = self.switch(key) else { return false };
+        let whose = self.switched_by(channel);
+        for (_, own) in (0..).zip(&mut self.channels).filter(|&(channel, _)| whose.is(channel)) {
+            match switch.checked_sub(SWITCHES) {
                 Some(string) => own.forced = Some((usize::from(string), channel)),
-                None => own.articulation.switch(number),
+                None => own.articulation.switch(switch),
             }
         }
         for note in &mut self.chord {
@@ -38,8 +39,8 @@ impl Performance {
 
     /// A key goes up that may be a keyswitch.
     pub(super) fn release_switch(&mut self, channel: u8, key: u8) {
-        let Some(number) = self.switch(key) else { return };
-        let struck = number.checked_sub(SWITCHES).map(|string| (usize::from(string), channel));
+        let Some(switch) = self.switch(key) else { return };
+        let struck = switch.checked_sub(SWITCHES).map(|string| (usize::from(string), channel));
         // Wherever it counted when it went down.
         for own in self.channels.iter_mut().filter(|own| own.forced == struck) {
             own.forced = None;
@@ -48,21 +49,19 @@ impl Performance {
 
     /// Whether a key is a keyswitch that is down and asks for a string.
     pub fn forces(&self, channel: u8, key: u8) -> bool {
-        let string = self.switch(key).and_then(|number| number.checked_sub(SWITCHES));
+        let string = self.switch(key).and_then(|switch| switch.checked_sub(SWITCHES));
         let asks =
             |string| self.channels.iter().any(|own| own.forced == Some((usize::from(string), channel)));
         string.is_some_and(asks)
     }
 
-    /// The channels for which a keyswitch of one counts: all where each note or each string has its own.
-    fn switched_by(&mut self, channel: u8) -> impl Iterator<Item = &mut Channel> {
-        let all = self.is_mpe() || self.is_by_strings();
-        let own = move |&(number, _): &(usize, &mut Channel)| all || number == usize::from(channel);
-        self.channels.iter_mut().enumerate().filter(own).map(|(_, channel)| channel)
+    /// Of whose notes a keyswitch of a channel speaks: of all where each note or each string has its own channel.
+    pub(super) fn switched_by(&self, channel: u8) -> Whose {
+        Whose { channel, all: self.is_mpe() || self.is_by_strings() }
     }
 
     /// The number of a keyswitch.
     fn switch(&self, key: u8) -> Option<u8> {
-        key.checked_sub(self.switches?).filter(|&number| number < SWITCHES + STRINGS)
+        key.checked_sub(self.switches?).filter(|&switch| switch < SWITCHES + STRINGS)
     }
 }

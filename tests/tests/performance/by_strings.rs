@@ -97,3 +97,23 @@ fn notes_out_of_reach_are_strummed() {
     assert!((NEXT..NEXT + 144).contains(&times[0]), "{times:?}");
     assert_eq!(times[1..], [1, 2, 3, 4, 5].map(|way| NEXT + 3_840 * way));
 }
+
+/// Those that have had no note, too.
+#[test]
+fn the_palm_of_a_channel_waits_on_its_string() {
+    let palm = |told: &[(u64, PlayerEvent)]| {
+        let mut player = GUITAR.player(EXACT);
+        player.set_input(BY_STRINGS);
+        let laid =
+            |timed: &TimedGesture| matches!(timed.gesture, Gesture::Place { .. }).then_some(timed.string);
+        let mut strings: Vec<_> = play(&mut player, told).iter().filter_map(laid).collect();
+        strings.sort_unstable();
+        strings.dedup();
+        strings
+    };
+    assert_eq!(palm(&[(0, control(2, 20))]), [2]);
+    // A keyswitch of any channel speaks for all: the fourth from the first key on is the palm.
+    let switches = (0, PlayerEvent::Controller { channel: 0, number: 27, value: 1.0 / 127.0 });
+    let switch = (1, PlayerEvent::NoteOn { channel: 3, key: 4, velocity: 0.7 });
+    assert_eq!(palm(&[switches, switch]), [0, 1, 2, 3, 4, 5]);
+}

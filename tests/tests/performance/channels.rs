@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use low_action::controls::Touching;
 use low_action::performance::{Expression, InputMode, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, control, note, play, wheel};
+use low_action_tests::hands::{EXACT, Neck, control, note, of_string, play, wheel};
 use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
@@ -366,4 +366,48 @@ fn what_is_said_of_all_notes_is_said_of_each() {
     assert_eq!(all(Some(2), None), each(&[(2, 60), (2, 64)]));
     assert_eq!(all(None, Some(60)), each(&[(2, 60)]));
     assert_eq!(all(Some(1), Some(60)), []);
+}
+
+/// A melody goes on over the notes of another channel, at its sample or a moment before it.
+#[test]
+fn what_other_channels_play_is_no_reason_to_pluck() {
+    let melody = [(0, cc(68, 127)), (0, note(0, 64)), (24_000, note(0, 66))];
+    let alone = keyboard(&melody);
+    assert_eq!(plucks(&alone).len(), 1);
+    for time in [23_500, 24_000] {
+        let mut both = [&melody[..], &[(time, note(1, 40))]].concat();
+        both.sort_by_key(|event| event.0);
+        let both = keyboard(&both);
+        assert_eq!(plucks(&both).iter().map(|pluck| pluck.1).collect::<Vec<_>>(), [0, 5], "{time}");
+        assert_eq!(of_string(&both, 0), of_string(&alone, 0), "{time}");
+    }
+}
+
+/// Where channels are voices of one player, whichever puts everything back does so for the capo of the same sample's notes.
+#[test]
+fn a_channel_that_is_reset_takes_the_capo_from_the_notes_to_come() {
+    let played = |channel| {
+        let events =
+            [(0, cc(26, 5)), (100, note(0, 42)), (100, control(channel, 121, 0)), (24_000, note(0, 40))];
+        keyboard(&events)
+    };
+    assert_eq!(played(1), played(0));
+    // In MPE only the first one speaks of the capo.
+    let last = |channel| plucks(&mpe(&[(0, cc(26, 5)), (100, control(channel, 121, 0)), (200, note(1, 40))]));
+    assert_ne!(last(2), last(0));
+}
+
+/// Notes that wait for a string hear what is said of those that sound.
+#[test]
+fn what_is_said_of_all_notes_is_said_of_those_to_come() {
+    let seven = [40, 45, 50, 55, 59, 64, 67].map(|key| (0, note(0, key)));
+    let after = |told: &[(u64, PlayerEvent)]| {
+        let mut gestures = keyboard(told);
+        gestures.retain(|timed| timed.time > 12_000);
+        gestures.iter().filter(|timed| matches!(timed.gesture, Gesture::Bend { .. })).count()
+    };
+    let [swings, ceases] = [127, 0].map(|depth| control(0, 1, depth));
+    assert!(after(&[&[(0, swings)], &seven[..]].concat()) > 100);
+    assert_eq!(after(&[&[(0, swings)], &seven[..], &[(960, ceases)]].concat()), 0);
+    assert_eq!(after(&[&[(0, swings)], &seven[..], &[(960, control(0, 121, 0))]].concat()), 0);
 }

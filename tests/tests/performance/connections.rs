@@ -3,7 +3,7 @@
 //! each semitone where the fret is; and each gives way to a new pluck where a hand would not reach.
 
 use low_action::performance::PlayerEvent;
-use low_action_dsp::{FINGERS_PER_STRING, Gesture, TimedGesture};
+use low_action_dsp::{FINGERS_PER_STRING, Gesture, Setup, TimedGesture};
 use low_action_tests::pitch::off_key;
 use low_action_tests::stage::{Stage, amplitude, at, cc, decibels, hertz, off, on, peak};
 
@@ -276,4 +276,29 @@ fn a_pedal_that_goes_up_leaves_the_key_below() {
             assert!(cents.abs() < 4.0 && peak(part) > 0.01, "pedal {pedal} from {from} s: {cents} cents");
         }
     }
+}
+
+/// A capo that is moved while a note sounds is where it has been told to be before the next one stops the string.
+#[test]
+fn a_capo_moves_under_a_run() {
+    let legato = [(0.0, cc(68, 127)), (0.0, cc(26, 3)), (0.0, on(69, 90))];
+    for (capo, key) in [(0, 66), (0, 64), (2, 66), (5, 69), (1, 67)] {
+        let mut stage = Stage::alone("electric", 0);
+        let moved = [(0.2, cc(26, capo)), (0.4, on(70, 90)), (0.6, on(key, 90))];
+        let played = stage.play(&[&legato[..], &moved].concat(), 1.2);
+        assert_eq!(plucks(&played.gestures), 1);
+        let off = off_key(&played.strings[0][at(0.8)..], f64::from(key));
+        assert!(off.abs() < 10.0, "capo {capo}, key {key}: {off} cents");
+    }
+}
+
+/// Of two notes the later one, though a strum has yet to reach the other.
+#[test]
+fn the_latest_note_is_that_which_began_last() {
+    let mut stage = Stage::new(&Setup::shipped("electric").expect("it comes with the program"));
+    // The strum takes 0.4 s to the highest string, on which neither of the others can be played.
+    let strum = [(0.0, cc(68, 127)), (0.0, cc(21, 127)), (0.0, on(40, 90)), (0.0, on(64, 90))];
+    let played = stage.play(&[&strum[..], &[(0.1, on(59, 90)), (0.2, on(61, 90))]].concat(), 0.6);
+    let plucked = played.gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. }));
+    assert_eq!(plucked.map(|g| g.string).collect::<Vec<_>>(), [5, 1, 0]);
 }

@@ -377,3 +377,29 @@ proptest! {
         }
     }
 }
+
+/// A finger that has slid or glided for the wheel stays there when its note is over, and pulling makes up for what the wheel does
+/// then: it would otherwise pull all of the bend on top of what the finger has done.
+#[test]
+fn a_wheel_that_goes_back_after_a_note_does_not_bend_it_farther() {
+    for (neck, key, range, turns) in [
+        // Five frets up, and one less.
+        (&*GUITAR, 60, 12.0, [5.0, 4.0]),
+        (&Neck::of("classical"), 60, 2.0, [2.0, 1.2]),
+        (&Neck::of("fretless-bass"), 33, 2.0, [1.0, 0.9]),
+    ] {
+        let wheel = |semitones: f32| PlayerEvent::PitchBend { channel: 0, value: semitones / range };
+        let [there, back] = turns.map(wheel);
+        let style = Style { variation: 0.0, seed: 0, bend_range: f64::from(range) };
+        let events =
+            [(0, on(key)), (WHILE, there), (2 * WHILE, off(key)), (2 * WHILE + 960, back), (3 * WHILE, back)];
+        let gestures = play_by(&mut neck.player(style), &events);
+        assert!(gestures.iter().any(|g| matches!(g.gesture, Gesture::Slide { .. })));
+        let ratios = gestures.iter().filter(|g| g.time > 2 * WHILE).filter_map(|g| match g.gesture {
+            Gesture::Bend { tension_ratio, .. } => Some(tension_ratio),
+            _ => None,
+        });
+        let ratios: Vec<_> = ratios.collect();
+        assert!(!ratios.is_empty() && ratios.iter().all(|&ratio| ratio < 1.0), "{key}: {ratios:?}");
+    }
+}

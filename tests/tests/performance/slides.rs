@@ -1,8 +1,8 @@
 //! The promise: a finger that slides goes on from where it is. The next note counts from there, and a wheel or a vibrato on
 //! the way does not hurry it. What lies beyond the neck takes no time.
 
-use low_action::performance::{InputMode, PlayerEvent};
-use low_action_dsp::Gesture;
+use low_action::performance::{Annotation, GestureSink, InputMode, PlayerEvent, Style, TimedAnnotation};
+use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, play};
 use low_action_tests::pitch::off_key;
 use low_action_tests::stage::{LOOK, Stage, at, cc, decibels, off, on, peak};
@@ -89,6 +89,39 @@ fn what_lies_beyond_the_neck_takes_no_time() {
         .collect();
     assert_eq!(slides.len(), 2, "{slides:?}");
     assert!(slides.iter().all(|&duration| duration < 0.03), "{slides:?}");
+}
+
+/// How long bends take, s: as they are done, and as they are told for labels.
+#[derive(Default)]
+struct Bends([Vec<f64>; 2]);
+
+impl GestureSink for Bends {
+    fn gesture(&mut self, timed: TimedGesture) {
+        if let Gesture::Bend { duration, .. } = timed.gesture {
+            self.0[0].push(duration);
+        }
+    }
+
+    fn annotation(&mut self, told: TimedAnnotation) {
+        if let Annotation::Bent { duration, .. } = told.annotation {
+            self.0[1].push(duration);
+        }
+    }
+}
+
+/// No finger slides on an open string, however far past the reach of pulling the wheel goes.
+#[test]
+fn an_open_string_is_bent_in_the_time_that_pulling_takes() {
+    for turned in [0, 9_600] {
+        let mut player = Neck::of("electric").player(Style { variation: 0.0, seed: 0, bend_range: 12.0 });
+        let mut bends = Bends::default();
+        let mut events = [(0, on(64, 90)), (turned, wheel(1.0))];
+        events.sort_by_key(|event| event.0);
+        events.into_iter().for_each(|(time, event)| player.event(time, event, &mut bends));
+        player.advance(48_000, &mut bends);
+        let [done, told] = bends.0;
+        assert!(done.len() == 1 && done == told, "{done:?} s, {told:?} s");
+    }
 }
 
 /// Frets that go by pluck the string. (In 30 ms over seven frets, each in time with what the one before had left, they made a soft

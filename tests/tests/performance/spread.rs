@@ -161,3 +161,78 @@ fn a_stroke_back_and_forth_turns_once_for_a_chord() {
     assert_eq!(strokes(0), [[Technique::Pluck; 4], [Technique::UpStroke; 4]].concat());
     assert_eq!(strokes(200), strokes(0));
 }
+
+/// The stroke is that of the chord also where it goes on with a note for which nothing of it makes room.
+#[test]
+fn a_chord_whose_notes_cannot_make_room_is_one_stroke() {
+    // The lowest string alone has both; the second is played an octave higher.
+    let told = [(0, cc(22, 2))];
+    let events = [&told[..], &[(4_800, on(40, 90)), (5_088, on(41, 90)), (48_000, on(52, 90))]].concat();
+    let techniques = played(&events, 96_000).1.techniques();
+    assert_eq!(techniques, [Technique::Pluck, Technique::Pluck, Technique::UpStroke]);
+}
+
+/// Whatever hands have been told since: a capo that leaves a note no fret on its string, or harmonics, of which one that begins is
+/// hardly heard on the string that it has.
+#[test]
+fn a_note_whose_string_nobody_takes_stays() {
+    let capo = [(0, on(64, 90)), (240, cc(26, 3)), (480, on(59, 90)), (48_000, off(64)), (48_000, off(59))];
+    let harmonics = [
+        (0, on(50, 90)),
+        (0, on(45, 90)),
+        (48_000, cc(23, 1)),
+        (48_000, on(64, 90)),
+        (48_480, off(45)),
+        (48_960, on(76, 90)),
+        (96_000, off(50)),
+        (96_000, off(64)),
+        (96_000, off(76)),
+    ];
+    for events in [&capo[..], &harmonics] {
+        let last = events[events.len() - 1].0;
+        let (player, heard) = played(events, last + 1);
+        assert_eq!(player.compromises(), Compromises::default());
+        assert_eq!(
+            heard.0.len(),
+            events.iter().filter(|event| matches!(event.1, PlayerEvent::NoteOn { .. })).count()
+        );
+        let hanging: Vec<_> = (0..128).filter(|&key| player.sounds(0, key)).collect();
+        assert!(hanging.is_empty(), "{hanging:?}");
+    }
+}
+
+/// The first note of such a chord takes over from the one that is held, and is no reason for the others to do so from it.
+#[test]
+fn a_chord_after_a_held_note_is_hammered_once() {
+    let told = [(0, cc(68, 127)), (0, on(40, 90))];
+    let chord = [(48_000, on(45, 90)), (48_480, on(50, 90)), (48_960, on(55, 90))];
+    let (player, heard) = played(&[&told[..], &chord].concat(), 96_000);
+    let [pluck, hammer] = [Technique::Pluck, Technique::HammerOn];
+    assert_eq!(heard.techniques(), [pluck, hammer, pluck, pluck]);
+    assert_eq!(heard.strings()[0], heard.strings()[1]);
+    assert!([45, 50, 55].iter().all(|&key| player.sounds(0, key)));
+    // A note that an ornament goes back to has not begun with it: the next is hammered.
+    let told = [(0, cc(68, 127)), (0, on(65, 90))];
+    let ornament = [(48_000, on(67, 90)), (48_720, off(67)), (49_200, on(69, 90))];
+    let (_, heard) = played(&[&told[..], &ornament].concat(), 96_000);
+    assert_eq!(heard.techniques(), [pluck, hammer, Technique::PullOff, hammer]);
+}
+
+/// What channels have said between two notes of it is said of a note that is struck once more.
+#[test]
+fn a_note_that_makes_room_goes_under_the_palm() {
+    let told = |time| (time, cc(20, 100));
+    let notes = [(0, on(64, 90)), (480, on(84, 90))];
+    let struck = |palm: u64| {
+        let mut events = [&notes[..], &[told(palm)]].concat();
+        events.sort_by_key(|event| event.0);
+        let (player, heard) = played(&events, 960);
+        assert_eq!(player.compromises().moved_strings, 1);
+        let string = heard.strings()[2];
+        let mut gestures = GUITAR.told(InputMode::Keyboard, &Touching::new(0.0, 2.0), &events);
+        gestures.retain(|timed| timed.string == string && (480..9_600).contains(&timed.time));
+        gestures.iter().filter(|timed| matches!(timed.gesture, Gesture::Lift { .. })).count()
+    };
+    assert_eq!(struck(240), struck(479));
+    assert_eq!(struck(240), 0, "the palm stays on the string");
+}

@@ -3,7 +3,7 @@
 
 use low_action::performance::PlayerEvent;
 use low_action_dsp::{Gesture, Setup};
-use low_action_tests::stage::{Stage, cc, level, on};
+use low_action_tests::stage::{Stage, cc, level, off, on};
 
 const RATE: f64 = 48_000.0;
 /// F major under one finger, from the low strings, which are struck first.
@@ -51,6 +51,27 @@ fn no_string_is_heard_before_the_stroke_reaches_it() {
             }
         }
     }
+}
+
+/// A strum is the right hand's; fingers that tap come down together, and nothing waits for a stroke.
+#[test]
+fn taps_come_down_together() {
+    let mut stage = Stage::new(&Setup::shipped("electric").expect("it comes with the program"));
+    let keys = [42, 47, 52, 57, 61, 66];
+    let taps = keys.into_iter().map(|key| (0.0, on(key, 90)));
+    let up = keys.into_iter().map(|key| (0.1, off(key)));
+    let events: Vec<_> = [(0.0, cc(21, 127)), (0.0, cc(22, 7))].into_iter().chain(taps).chain(up).collect();
+    let gestures = stage.play(&events, 0.5).gestures;
+    let times = |kind: fn(&Gesture) -> bool| {
+        let mut strings = [f64::NAN; 6];
+        for timed in gestures.iter().rev().filter(|timed| kind(&timed.gesture)) {
+            strings[timed.string] = timed.time as f64 / RATE;
+        }
+        strings
+    };
+    assert_eq!(times(|gesture| matches!(gesture, Gesture::Throw { .. })), [0.0; 6]);
+    // The edge of the right hand, as soon as keys are up.
+    assert_eq!(times(|gesture| matches!(gesture, Gesture::Place { finger: 2, .. })), [0.1; 6]);
 }
 
 /// What holds back the finger of each string, kg/s: by it the finger's force makes its speed.

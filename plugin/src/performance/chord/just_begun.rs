@@ -2,10 +2,49 @@
 //! what is to come: so those that began a moment ago, and whose keys are down, are placed anew with the next. They stay where they
 //! are unless another needs their string; then they are struck once more on one of their own. None is lost to it.
 
-use super::{Manner, Stroke, Unplaced, Use};
+use super::{Articulation, Manner, Placement, Stroke, Unplaced, Use};
 use crate::performance::Performance;
 use crate::performance::hand::LARGEST_CHORD;
 use crate::performance::technique::{LONGEST_CHORD, TOGETHER};
+
+/// The last chord, as it has begun.
+#[derive(Debug)]
+pub(in crate::performance) struct JustBegun {
+    /// Its note that each string began last.
+    notes: Vec<Option<Unplaced>>,
+    /// When it began, and when it went on, samples.
+    began: u64,
+    went_on: u64,
+    /// Whether what begins now goes on with its stroke back and forth.
+    goes_on: bool,
+}
+
+impl JustBegun {
+    /// None has begun on so many strings.
+    pub fn new(strings: usize) -> Self {
+        Self { notes: vec![None; strings], began: 0, went_on: 0, goes_on: false }
+    }
+
+    /// None has begun.
+    pub fn reset(&mut self) {
+        self.notes.fill(None);
+        (self.began, self.went_on) = (0, 0);
+    }
+
+    /// As another has begun: on its strings, if these go on, or on strings that are no more.
+    pub fn take_over(&mut self, old: &Self, strings_go_on: bool) {
+        self.reset();
+        (self.began, self.went_on) = (old.began, old.went_on);
+        if strings_go_on {
+            self.notes.iter_mut().zip(&old.notes).for_each(|(note, old)| *note = *old);
+        }
+    }
+
+    /// A note of it begins on a string.
+    pub(super) fn note(&mut self, string: usize, note: Unplaced) {
+        self.notes[string] = Some(note);
+    }
+}
 
 impl Performance {
     /// The sample so many seconds before now.
@@ -20,7 +59,7 @@ impl Performance {
         if self.is_by_strings() {
             return None;
         }
-        let begun = self.begun[string]?;
+        let begun = self.just_begun.notes[string]?;
         let note = self.strings[string].begun_in(since..self.now)?;
         let (channel, key) = (note.channel, note.key);
         if !begun.is(channel, key) || self.chord.iter().any(|other| other.is(channel, key)) {
@@ -28,39 +67,60 @@ impl Performance {
         }
         let (tuning, pressure, vibrato) = (note.tuning, note.pressure, note.vibrato);
         let manner = Manner { tuning, pressure, vibrato, ..begun.manner };
-        Some(Unplaced { presses: note.presses, manner, on: Some(string), ..begun })
+        let Articulation { palm, tremolo, .. } = self.channels[usize::from(channel)].articulation;
+        let articulation = Articulation { palm, tremolo, ..begun.articulation };
+        let on = Some(Placement { string, fret: note.fret });
+        Some(Unplaced { presses: note.presses, manner, articulation, on, ..begun })
     }
 
     /// The same of a moment ago.
-    fn just_begun(&self, string: usize) -> Option<Unplaced> {
+    fn begun_a_moment_ago(&self, string: usize) -> Option<Unplaced> {
         self.begun_since(string, self.before(TOGETHER))
     }
 
     /// Notes begin now: with those before them, if they come in time.
     pub(super) fn count_chord(&mut self) {
-        if self.chord_went_on < self.before(TOGETHER) {
-            self.chord_began = self.now;
+        if self.just_begun.went_on < self.before(TOGETHER) {
+            self.just_begun.began = self.now;
         }
-        self.chord_went_on = self.now;
+        self.just_begun.went_on = self.now;
     }
 
-    /// Whether a note that begins now is of a chord some of whose notes have just begun.
-    pub(super) fn follows_just_begun(&self) -> bool {
-        (0..self.strings.len()).any(|string| self.just_begun(string).is_some())
+    /// Whether a note that begins now is of a chord some of whose notes, of such a channel (`None`: of any), have just begun.
+    pub(super) fn follows_just_begun(&self, channel: Option<u8>) -> bool {
+        let mut begun = (0..self.strings.len()).filter_map(|string| self.begun_a_moment_ago(string));
+        begun.any(|note| channel.is_none_or(|own| own == note.wanted.channel))
     }
 
     /// Notes that have just begun are placed with the chord, and so are those before them that each came in time for the next, as
     /// those of a strum do.
     pub(super) fn join_just_begun(&mut self) {
-        if self.chord_went_on < self.before(TOGETHER) {
+        self.just_begun.goes_on = false;
+        if self.just_begun.went_on < self.before(TOGETHER) {
             return;
         }
-        let since = self.chord_began.max(self.before(LONGEST_CHORD));
+        let since = self.just_begun.began.max(self.before(LONGEST_CHORD));
         for string in 0..self.strings.len() {
             let begun = self.begun_since(string, since);
             if let Some(note) = begun.filter(|_| self.chord.len() < LARGEST_CHORD) {
                 self.chord.push(note);
+                self.just_begun.goes_on |= note.articulation.stroke == Stroke::Alternate;
             }
+        }
+    }
+
+    /// They stay where they are unless another takes their string, and whatever hands have been told since.
+    pub(super) fn stay_just_begun(&mut self) {
+        let left = |performance: &Self| {
+            performance.chord.iter().enumerate().find_map(|(index, note)| {
+                let is_taken = |own: &Placement| {
+                    performance.placements.iter().flatten().any(|other| other.string == own.string)
+                };
+                Some((index, note.on.filter(|own| !is_taken(own))?))
+            })
+        };
+        while let Some((index, own)) = left(self) {
+            self.placements[index] = Some(own);
         }
     }
 
@@ -75,7 +135,7 @@ impl Performance {
         self.chord.retain(|note| note.on.is_none());
         for string in 0..self.strings.len() {
             let bound = self.chord.iter().any(|note| note.wanted.only == Some(string));
-            if !bound && self.just_begun(string).is_some() {
+            if !bound && self.begun_a_moment_ago(string).is_some() {
                 self.uses[string] = Use::Untouchable;
             } else {
                 self.uses[string] = self.strings[string].usage(self.now);
@@ -87,7 +147,7 @@ impl Performance {
     pub(super) fn make_room(&mut self) {
         for (note, placement) in self.chord.iter().zip(&self.placements) {
             let to = placement.map(|placement| placement.string);
-            if let Some(from) = note.on.filter(|_| note.on != to) {
+            if let Some(from) = note.on.map(|from| from.string).filter(|&from| to != Some(from)) {
                 let heard = !self.strings[from].give_up_stroke();
                 self.compromises.moved_strings += u64::from(heard);
             }
@@ -101,6 +161,6 @@ impl Performance {
 
     /// Whether the chord goes on with a stroke back and forth that has just begun.
     pub(super) fn goes_on(&self) -> bool {
-        self.chord.iter().any(|note| note.on.is_some() && note.articulation.stroke == Stroke::Alternate)
+        self.just_begun.goes_on
     }
 }

@@ -1,6 +1,6 @@
 //! **Legato**: a note that begins alone while the latest one of its channel is held is played on that note's
-//! string, if it is there and near enough. Where each string has a channel, it is alone that begins alone on its
-//! string: several are hammered, pulled or slid at once as one is.
+//! string, if it is there and near enough. It is alone that begins alone of its channel; in MPE, where each note has one, alone of all.
+//! So where each string has a channel, several are hammered, pulled or slid at once as one is.
 
 use super::{Articulation, HAMMER_REACH, Placement, SLIDE_REACH, Stop, Unplaced, Use};
 use crate::performance::string::StringPlayer;
@@ -24,11 +24,16 @@ impl Performance {
         }
     }
 
-    /// Whether no other note begins with one of the chord: none on its string, where each has a channel.
+    /// Whether no other note of its channel begins with one of the chord.
     fn begins_alone(&self, index: usize) -> bool {
-        let channel = self.chord[index].wanted.channel;
-        let beside = |other: &&Unplaced| !self.is_by_strings() || other.wanted.channel == channel;
+        let channel = self.melody_of(self.chord[index].wanted.channel);
+        let beside = |other: &&Unplaced| channel.is_none_or(|own| own == other.wanted.channel);
         self.chord.iter().filter(beside).count() == 1
+    }
+
+    /// The channel whose notes a note of one can take over from; `None` for those of any, where each has its own.
+    fn melody_of(&self, channel: u8) -> Option<u8> {
+        (!self.is_mpe()).then_some(channel)
     }
 
     /// A note that begins alone takes over from the latest one of its channel, if that is held, notes are
@@ -40,20 +45,20 @@ impl Performance {
         if !connected || stop == Stop::Harmonic || stop == Stop::Mute {
             return false;
         }
-        let channel = (!self.is_mpe()).then_some(wanted.channel);
+        let channel = self.melody_of(wanted.channel);
         // What has been placed at this very sample begins with it.
         let begun = |string: &StringPlayer| {
             let of_channel = channel.is_none_or(|own| string.channel() == Some(own));
             of_channel && string.usage(self.now) == Use::Untouchable
         };
-        if self.strings.iter().any(begun) || self.follows_just_begun() {
+        if self.strings.iter().any(begun) || self.follows_just_begun(channel) {
             return false;
         }
         let held = self.strings.iter().enumerate().filter_map(|(index, string)| {
-            let (since, fret) = string.held(channel)?;
-            Some((since, index, fret))
+            let note = string.held(channel)?;
+            Some(((note.began, note.since), index, note.fret))
         });
-        let Some((_, string, from)) = held.max_by_key(|&(since, ..)| since) else { return false };
+        let Some((_, string, from)) = held.max_by_key(|&(latest, ..)| latest) else { return false };
         let Some(fret) = self.hand.fret(&wanted, string) else { return false };
         let open = from.min(fret) <= self.hand.capo();
         let slides = slide || stop == Stop::Bar;
@@ -66,6 +71,9 @@ impl Performance {
         self.hand.follow(fret);
         self.strings[string].connect(time, start, out);
         self.strings[string].bend(time, wanted.channel, bend);
+        // Others may follow upon it that are of one chord with it.
+        self.count_chord();
+        self.just_begun.note(string, self.chord[index]);
         true
     }
 }

@@ -2,7 +2,7 @@
 //! chord apart: what is said of notes that sound is said of those that are yet to be placed, too, and keys that the chord has
 //! to do with go up when it has been placed.
 
-use super::{Articulation, LARGEST_CHORD, MANAGER, Unplaced, controller};
+use super::{Articulation, CHANNELS, LARGEST_CHORD, MANAGER, Manner, Unplaced, controller};
 use crate::performance::channel::Request;
 use crate::performance::{GestureSink, Performance};
 
@@ -61,7 +61,7 @@ impl Performance {
     /// told (`tell_chord`). Messages of other channels stand between the notes of one chord wherever notes have channels of
     /// their own.
     pub(in crate::performance) fn changes_chord(&self, channel: u8, number: u8) -> bool {
-        if controller::is_of_all(number) {
+        if controller::is_of_all(number, self.is_mpe()) {
             return true;
         }
         let all = channel == MANAGER && (self.is_mpe() || number == controller::DATA_ENTRY);
@@ -72,21 +72,28 @@ impl Performance {
         (notes && controller::is_of_begun(number)) || (released && number == controller::PEDAL)
     }
 
-    /// What channels have said of notes that sound is said of those, too, that have begun now.
+    /// What channels have said of notes that sound is said of those, too, that have begun now or come late.
     pub(in crate::performance) fn tell_chord(&mut self, request: Request, is_meant: impl Fn(u8) -> bool) {
-        for index in 0..self.chord.len() {
-            let channel = self.chord[index].wanted.channel;
-            if !is_meant(channel) {
-                continue;
+        let (presses, swings, touches) = match request {
+            Request::Press => (true, false, false),
+            Request::Swing => (false, true, false),
+            Request::Touch => (false, false, true),
+            Request::Reset => (true, true, true),
+            _ => return,
+        };
+        let manners: [Manner; CHANNELS] = std::array::from_fn(|channel| self.manner(channel as u8));
+        let late = self.late.iter_mut().map(|late| &mut late.note);
+        for note in self.chord.iter_mut().chain(late).filter(|note| is_meant(note.wanted.channel)) {
+            let channel = usize::from(note.wanted.channel);
+            let Articulation { palm, tremolo, .. } = self.channels[channel].articulation;
+            if presses {
+                note.manner.pressure = manners[channel].pressure;
             }
-            let manner = self.manner(channel);
-            let Articulation { palm, tremolo, .. } = self.channels[usize::from(channel)].articulation;
-            let note = &mut self.chord[index];
-            match request {
-                Request::Press => note.manner.pressure = manner.pressure,
-                Request::Swing => note.manner.vibrato = manner.vibrato,
-                Request::Touch => (note.articulation.palm, note.articulation.tremolo) = (palm, tremolo),
-                _ => {}
+            if swings {
+                note.manner.vibrato = manners[channel].vibrato;
+            }
+            if touches {
+                (note.articulation.palm, note.articulation.tremolo) = (palm, tremolo);
             }
         }
     }

@@ -1,9 +1,10 @@
 //! Notes on their way to a string: struck and not placed yet, or waiting until one is free.
 
-use super::{Articulation, Manner, Wanted};
+use super::{Articulation, Manner, Placement, Wanted};
 use crate::performance::{GestureSink, Performance};
 
-/// A note that has no string yet: one of a chord that is not complete, or one that waits for its string.
+/// A note of a chord as it was asked for: it has no string yet, or waits for one, or has just begun and is placed once more with
+/// those that follow.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::performance) struct Unplaced {
     pub wanted: Wanted,
@@ -19,8 +20,8 @@ pub(in crate::performance) struct Unplaced {
     pub articulation: Articulation,
     /// Whether it has waited for a string.
     pub waited: bool,
-    /// The string on which it has just begun, if it has.
-    pub on: Option<usize>,
+    /// Where it has just begun, if it has.
+    pub on: Option<Placement>,
 }
 
 impl Unplaced {

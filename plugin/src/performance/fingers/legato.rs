@@ -24,6 +24,10 @@ impl Fingers {
         strength: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> (Technique, Option<Gesture>) {
+        if self.capo[0] != self.capo[1] {
+            // It has been told to go elsewhere, and does so before anything else stops the string.
+            self.lay_capo(at);
+        }
         let stopped = self.slidable().map_or(self.capo[1], |finger| finger.fret);
         match slide.filter(|_| fret > self.capo[1] && self.slidable().is_some()) {
             _ if fret == stopped => self.go_on(fret, strength, at),
@@ -217,17 +221,18 @@ impl Fingers {
         }
     }
 
-    /// Slides the fretting finger so many frets away from where the note began, as far as there are frets.
-    /// Gives back how many it is away then, and the slide if it moves; an open string cannot be slid.
+    /// Slides the fretting finger so many frets away from where the note began, as far as it [can](Self::can_slide).
+    /// Gives back how many it is away then, and the slide if it moves.
     pub(crate) fn slide(
         &mut self,
         frets: i32,
         duration: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> (i32, Option<Gesture>) {
-        let Some(sliding) = self.slidable() else { return (0, None) };
+        let frets = self.can_slide(frets);
+        let Some(sliding) = self.slidable() else { return (frets, None) };
         let Finger { slot, fret: at_fret, bar, .. } = sliding;
-        let fret = self.home as i32 + self.can_slide(frets);
+        let fret = self.home as i32 + frets;
         let mut slide = None;
         if fret as usize != at_fret {
             self.lift_anchor(fret as usize, at);
@@ -240,17 +245,18 @@ impl Fingers {
             at.does(moves);
             slide = Some(moves);
         }
-        (fret - self.home as i32, slide)
+        (frets, slide)
     }
 
-    /// So many frets, or as many of them as the neck has for a finger that slides.
+    /// How far the fretting finger can be away from where the note began if it is to be so many frets: as far as the neck goes. One
+    /// that has ceased to press stays where it is, and where there is none nothing slides.
     pub(crate) fn can_slide(&self, frets: i32) -> i32 {
+        let home = self.home as i32;
         if self.slidable().is_none() {
-            return frets;
+            return self.fretting.map_or(0, |finger| finger.fret as i32 - home);
         }
         let last = self.string.geometry.frets.len() as i32;
         let first = self.capo[1] as i32 + 1;
-        let home = self.home as i32;
         frets.clamp(first.min(last) - home, last - home)
     }
 

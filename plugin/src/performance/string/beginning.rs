@@ -17,10 +17,14 @@ impl StringPlayer {
         self.take_presses(&mut start);
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
-        let strength = start.force();
         let Articulation { stroke, stop, .. } = start.articulation;
         // A finger that presses no fret has nothing to strike the string against.
         let taps = stroke == Stroke::Tap && stop == Stop::Press && start.fret > self.fingers.capo();
+        if taps {
+            // Fingers come down together: it is the right hand that goes over the strings.
+            (start.wait, start.accent) = (0.0, 1.0);
+        }
+        let strength = start.force();
         let stroke = start.stroke();
         // A light finger at a node takes up what it is to take up.
         let stilling = (stills && !taps && stop != Stop::Harmonic).then(|| self.stilling(stroke, start.fret));
@@ -112,6 +116,7 @@ impl StringPlayer {
             channel: start.channel,
             key: start.key,
             velocity: start.velocity,
+            began: time,
             since: time + self.samples(start.wait),
             presses: start.presses,
             caught: start.caught,

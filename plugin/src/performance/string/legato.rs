@@ -4,11 +4,10 @@ use super::{Note, Start, StringPlayer};
 use crate::performance::GestureSink;
 
 impl StringPlayer {
-    /// The note that sounds while its key is down, if it is of that channel (`None`: of any): since when, and
-    /// its fret.
-    pub(crate) fn held(&self, channel: Option<u8>) -> Option<(u64, usize)> {
+    /// The note that sounds while its key is down, if it is of that channel (`None`: of any).
+    pub(crate) fn held(&self, channel: Option<u8>) -> Option<Note> {
         let note = self.note.filter(|note| note.key_down() && self.ending.is_none())?;
-        channel.is_none_or(|channel| channel == note.channel).then_some((note.since, note.fret))
+        channel.is_none_or(|channel| channel == note.channel).then_some(note)
     }
 
     /// A note takes over from the one that sounds, whose key stays down under it: by a hammer, a pull or a
@@ -89,7 +88,8 @@ impl StringPlayer {
     pub(super) fn go_back(&mut self, time: u64, out: &mut impl GestureSink) -> bool {
         let Some(latest) = self.under.iter().rposition(Option::is_some) else { return false };
         let (Some(back), Some(from)) = (self.under[latest].take(), self.note) else { return false };
-        self.note = Some(Note { since: time, struck: back.struck.in_turn_with(from.struck), ..back });
+        self.note =
+            Some(Note { began: time, since: time, struck: back.struck.in_turn_with(from.struck), ..back });
         self.bend.begin(back.channel);
         self.deeds.forget_tap();
         let mut at = self.moment(time, out);

@@ -98,6 +98,9 @@ pub(crate) struct Note {
     pub key: u8,
     /// How hard that was struck, 0 to 1.
     pub velocity: f64,
+    /// Sample at which it began, or came back.
+    pub began: u64,
+    /// Sample at which it is first heard, which a stroke that has some way to go makes later.
     pub since: u64,
     /// How often its key went down that has not gone up again: each press has a note-off of its own.
     pub presses: u32,
