@@ -3,14 +3,14 @@
 //! They are short texts, written at once into a folder that may have to be made, and must outlive a power failure. What
 //! commands compute is another matter (`cli/output`): it is written as it comes, goes to standard output and devices too,
 //! can be computed again, and must vanish when the command is stopped. Both begin beside their place, by [`beside`] and
-//! [`behind_links`].
+//! [`behind_links`], and take it by [`take_place`].
 
 use std::fs::{self, File, Permissions};
-use std::io::{self, Write};
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, PathPersistError, TempPath};
 
 /// Writes a text in place of what is there, in a folder that is made if need be. Where a link is, what it points to is
 /// replaced.
@@ -56,10 +56,42 @@ impl TextDraft {
     /// Takes the place of what is there.
     ///
     /// # Errors
-    /// When it cannot be renamed; what was there is left.
+    /// When it can neither be renamed nor copied into what is there.
     pub fn appear(self) -> Result<()> {
-        let renamed = self.file.persist(&self.place).map_err(|error| error.error);
-        renamed.map(drop).with_context(|| format!("cannot write {}", self.target.display()))
+        let (file, path) = self.file.into_parts();
+        let placed = take_place(path, &file, &self.place).map_err(|error| error.error);
+        placed.with_context(|| format!("cannot write {}", self.target.display()))
+    }
+}
+
+/// Lets a finished file take the place that it was written beside. There are files that may be written and not replaced, as
+/// one that is mounted by itself or another user's in a folder like `/tmp`: into such a one it is copied.
+///
+/// # Errors
+/// When that fails, too; then the file is still where it was, and gone when dropped.
+pub(crate) fn take_place(finished: TempPath, file: &File, place: &Path) -> Result<(), PathPersistError> {
+    finished.persist(place).or_else(|refused| {
+        if !fs::symlink_metadata(place).is_ok_and(|found| found.is_file()) {
+            return Err(refused);
+        }
+        copy_over(file, place).map_err(|error| PathPersistError { error, ..refused })
+    })
+}
+
+/// Writes a file's contents over another's.
+fn copy_over(mut from: &File, to: &Path) -> io::Result<()> {
+    let mut to = File::options().write(true).truncate(true).open(to)?;
+    from.rewind()?;
+    io::copy(&mut from, &mut to)?;
+    to.sync_all()
+}
+
+/// What has been done before an error, in words: "only one and two were installed".
+pub(crate) fn only(names: &[String], done: &str) -> String {
+    match names {
+        [] => format!("nothing was {done}"),
+        [name] => format!("only {name} was {done}"),
+        [names @ .., last] => format!("only {} and {last} were {done}", names.join(", ")),
     }
 }
 
@@ -174,6 +206,20 @@ mod tests {
         symlink("circle.toml", &circle).expect("links can be made");
         let error = format!("{:#}", put(&circle, "text").expect_err("it leads nowhere"));
         assert!(error.contains("circle.toml") && error.contains("link") && circle.is_symlink(), "{error}");
+    }
+
+    #[test]
+    fn what_cannot_be_renamed_can_be_copied() {
+        let folder = tempfile::tempdir().expect("there is room");
+        let [own, part] = ["own.toml", "part"].map(|name| folder.path().join(name));
+        fs::write(&own, "something longer").expect("it can be written");
+        fs::write(&part, "new").expect("it can be written");
+        let file = File::options().read(true).append(true).open(&part).expect("it is there");
+        // (Renaming is refused as it is elsewhere for other reasons: what is to be renamed is not there.)
+        fs::remove_file(&part).expect("it is ours");
+        let part = TempPath::try_from_path(part).expect("it is a whole path");
+        take_place(part, &file, &own).expect("it can be copied");
+        assert_eq!(fs::read_to_string(&own).expect("it is there"), "new");
     }
 
     #[test]

@@ -133,13 +133,9 @@ pub fn install(files: &[Checked], folder: &Path) -> Result<Vec<SetupFile>> {
 fn appear(drafts: Vec<(files::TextDraft, SetupFile)>) -> Result<Vec<SetupFile>> {
     let mut installed: Vec<SetupFile> = Vec::with_capacity(drafts.len());
     for (draft, file) in drafts {
-        draft.appear().with_context(|| match installed.as_slice() {
-            [] => "nothing was installed".to_owned(),
-            [file] => format!("only {} was installed", file.name),
-            [files @ .., last] => {
-                let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
-                format!("only {} and {} were installed", names.join(", "), last.name)
-            }
+        draft.appear().with_context(|| {
+            let names: Vec<String> = installed.iter().map(|file| file.name.clone()).collect();
+            files::only(&names, "installed")
         })?;
         installed.push(file);
     }

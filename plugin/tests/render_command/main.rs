@@ -5,6 +5,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod labels;
+#[cfg(target_os = "linux")]
+mod mounted;
 #[cfg(unix)]
 mod open_already;
 mod refusals;

@@ -1,0 +1,66 @@
+//! A file that may be written but not replaced, as one that is mounted by itself in a container, gets what is computed.
+
+use std::fs;
+use std::process::{Command, Output};
+
+use low_action::setups::FOLDER_VARIABLE;
+
+use crate::room::{Room, peak};
+
+/// Runs the program in a room after a command of the shell has mounted something there; nothing if it cannot be mounted.
+fn where_is_mounted(room: &Room, mount: &str, arguments: &[&str]) -> Option<Output> {
+    let program = room.command(&[]);
+    let mut command = Command::new("unshare");
+    command.args(["--user", "--map-root-user", "--mount", "sh", "-c"]);
+    command.arg(format!("{mount} || exit 99; exec \"$@\"")).arg("sh").arg(program.get_program());
+    command.args(arguments).current_dir(room.path("")).env(FOLDER_VARIABLE, room.path("instruments"));
+    let output = command.output().ok()?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    if output.status.code() == Some(99) || said.starts_with("unshare: ") {
+        println!("passed over: nothing can be mounted here: {said}");
+        return None;
+    }
+    Some(output)
+}
+
+const RENDER: [&str; 10] =
+    ["render", "song.mid", "-q", "draft", "--tail", "none", "-o", "mounted.wav", "--labels", "new.json"];
+
+#[test]
+fn what_cannot_be_renamed_over_is_written_into() {
+    let room = Room::new();
+    for name in ["real.wav", "mounted.wav"] {
+        // Longer than what is to come.
+        fs::write(room.path(name), vec![1; 1_000_000]).unwrap();
+    }
+    let mount = "mount --bind real.wav mounted.wav";
+    let Some(output) = where_is_mounted(&room, mount, &RENDER) else { return };
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    room.renders(&["song.mid", "-q", "draft", "--tail", "none", "-o", "plain.wav"]);
+    assert!(peak(&room.path("real.wav")) > 0.01);
+    assert!(fs::read(room.path("real.wav")).unwrap() == fs::read(room.path("plain.wav")).unwrap());
+    // Nothing of it is left beside it.
+    assert_eq!(room.files().len(), 5, "{:?}", room.files());
+}
+
+#[test]
+fn what_it_has_no_room_for_is_kept_beside_it_and_named() {
+    let room = Room::new();
+    fs::write(room.path("mounted.wav"), "").unwrap();
+    fs::create_dir(room.path("small")).unwrap();
+    let mount = "mount -t tmpfs -o size=16k none small && touch small/real.wav && \
+                 mount --bind small/real.wav mounted.wav";
+    let Some(output) = where_is_mounted(&room, mount, &RENDER) else { return };
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.starts_with("error: cannot write ") && said.lines().count() == 1, "{said}");
+    let (reason, kept) = said.trim_end().split_once("; kept: ").unwrap();
+    assert!(reason.contains("mounted.wav: No space left"), "{said}");
+    let kept: Vec<_> = kept.split(", ").map(|kept| kept.split_once(" as ").unwrap()).collect();
+    let [(sound, sound_kept), (labels, labels_kept)] = kept.as_slice() else { panic!("{said}") };
+    assert!(sound.ends_with("mounted.wav") && labels.ends_with("new.json"), "{said}");
+    assert!(peak(sound_kept.as_ref()) > 0.01);
+    assert!(fs::read_to_string(labels_kept).unwrap().starts_with('{'));
+    assert!(!room.path("new.json").exists());
+}
