@@ -27,11 +27,12 @@ impl Files {
     /// Begins them all, so that a full disk or a missing folder shows before the work.
     pub(super) fn begin(arguments: &RenderArgs, output: &Path, strings: &[&str]) -> Result<Self> {
         let (rate, depth) = (arguments.sample_rate, arguments.bit_depth);
-        let mix = WavFile::begin(output, 2, rate, depth)?;
+        // The other files may be to go there, too. (Should one be refused, this goes after those before.)
         let folder = arguments.stems.as_ref().map(|folder| {
             NewFolders::make(folder).with_context(|| format!("cannot make the folder {}", shown(folder)))
         });
         let folder = folder.transpose()?.unwrap_or_default();
+        let mix = WavFile::begin(output, 2, rate, depth)?;
         let paths = stem_paths(arguments, strings);
         let stems = paths.iter().map(|path| WavFile::begin(path, 1, rate, depth)).collect::<Result<_>>()?;
         let labels = arguments.labels.as_deref().map(LabelFile::begin).transpose()?;
