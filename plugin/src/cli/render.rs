@@ -24,7 +24,7 @@ use crate::demo;
 use crate::engine::{Engine, EngineOptions};
 use crate::midi_file::{LARGEST_FILE, Selection, Song};
 use crate::params::{InputChoice, StringOrder};
-use crate::performance::{Compromises, InputMode};
+use crate::performance::{Compromises, InputMode, LONGEST_WAIT};
 use files::{Files, stem_paths};
 use labels::Source;
 pub use options::Tail;
@@ -141,7 +141,8 @@ fn check_length(arguments: &RenderArgs, song: &Song) -> Result<()> {
         );
     }
     let rate = f64::from(arguments.sample_rate);
-    let longest = arguments.bit_depth.largest_length(2) as f64 / rate / 60.0;
+    // (How long notes will wait for strings after the song nobody knows before.)
+    let longest = (arguments.bit_depth.largest_length(2) as f64 / rate - LONGEST_WAIT) / 60.0;
     let whole = minutes + arguments.tail.longest() / 60.0;
     if whole > longest {
         bail!(

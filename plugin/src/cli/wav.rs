@@ -17,6 +17,9 @@ use super::output::Draft;
 /// Bytes a WAV file can hold: sizes are 32-bit, and the header takes some.
 const LARGEST_FILE: u64 = u32::MAX as u64 - 1024;
 
+/// Why no more is written to one that holds as much.
+const FULL: &str = "a WAV file holds 4 GiB and no more";
+
 /// How samples are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BitDepth {
@@ -81,6 +84,8 @@ pub(super) struct WavFile {
     draft: Draft,
     writer: WavWriter<BufWriter<File>>,
     depth: BitDepth,
+    /// Samples of all channels that it still has room for.
+    left: u64,
     findings: Findings,
 }
 
@@ -98,12 +103,16 @@ impl WavFile {
             .map_err(hound::Error::from)
             .and_then(|file| WavWriter::new(BufWriter::new(file), spec))
             .with_context(|| format!("cannot write {}", shown(path)))?;
-        Ok(Self { path: path.to_owned(), draft, writer, depth, findings: Findings::default() })
+        let left = depth.largest_length(channels) * u64::from(channels);
+        Ok(Self { path: path.to_owned(), draft, writer, depth, left, findings: Findings::default() })
     }
 
     /// Adds samples, channels of one instant side by side.
     pub(super) fn write(&mut self, samples: impl Iterator<Item = f32>) -> Result<()> {
         for sample in samples {
+            // What counts its bytes would begin again at 0.
+            let left = self.left.checked_sub(1);
+            self.left = left.with_context(|| format!("cannot write {}: {FULL}", shown(&self.path)))?;
             self.findings.peak = self.findings.peak.max(sample.abs());
             self.findings.not_finite += u64::from(!sample.is_finite());
             let written = match self.depth {
@@ -148,6 +157,22 @@ fn whole(sample: f32, bits: u32) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_full_file_takes_no_more() {
+        let room = tempfile::tempdir().unwrap();
+        let mut file = WavFile::begin(&room.path().join("x.wav"), 2, 48_000, BitDepth::Int24).unwrap();
+        assert!(file.left * 3 <= LARGEST_FILE && file.left * 3 > LARGEST_FILE - 6);
+        file.left = 4;
+        file.write([0.1; 4].into_iter()).unwrap();
+        let error = format!("{:#}", file.write([0.1; 2].into_iter()).unwrap_err());
+        assert!(
+            error.starts_with("cannot write ")
+                && error.ends_with("x.wav: a WAV file holds 4 GiB and no more")
+        );
+        drop(file);
+        assert_eq!(std::fs::read_dir(room.path()).unwrap().count(), 0);
+    }
 
     #[test]
     fn whole_numbers_round_and_clip() {

@@ -49,8 +49,8 @@ pub(crate) use moment::Moment;
 pub(crate) use parameter::ChosenParameter;
 pub use played::PlayedString;
 use string::StringPlayer;
-pub(crate) use technique::NEAREST_PLUCK;
 pub use technique::VELOCITY_CURVE;
+pub(crate) use technique::{LONGEST_WAIT, NEAREST_PLUCK};
 use variation::Variation;
 
 /// MIDI channels.

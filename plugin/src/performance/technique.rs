@@ -2,6 +2,8 @@
 
 use low_action_dsp::{FingerSlot, Touch};
 
+use super::hand::LARGEST_CHORD;
+
 /// Slots the fretting fingers take in turn: a new finger lands in one while the last is being lifted
 /// from the other, and the free one damps behind the finger when the note ends.
 pub(crate) const FRETTING_SLOTS: usize = 2;
@@ -308,6 +310,8 @@ pub(crate) const TOGETHER: f64 = 0.03;
 pub(crate) const LONGEST_CHORD: f64 = 0.15;
 /// How long the rest of a chord waits that has more notes than strings, s from note to note.
 pub(crate) const ARPEGGIO: f64 = 0.07;
+/// How long the last note of the largest chord waits on a single string, s.
+pub(crate) const LONGEST_WAIT: f64 = LARGEST_CHORD as f64 * ARPEGGIO;
 /// Where a hand mutes an open string, as a part of its length from the nut, and how far on its next finger lies, as a part of what
 /// is left to the saddle: some three frets. No partial up to the sixteenth has a node near both.
 pub(crate) const MUTED_OPEN: f64 = 0.36;
