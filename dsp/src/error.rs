@@ -42,12 +42,12 @@ impl Error {
         Error::OutOfRange { name: name.into(), value: value.to_string(), accepted: accepted.into() }
     }
 
-    /// The same error with the place it arose in before the name; of a fretboard, neck or hand that several
+    /// The same error with the place it arose in before the name; of a fretboard, neck, bridge or hand that several
     /// strings share, the place after what is accepted.
     pub(crate) fn under(self, place: &str) -> Self {
         match self {
             Error::OutOfRange { name, value, accepted }
-                if name.starts_with("fretboard") || name.starts_with("neck.") =>
+                if ["fretboard", "neck.", "bridge."].iter().any(|shared| name.starts_with(shared)) =>
             {
                 Error::OutOfRange { name, value, accepted: format!("{accepted} (under {place})") }
             }

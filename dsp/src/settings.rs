@@ -24,7 +24,8 @@ pub struct EngineSettings {
     /// The widest grid a string may have, m, 1e-4 or more: one whose grid is wider at `sample_rate` is computed at a multiple of
     /// it. Over a wide bridge, or where fret 12 is more than 6 mm below the string, it is two thirds of this. Over a bare board it
     /// is moreover 3 mm and a ninetieth of the shortest length that sounds at most. Infinite sets no limit, be the board bare or
-    /// not: every string is computed at `sample_rate` itself that is not too short for its grid there.
+    /// not: every string is computed at `sample_rate` itself that is not too short for its grid there. No grid is wider than four
+    /// fifths of what a wide bridge reaches, or the string would not touch it.
     pub widest_spacing: f64,
     /// Difference operator of the strings.
     pub stencil: Stencil,
@@ -44,6 +45,10 @@ const HIGHEST_RATE: f64 = 400e3;
 /// Strings bend round a fret on any grid. What else is hard, a wide bridge that they leave point by point or a bar (which lies on
 /// strings out of the reach of fingers), asks for one so much finer.
 const BETWEEN_FRETS: f64 = 2.0 / 3.0;
+
+/// The widest grid over a wide bridge, as a part of how far that reaches: at least one point is over it, and a little more, as the
+/// grid is found before the string is tuned.
+const OF_A_BRIDGE: f64 = 0.8;
 
 /// The widest grid over a bare board that fingers stop strings on, m, and as a part of the shortest length that sounds. Such a string ends
 /// at a grid point, by up to half a spacing h beside where its pitch wants it: 600/ln 2 · h/l cents of a length l, 9.6 of ninety
@@ -76,8 +81,10 @@ impl EngineSettings {
 
     /// The widest grid that a string of a set-up may have, m.
     fn widest(&self, setup: &Setup) -> f64 {
-        let widest = self.widest_spacing * if setup.is_touched_between_frets() { BETWEEN_FRETS } else { 1.0 };
-        if !setup.neck.fretless || widest.is_infinite() {
+        let part = if setup.is_touched_between_frets() { BETWEEN_FRETS } else { 1.0 };
+        let over_bridge = setup.bridge.map_or(f64::INFINITY, |bridge| OF_A_BRIDGE * bridge.length);
+        let widest = (self.widest_spacing * part).min(over_bridge);
+        if !setup.neck.fretless || self.widest_spacing.is_infinite() {
             return widest;
         }
         let shortest = setup.neck.scale_length - setup.neck.equal_place(setup.neck.frets as f64);

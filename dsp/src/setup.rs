@@ -3,17 +3,19 @@
 //! It says nothing about grids or sample rates; [`intonate`](crate::intonation::intonate) and
 //! [`Neck::barrier`] turn it into numbers for the model.
 
+mod bridge;
 mod player;
 
 use serde::{Deserialize, Serialize};
 
 use crate::choice::choice;
 use crate::curve::Curve;
-use crate::digits::{at_most, plain};
+use crate::digits::plain;
 use crate::error::{Error, ranged, within};
 use crate::intonation::Behind;
 use crate::model::{Barrier, StringParameters};
 use crate::neck::Neck;
+pub use bridge::Bridge;
 pub use player::{Damper, Fretting, Player};
 
 /// A whole instrument.
@@ -53,24 +55,6 @@ pub struct Setup {
     pub pickup: Pickup,
     /// The strings, highest first.
     pub string: Vec<SetupString>,
-}
-
-/// A wide bridge that falls away under the strings, as on sitar and tanpura: its top is at the saddle, where
-/// the strings end, and towards the nut it is part of a circle under them.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Bridge {
-    /// How far it reaches from the saddle under the strings, m.
-    pub length: f64,
-    /// Radius of its curve, m: at x from the saddle it is x²/(2·radius) below the string.
-    pub radius: f64,
-}
-
-impl Bridge {
-    /// Height of its top so far from the saddle, m, over the string at rest, m: 0 at the saddle and negative elsewhere.
-    pub fn height(&self, from_saddle: f64) -> f64 {
-        -from_saddle * from_saddle / (2.0 * self.radius)
-    }
 }
 
 /// Whether an instrument is made to play in tune.
@@ -158,15 +142,6 @@ const FILES: [(&str, &str); 4] = [
 /// No finger presses a string down to a fret that is farther below it, m: high actions of guitars and basses are 4 mm.
 const OUT_OF_REACH: f64 = 6e-3;
 
-/// Pieces of the polyline that stands for a bridge's curve.
-const BRIDGE_PIECES: usize = 32;
-/// Where board and bridge end, the barrier drops within this distance, m, to this height, m: deeper than
-/// any string swings.
-const EDGE: f64 = 1e-6;
-const ABYSS: f64 = -0.05;
-/// The least between board and bridge, m: both edges, and a bottom between them.
-const GAP: f64 = 3.0 * EDGE;
-
 /// The most strings an instrument may have.
 pub const MOST_STRINGS: usize = 32;
 
@@ -237,16 +212,8 @@ impl Setup {
         ranged("tuning", self.tuning, TUNING, "semitones")?;
         ranged("blend", self.blend, BLEND, "")?;
         self.neck.check()?;
-        if let Some(Bridge { length, radius }) = self.bridge {
-            // (There is always room: with all its frets the shortest neck ends 4.5 mm before the saddle.)
-            let (least, room) = (1e-4, self.neck.scale_length - self.neck.board_end() - GAP);
-            if !(least..=room).contains(&length) {
-                let most = plain(at_most(room));
-                let accepted =
-                    format!("it must lie between {} and {most} m, clear of the board", plain(least));
-                return Err(Error::range("bridge.length", plain(length), accepted));
-            }
-            within("bridge.radius", radius, 1e-3, 1e3, "m")?;
+        if let Some(bridge) = self.bridge {
+            bridge.check(&self.neck)?;
         }
         self.player.check(self.neck.scale_length)?;
         self.pickup.check(self.neck.scale_length)?;
@@ -278,13 +245,7 @@ impl Setup {
     pub fn barrier(&self, frets: &[f64]) -> Result<Barrier, Error> {
         let mut barrier = self.neck.barrier(frets)?;
         if let (Some(bridge), Some(Curve::Points(board))) = (&self.bridge, &mut barrier.board) {
-            let end = self.neck.scale_length;
-            // Between board and bridge there is nothing to touch.
-            board.extend([[self.neck.board_end() + EDGE, ABYSS], [end - bridge.length - EDGE, ABYSS]]);
-            board.extend((0..=BRIDGE_PIECES).map(|piece| {
-                let from_saddle = bridge.length * (1.0 - piece as f64 / BRIDGE_PIECES as f64);
-                [end - from_saddle, bridge.height(from_saddle)]
-            }));
+            board.extend(bridge.outline(&self.neck));
         }
         Ok(barrier)
     }

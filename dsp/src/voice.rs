@@ -78,6 +78,9 @@ impl Voice {
         let barrier = setup.barrier(&placed.frets)?;
         let model = Model::new(placed.string, Some(&barrier), FINGERS_PER_STRING, solver, rate)
             .map_err(|error| error.of_setup().under(&name))?;
+        if let Some(bridge) = &setup.bridge {
+            bridge.check_grid(&model.grid).map_err(|error| error.under(&name))?;
+        }
         for (section, touch) in
             [("player.fretting", setup.player.fretting.touch), ("player.damper", setup.player.damper.touch)]
         {

@@ -366,3 +366,31 @@ fn a_bridge_leaves_room_for_the_edges_of_both() {
     longest.check().expect("there is room");
     Instrument::new(&longest, &Quality::Draft.settings(RATE)).expect("it can be built");
 }
+
+/// A bridge that no grid point is over would be none: grids are fine enough for a short one, and what is too short for any is
+/// refused. Those that are as long as real ones cost nothing.
+#[test]
+fn a_bridge_is_touched_or_refused() {
+    let setup = builtin("electric");
+    let with = |length: f64| Setup { bridge: Some(Bridge { length, radius: 1.0 }), ..setup.clone() };
+    for quality in [Quality::Draft, Quality::Live] {
+        let settings = quality.settings(RATE);
+        let instrument = Instrument::new(&with(5e-3), &settings).expect("it can be built");
+        for string in 0..instrument.string_count() {
+            let model = instrument.model(string);
+            let touched = model.contacts.iter().any(|contact| contact.place >= model.grid.length - 5e-3);
+            assert!(touched, "{quality}, string {string}");
+        }
+        let error = Instrument::new(&with(1e-4), &settings).expect_err("it is too short").to_string();
+        assert!(error.starts_with("bridge.length = 1e-4 is refused: points of the grid are "), "{error}");
+        assert!(error.ends_with("(under string[1])") && !error.contains('\n'), "{error}");
+        for name in ["sitar", "tanpura"] {
+            let shipped = Setup::shipped(name).expect("it comes with the program");
+            let longer = shipped.bridge.map(|bridge| Bridge { length: 2.0 * bridge.length, ..bridge });
+            let longer = Setup { bridge: longer, ..shipped.clone() };
+            for string in &shipped.string {
+                assert_eq!(settings.ratio(&shipped, string), settings.ratio(&longer, string), "{name}");
+            }
+        }
+    }
+}

@@ -188,7 +188,7 @@ fn other_setup(name: &str, draw: &mut Draw) -> Result<Setup> {
     setup.player.fretting.touch.stiffness *= draw.over(0.1, 10.0);
     // Some get a wide bridge, from one exchange to the next.
     setup.bridge =
-        draw.chance(0.2).then(|| Bridge { length: draw.over(1e-3, 0.02), radius: draw.over(1e-2, 100.0) });
+        draw.chance(0.2).then(|| Bridge { length: draw.over(5e-3, 0.02), radius: draw.over(1e-2, 100.0) });
     setup.tuning = draw.between(-0.5, 0.5);
     setup.tension_modulation = draw.chance(0.8);
     for string in &mut setup.string {
