@@ -19,6 +19,8 @@ use std::process::Command;
 use anyhow::{Context, Result, bail};
 use xtask::repository::root;
 
+use crate::notices;
+
 use compare::{Comparison, Sound};
 
 /// Hz, at which everything is played; a tick of the clip is a whole number of samples there.
@@ -80,7 +82,7 @@ fn known(name: &str) -> Result<&'static str> {
 fn bundle() -> Result<PathBuf> {
     let words = ["bundle", "low-action", "--release"].map(str::to_owned);
     nice_plug_xtask::main_with_args("cargo xtask", words)?;
-    Ok(root().join("target/bundled/Low Action.vst3"))
+    Ok(notices::bundles()?.join("Low Action.vst3"))
 }
 
 /// Renders a clip with the command line.

@@ -20,12 +20,21 @@ const BEGINNINGS: [&str; 7] = ["license", "licence", "copying", "copyright", "no
 /// Writes the notices of everything that is linked into the plugin, beside its bundles.
 pub fn write() -> Result<()> {
     let metadata = metadata()?;
-    let folder = metadata["target_directory"].as_str().context("cargo names no target folder")?;
-    let path = Path::new(folder).join("bundled").join(FILE);
+    let path = bundles_of(&metadata)?.join(FILE);
     let text = notices(&metadata)?;
     fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
     eprintln!("Created '{}'", path.display());
     Ok(())
+}
+
+/// The folder of the bundles: in cargo's target folder, wherever that has been put.
+pub fn bundles() -> Result<PathBuf> {
+    bundles_of(&metadata()?)
+}
+
+fn bundles_of(metadata: &Value) -> Result<PathBuf> {
+    let folder = metadata["target_directory"].as_str().context("cargo names no target folder")?;
+    Ok(Path::new(folder).join("bundled"))
 }
 
 /// What cargo knows of the packages, for this platform.
@@ -124,7 +133,19 @@ fn licences(folder: &Path) -> Result<Vec<String>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{metadata, notices};
+    use std::path::Path;
+
+    use serde_json::json;
+
+    use super::{bundles_of, metadata, notices};
+
+    #[test]
+    fn bundles_are_where_cargo_builds() {
+        let metadata = json!({ "target_directory": "/elsewhere" });
+        let folder = bundles_of(&metadata).expect("it is named");
+        assert_eq!(folder, Path::new("/elsewhere/bundled"));
+        assert!(bundles_of(&json!({})).is_err());
+    }
 
     /// Fonts and sound files are under licences that ask for their texts.
     #[test]
