@@ -76,7 +76,9 @@ impl Song {
         let (division, song) = (chunks.division, Song::empty());
         let mut reader =
             Reader { selection, division, cut: chunks.cut, no_tempos: 0, found: Vec::new(), song };
-        reader.song.warnings.extend(chunks.cut.map(SongWarning::CutOff));
+        // Of a sequence that is not played nothing is missed.
+        let missed = chunks.cut.filter(|cut| !chunks.sequential || reader.selects(cut.track - 1));
+        reader.song.warnings.extend(missed.map(SongWarning::CutOff));
         if chunks.left_out > 0 {
             let (announced, left_out) = (chunks.tracks.len(), chunks.left_out);
             reader.song.warnings.push(SongWarning::TracksLeftOut { announced, left_out });

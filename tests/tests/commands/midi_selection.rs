@@ -41,6 +41,24 @@ fn tracks_and_channels_can_be_chosen() {
     assert_eq!(note_ons(&second.expect("good"))[0], (24_000, 50), "and no other's tempo counts");
 }
 
+/// A sequence that is cut off is nothing to those before it; a track is, as its tempo counts.
+#[test]
+fn only_what_is_read_is_missed() {
+    let notes = track(&[(0, &[0x90, 40, 100]), (96, &[0x80, 40, 0])]);
+    for (format, is_missed) in [(1, true), (2, false)] {
+        let whole = file(format, 96, &[notes.clone(), notes.clone()]);
+        let cut = &whole[..whole.len() - 4];
+        for truncated in [false, true] {
+            let chosen = |track| Song::from_midi(cut, Selection { track: Some(track), truncated, ..ALL });
+            assert!(chosen(2).is_err() != truncated, "format {format}");
+            match chosen(1) {
+                Ok(song) => assert_eq!(song.warnings.len(), usize::from(is_missed), "{:?}", song.warnings),
+                Err(error) => assert!(is_missed && !truncated, "format {format}: {error}"),
+            }
+        }
+    }
+}
+
 /// MPE is announced on channel 1 and the reach of its wheels on any other: most often in another track than the notes.
 #[test]
 fn what_is_chosen_of_an_mpe_song_is_bent_as_in_the_whole() {
