@@ -21,7 +21,7 @@ pub struct Neck {
     /// many semitones can be stopped.
     #[serde(default)]
     pub fretless: bool,
-    /// Worn frets: which one, counted from 1, and how much lower than made its crown is, m.
+    /// Worn frets: which one, counted from 1, each once, and how much lower than made its crown is, m, 0 to 0.02.
     #[serde(default)]
     pub worn: Vec<(usize, f64)>,
     /// Crown of fret 1 below the string at rest, m.
@@ -98,6 +98,14 @@ impl Neck {
                 return Err(Error::range(fret_name, fret, "there are no frets, neck.frets is 0"));
             }
             within(&fret_name, *fret as f64, 1.0, self.frets as f64, "")?;
+            // Both together might be worn farther down than any.
+            if self.worn[..i].iter().any(|(other, _)| other == fret) {
+                return Err(Error::range(
+                    fret_name,
+                    fret,
+                    "that fret is there already, and may be named once",
+                ));
+            }
             within(&depth_name, *wear, 0.0, 0.02, "m")?;
         }
         self.check_relief()?;

@@ -159,9 +159,14 @@ fn frequencies_follow_the_midi_tuning_standard() {
 
 #[test]
 fn wrong_setups_are_refused_in_one_line() {
-    let cases: [(&str, &str, &[&str]); 29] = [
+    let cases: [(&str, &str, &[&str]); 30] = [
         ("frets = 22", "frets = 99", &["neck.frets", "99"]),
         ("frets = 22", "frets = 22\nworn = [[23, 1e-4]]", &["fret of neck.worn[1] = 23", "between 1 and 22"]),
+        (
+            "frets = 22",
+            "frets = 22\nworn = [[5, 0.015], [3, 1e-4], [5, 0.015]]",
+            &["fret of neck.worn[3] = 5 is refused: that fret is there already, and may be named once"],
+        ),
         (
             "frets = 22",
             "frets = 0\nworn = [[3, 1e-4]]",
