@@ -213,6 +213,11 @@ pub(crate) fn ranged(name: &str, value: f64, [low, high]: [f64; 2], unit: &str) 
     within(name, value, low, high, unit)
 }
 
+/// The nearest number that [`ranged`] accepts, and of what is no number the lowest. (Not by `clamp`, which keeps that.)
+pub(crate) fn limited(value: f64, [low, high]: [f64; 2]) -> f64 {
+    value.max(low).min(high)
+}
+
 /// Refuses a place, m from the nut, that is not strictly between the ends of a string.
 pub(crate) fn on_string(name: &str, place: f64, length: f64) -> Result<f64, Error> {
     if place.is_finite() && place > 0.0 && place < length {

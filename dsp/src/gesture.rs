@@ -5,7 +5,7 @@
 //! [`Drive`](crate::Drive); nothing here knows about MIDI.
 
 use crate::contact::ContactLaw;
-use crate::error::{Error, ranged};
+use crate::error::{Error, limited, ranged};
 
 /// The parameters of one finger (or palm, or thumb): a mass on a lossy, nonlinear spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,9 +75,9 @@ impl Touch {
 
     /// Brings each of them into its range.
     pub(crate) fn limit(&mut self) {
-        for TouchNumber { range: [low, high], of, .. } in Self::NUMBERS {
+        for TouchNumber { range, of, .. } in Self::NUMBERS {
             let value = of(self);
-            *value = value.clamp(low, high);
+            *value = limited(*value, range);
         }
     }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::ContactLaw;
 use crate::curve::Curve;
 use crate::digits::{at_most, plain};
-use crate::error::{Error, ranged, within};
+use crate::error::{Error, limited, ranged, within};
 use crate::model::Barrier;
 use crate::scene::FretPlacement;
 
@@ -70,13 +70,10 @@ impl Neck {
 
     /// Brings heights and relief, which a luthier can change on a neck that is made, back to what a set-up may have.
     pub(crate) fn limit(&mut self) {
-        let [low, high] = NUT_CLEARANCE;
-        self.nut_clearance = self.nut_clearance.clamp(low, high);
-        // (Not by `clamp`, which panics where a limit is no number.)
-        self.action = self.action.max(self.nut_clearance).min(Self::HIGHEST_ACTION);
-        self.relief = self.relief.clamp(0.0, self.most_relief());
-        let [low, high] = FRET_HEIGHT;
-        self.fret_height = self.fret_height.clamp(low, high);
+        self.nut_clearance = limited(self.nut_clearance, NUT_CLEARANCE);
+        self.action = limited(self.action, [self.nut_clearance, Self::HIGHEST_ACTION]);
+        self.relief = limited(self.relief, [0.0, self.most_relief()]);
+        self.fret_height = limited(self.fret_height, FRET_HEIGHT);
     }
 
     /// Refuses values outside their range.

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::choice::choice;
 use crate::curve::Curve;
 use crate::digits::plain;
-use crate::error::{Error, ranged, within};
+use crate::error::{Error, limited, ranged, within};
 use crate::intonation::Behind;
 use crate::model::{Barrier, StringParameters};
 use crate::neck::Neck;
@@ -197,8 +197,8 @@ impl Setup {
         let of_strings = self.string.iter_mut().flat_map(|SetupString { pitch, loss_0, loss_1, .. }| {
             [(pitch, PITCH), (loss_0, StringParameters::LOSS_0), (loss_1, StringParameters::LOSS_1)]
         });
-        for (value, [low, high]) in alike.into_iter().chain(of_strings) {
-            *value = value.clamp(low, high);
+        for (value, range) in alike.into_iter().chain(of_strings) {
+            *value = limited(*value, range);
         }
     }
 

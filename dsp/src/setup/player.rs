@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::on_scale;
-use crate::error::{Error, ranged, within};
+use crate::error::{Error, limited, ranged, within};
 use crate::gesture::Touch;
 
 /// How the hands act.
@@ -68,14 +68,14 @@ impl Player {
     /// Brings what a player can change while playing, but for the place of the pluck, back to what a set-up may have.
     pub fn limit(&mut self) {
         let Fretting { touch, force, hover, .. } = &mut self.fretting;
-        for (value, [low, high]) in [
+        for (value, range) in [
             (&mut self.pluck_duration, PLUCK_DURATION),
             (&mut self.pluck_release, PLUCK_RELEASE),
             (&mut self.pluck_force, PLUCK_FORCE),
             (force, FRETTING_FORCE),
             (hover, HOVER),
         ] {
-            *value = value.clamp(low, high);
+            *value = limited(*value, range);
         }
         touch.limit();
     }

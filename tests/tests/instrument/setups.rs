@@ -325,11 +325,12 @@ fn nothing_stands_above_the_strings() {
     }
 }
 
-/// However far a luthier goes: what is limited is what is accepted, and what is accepted is left as it is.
+/// However far a luthier or a player goes, and where that is no number: what is limited is what is accepted, and what is accepted
+/// is left as it is.
 #[test]
 fn what_is_limited_is_accepted() {
     type Number = fn(&mut Setup) -> &mut f64;
-    let numbers: [Number; 9] = [
+    let numbers: [Number; 19] = [
         |setup| &mut setup.neck.nut_clearance,
         |setup| &mut setup.neck.action,
         |setup| &mut setup.neck.relief,
@@ -339,18 +340,32 @@ fn what_is_limited_is_accepted() {
         |setup| &mut setup.string[0].pitch,
         |setup| &mut setup.string[1].loss_0,
         |setup| &mut setup.string[2].loss_1,
+        |setup| &mut setup.player.pluck_duration,
+        |setup| &mut setup.player.pluck_release,
+        |setup| &mut setup.player.pluck_force,
+        |setup| &mut setup.player.fretting.force,
+        |setup| &mut setup.player.fretting.hover,
+        |setup| &mut setup.player.fretting.touch.mass,
+        |setup| &mut setup.player.fretting.touch.stiffness,
+        |setup| &mut setup.player.fretting.touch.exponent,
+        |setup| &mut setup.player.fretting.touch.damping,
+        |setup| &mut setup.player.fretting.touch.hand_damping,
     ];
+    let limit = |setup: &mut Setup| {
+        setup.limit();
+        setup.player.limit();
+    };
     for name in Setup::BUILTIN.into_iter().chain(Setup::PRESETS) {
         let shipped = Setup::shipped(name).unwrap();
         let mut same = shipped.clone();
-        same.limit();
+        limit(&mut same);
         assert_eq!(same, shipped, "{name}");
         for number in numbers {
-            for end in [f64::NEG_INFINITY, f64::INFINITY] {
+            for end in [f64::NEG_INFINITY, f64::INFINITY, f64::NAN] {
                 let mut setup = shipped.clone();
                 *number(&mut setup) = end;
                 assert!(setup.check().is_err(), "{name}");
-                setup.limit();
+                limit(&mut setup);
                 assert_eq!(setup.check(), Ok(()), "{name}");
             }
         }
