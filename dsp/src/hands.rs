@@ -163,11 +163,7 @@ impl Hands {
     pub fn begin(&mut self, gesture: Gesture, model: &Model, state: &mut State) -> bool {
         let inside = |place: f64| {
             let end = 0.01 * model.grid.spacing;
-            if place.is_finite() {
-                place.clamp(end, model.grid.length - end)
-            } else {
-                0.5 * model.grid.length
-            }
+            if place.is_nan() { 0.5 * model.grid.length } else { place.clamp(end, model.grid.length - end) }
         };
         match gesture {
             Gesture::Pluck { position, force, duration, release } => {

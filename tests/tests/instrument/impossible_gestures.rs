@@ -56,6 +56,17 @@ fn hands_that_brake_nothing() {
     }
 }
 
+/// However far beyond the string: it is the nearest place on it. What is no place is the middle.
+#[test]
+fn places_beyond_the_string_are_its_ends() {
+    let length = Setup::builtin("electric").expect("built in").neck.scale_length;
+    let from = |position: f64| play(&[Gesture::Slide { finger: FINGER, position, duration: 0.05 }]);
+    for (beyond, same) in [(f64::INFINITY, 10.0), (f64::NEG_INFINITY, -10.0), (f64::NAN, 0.5 * length)] {
+        assert!(from(beyond) == from(same), "{beyond} is not {same} m");
+    }
+    assert!(from(10.0) != from(0.5 * length) && from(-10.0) != from(0.5 * length), "nothing slides");
+}
+
 /// It can take no more than all of the motion that a step begins with. Under that the string creeps back, partials p at c²γ²/(2σ₀)
 /// with σ₀ = 1/k, 20 p² a second, and does not ring at 2800 p: it moves 40 dB more slowly, or 26 with several partials together.
 #[test]
