@@ -50,7 +50,10 @@ impl Grid {
         Reading::straight(self, position)
     }
 
-    /// Refuses a point that is not strictly between the ends of the string.
+    /// Refuses a point that is not strictly between the ends of the string; `name` says whose it is.
+    ///
+    /// # Errors
+    /// When it is one of the ends, beyond them or no number.
     pub fn check_place(&self, name: &str, position: f64) -> Result<f64, Error> {
         on_string(name, position, self.length)
     }

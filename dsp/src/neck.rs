@@ -13,7 +13,7 @@ use crate::scene::FretPlacement;
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Neck {
-    /// Length from nut to saddle, m; fret m of equal temperament leaves 2^(−m/12) of it.
+    /// Length from nut to saddle, m, 0.1 to 5; fret m of equal temperament leaves 2^(−m/12) of it.
     pub scale_length: f64,
     /// Number of frets, 0 to [`Neck::MOST_FRETS`].
     pub frets: usize,
@@ -24,22 +24,23 @@ pub struct Neck {
     /// Worn frets: which one, counted from 1, each once, and how much lower than made its crown is, m, 0 to 0.02.
     #[serde(default)]
     pub worn: Vec<(usize, f64)>,
-    /// Crown of fret 1 below the string at rest, m.
+    /// Crown of fret 1 below the string at rest, m, 1e-5 to 0.02.
     pub nut_clearance: f64,
-    /// Crown of fret 12 (or where it would be) below the string at rest, m.
+    /// Crown of fret 12 (or where it would be) below the string at rest, m, from the nut clearance to 0.05.
     pub action: f64,
-    /// How far the middle of the fretted board dips below the line from fret 1 to the last fret, m.
+    /// How far the middle of the fretted board dips below the line from fret 1 to the last fret, m, 0 to 0.01, and no more than
+    /// [`Neck::most_relief`].
     pub relief: f64,
-    /// Height of the crowns above the board, m.
+    /// Height of the crowns above the board, m, 0 to 0.02.
     pub fret_height: f64,
-    /// Contact stiffness of a fret, N/m^exponent.
+    /// Contact stiffness of a fret, N/m^exponent, 1e-3 to 1e30, and no more than can be told from rounding at the strings' rates.
     pub stiffness: f64,
     /// Exponent of the contact law, 1 to 5.
     pub exponent: f64,
-    /// Hunt–Crossley damping of frets and board, s/m.
+    /// Hunt–Crossley damping of frets and board, s/m, 0 to 1e5.
     #[serde(default)]
     pub damping: f64,
-    /// Spacing of points for which the stiffness holds for the board too, m: grids of other spacings
+    /// Spacing of points for which the stiffness holds for the board too, m, 1e-6 to 1: grids of other spacings
     /// share it out, so that the board is the same at every sample rate.
     pub board_reference_spacing: f64,
 }

@@ -104,31 +104,32 @@ impl<'de> Deserialize<'de> for Stencil {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StringSpec {
-    /// Length, m.
+    /// Length, m, 1e-3 to 1e3.
     pub length: f64,
-    /// Mass per length, kg/m.
+    /// Mass per length, kg/m, 1e-7 to 1e2.
     pub linear_density: f64,
-    /// Tension at rest, N, or its course in time `[[t, T], …]`.
+    /// Tension at rest, N, 1e-3 to 1e6, or its course in time `[[t, T], …]`.
     pub tension: Curve,
-    /// Young's modulus of the core, Pa; 0 for an ideal string.
+    /// Young's modulus of the core, Pa, 0 to 1e13; 0 for an ideal string.
     #[serde(default)]
     pub youngs_modulus: f64,
-    /// Radius of the core, m.
+    /// Radius of the core, m, 0 to 0.1.
     #[serde(default)]
     pub core_radius: f64,
-    /// Loss of all frequencies alike, 1/s.
+    /// Loss of all frequencies alike, 1/s, 0 to 1e4.
     #[serde(default)]
     pub loss_0: f64,
-    /// Loss that grows with frequency, m²/s.
+    /// Loss that grows with frequency, m²/s, 0 to 1e2.
     #[serde(default)]
     pub loss_1: f64,
     /// Whether stretching raises the tension.
     #[serde(default)]
     pub tension_modulation: bool,
-    /// Initial displacement `[[x, u], …]`, m; without it the string begins at 0.
+    /// Initial displacement `[[x, u], …]`, m, −1 to 1, at places on the string; without it the string begins at 0.
     #[serde(default, deserialize_with = "crate::curve::pairs")]
     pub shape: Option<Vec<[f64; 2]>>,
-    /// Initial velocity `[[x, v], …]`, m/s, up is positive; without it the string begins at rest.
+    /// Initial velocity `[[x, v], …]`, m/s, −1e3 to 1e3, up is positive, at places on the string; without it the string begins at
+    /// rest.
     #[serde(default, deserialize_with = "crate::curve::pairs")]
     pub velocity: Option<Vec<[f64; 2]>>,
 }
@@ -137,25 +138,25 @@ pub struct StringSpec {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FretboardSpec {
-    /// Contact stiffness of a point, N/m^exponent.
+    /// Contact stiffness of a point, N/m^exponent, 1e-3 to 1e30, and no more than can be told from rounding at the scene's rate.
     pub stiffness: f64,
     /// Exponent of the contact law, 1 to 5.
     pub exponent: f64,
-    /// Hunt–Crossley damping, s/m.
+    /// Hunt–Crossley damping, s/m, 0 to 1e5.
     #[serde(default)]
     pub damping: f64,
-    /// Height of the board, m, or its profile `[[x, height], …]` (no board beyond its ends); without
+    /// Height of the board, m, −10 to 0, or its profile `[[x, height], …]` (no board beyond its ends); without
     /// it there is no back board.
     pub board: Option<Curve>,
-    /// Number of frets in equal temperament, or their places, m from the nut.
+    /// Number of frets in equal temperament, 0 to 640, or their places, up to 1000, m from the nut, on every string.
     #[serde(default = "no_frets")]
     pub frets: CountOrList,
-    /// Height of the crowns, m, or one per fret.
+    /// Height of the crowns, m, −10 to 0, or one per fret; needed where there are frets.
     pub fret_top: Option<OneOrEach>,
     /// Where frets act on the grid.
     #[serde(default)]
     pub fret_placement: FretPlacement,
-    /// Spacing for which `stiffness` holds, m: board points of another spacing h get stiffness·h/this.
+    /// Spacing for which `stiffness` holds, m, 1e-6 to 1e3: board points of another spacing h get stiffness·h/this.
     pub board_reference_spacing: Option<f64>,
 }
 
@@ -187,20 +188,20 @@ impl<'de> Deserialize<'de> for FretPlacement {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PluckSpec {
-    /// Which string, 1 for the first.
+    /// Which string, 1 for the first, up to the number of strings.
     #[serde(default = "first", deserialize_with = "number")]
     pub string: usize,
-    /// When it begins, s.
+    /// When it begins, s, 0 to 1e9.
     #[serde(default)]
     pub start: f64,
-    /// How long it grows, s.
+    /// How long it grows, s, 0 to 1e9.
     pub duration: f64,
-    /// How long it takes to let go after that, s; 0 is at once.
+    /// How long it takes to let go after that, s, 0 to 1e9; 0 is at once.
     #[serde(default)]
     pub release: f64,
-    /// Where, m from the nut.
+    /// Where, m from the nut, strictly between the ends of the string.
     pub position: f64,
-    /// Largest force, N, up is positive.
+    /// Largest force, N, −1e6 to 1e6, up is positive.
     pub force: f64,
 }
 
@@ -219,30 +220,30 @@ fn number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<usize, D::Error>
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FingerSpec {
-    /// Which string, 1 for the first.
+    /// Which string, 1 for the first, up to the number of strings.
     #[serde(default = "first", deserialize_with = "number")]
     pub string: usize,
-    /// Mass, kg.
+    /// Mass, kg, 1e-7 to 1e3.
     pub mass: f64,
-    /// Stiffness of the pad, N/m^exponent.
+    /// Stiffness of the pad, N/m^exponent, 1e-3 to 1e30, and no more than can be told from rounding at the scene's rate.
     pub stiffness: f64,
     /// Exponent of the pad's law, 1 to 5.
     pub exponent: f64,
-    /// Hunt–Crossley damping, s/m.
+    /// Hunt–Crossley damping, s/m, 0 to 1e5.
     #[serde(default)]
     pub damping: f64,
-    /// The hand's own damping, N s/m.
+    /// The hand's own damping, N s/m, 0 to 1e5.
     #[serde(default)]
     pub hand_damping: f64,
-    /// Place, m from the nut, or its course in time.
+    /// Place, m from the nut, strictly between the ends of the string, or its course in time.
     pub position: Curve,
-    /// Initial height of the pad, m.
+    /// Initial height of the pad, m, −10 to 10.
     #[serde(default)]
     pub height: f64,
-    /// Initial velocity, m/s, up is positive.
+    /// Initial velocity, m/s, −1e3 to 1e3, up is positive.
     #[serde(default)]
     pub velocity: f64,
-    /// Force, N downward, or its course in time.
+    /// Force, N downward, −1e6 to 1e6, or its course in time.
     #[serde(default = "no_force")]
     pub force: Curve,
 }

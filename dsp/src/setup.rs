@@ -32,7 +32,7 @@ pub struct Setup {
     pub intonation: Intonation,
     /// Largest bend by tension, semitones, 0 to 12; the grids leave room for it, and for half a semitone in any case.
     pub max_bend: f64,
-    /// Output per unit of pickup signal, above 0.
+    /// Output per unit of pickup signal, 1e-9 to 1e9.
     pub gain: f64,
     /// How much higher everything sounds than written, semitones, −12 to 12: another concert pitch.
     #[serde(default)]
@@ -84,16 +84,16 @@ pub struct SetupString {
     pub name: String,
     /// Pitch of the open string as a MIDI note number, 0 to 127, fractions allowed; 69 is 440 Hz.
     pub pitch: f64,
-    /// Mass per length, kg/m.
+    /// Mass per length, kg/m, 1e-7 to 1e2.
     pub linear_density: f64,
-    /// Young's modulus of the core, Pa.
+    /// Young's modulus of the core, Pa, 0 to 1e13.
     pub youngs_modulus: f64,
-    /// Radius of the core, m.
+    /// Radius of the core, m, 0 to 0.1.
     pub core_radius: f64,
-    /// Loss of all frequencies alike, 1/s: the amplitude of a partial of wavenumber γ decays as
+    /// Loss of all frequencies alike, 1/s, 0 to 1e4: the amplitude of a partial of wavenumber γ decays as
     /// exp(−(loss_0 + loss_1 γ²)t), to a thousandth in T60 = ln(1000)/(loss_0 + loss_1 γ²).
     pub loss_0: f64,
-    /// Loss that grows with frequency, m²/s.
+    /// Loss that grows with frequency, m²/s, 0 to 1e2.
     pub loss_1: f64,
     /// How strongly the pickup senses this string, as a factor beside the other strings, 0 to 100.
     #[serde(default = "alike")]
@@ -117,13 +117,13 @@ fn yes() -> bool {
 pub enum Pickup {
     /// A coil over the strings: their velocity at a place, through the coil's own resonance.
     Magnetic {
-        /// Middle of the coil, m from the saddle.
+        /// Middle of the coil, m from the saddle, strictly between the ends of the string.
         position: f64,
-        /// Width of its field along the string, m, 0 for a point.
+        /// Width of its field along the string, m, 0 for a point and up, and within the string.
         aperture: f64,
-        /// Resonance of coil and cable, Hz.
+        /// Resonance of coil and cable, Hz, 100 to 1e6.
         resonance: f64,
-        /// Height of that resonance over low frequencies, as a factor.
+        /// Height of that resonance over low frequencies, as a factor, 0.1 to 100.
         quality: f64,
     },
     /// The force of the strings on the bridge. (With braces, since
@@ -203,6 +203,9 @@ impl Setup {
     }
 
     /// Refuses every value outside its range, naming it as in the file.
+    ///
+    /// # Errors
+    /// At the first of them.
     pub fn check(&self) -> Result<(), Error> {
         if self.name.trim().is_empty() {
             return Err(Error::range("name", "\"\"", "it must not be empty"));

@@ -137,7 +137,8 @@ impl Simulation {
     }
 }
 
-/// The most grid points of all strings of a scene: with contacts at each, some hundred megabytes.
+/// All strings of a scene must have fewer grid points than this: with contacts at each, some hundred megabytes. (As many are what a
+/// string gets at most that asks for more.)
 pub const MOST_POINTS: usize = 1_000_000;
 
 /// The most numbers that say how contacts answer one another, in all strings: as many for a crowd of contacts that share grid

@@ -192,8 +192,9 @@ impl WithSimd for Step<'_> {
 impl State {
     /// Advances the string by one step under a drive.
     ///
-    /// Never allocates, never fails: the energy cannot exceed what was put in, whatever the numbers, as long as the tension
-    /// is not above the model's `tension_limit`, for which its grid is made.
+    /// Never allocates, never fails: the energy cannot exceed what was put in, whatever the numbers, as long as what acts is
+    /// finite and the tension not above the model's `tension_limit`, for which its grid is made. (From a push that is no number
+    /// on, nothing of the string is one.)
     ///
     /// # Panics
     /// When the state, the drive or its readings, or the scratch are not made for this model: heights must be as many as its

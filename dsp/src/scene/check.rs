@@ -16,6 +16,9 @@ pub(crate) const MOST_FINGERS: usize = 100;
 
 impl Scene {
     /// Refuses every value outside its range, naming it as in the file.
+    ///
+    /// # Errors
+    /// At the first of them.
     pub fn check(&self) -> Result<(), Error> {
         within("sample_rate", self.sample_rate, *Model::RATES.start(), *Model::RATES.end(), "Hz")?;
         within("duration", self.duration, 0.0, 1e5, "s")?;
@@ -74,6 +77,9 @@ impl Scene {
 
 impl SolverSettings {
     /// Refuses values outside their range.
+    ///
+    /// # Errors
+    /// At the first of them.
     pub fn check(&self) -> Result<(), Error> {
         let most = Self::MOST_ITERATIONS as f64;
         within("solver.max_iterations", self.max_iterations as f64, 0.0, most, "")?;
@@ -83,6 +89,9 @@ impl SolverSettings {
 
 impl StringSpec {
     /// Refuses values outside their range; `name` says which string this is.
+    ///
+    /// # Errors
+    /// At the first of them.
     pub fn check(&self, name: &str) -> Result<(), Error> {
         within(&format!("{name}.length"), self.length, 1e-3, 1e3, "m")?;
         let number =

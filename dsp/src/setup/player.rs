@@ -10,14 +10,14 @@ use crate::gesture::Touch;
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Player {
-    /// Where strings are plucked, m from the saddle.
+    /// Where strings are plucked, m from the saddle, strictly between the ends of the string.
     pub pluck_position: f64,
-    /// How long a pluck pushes, s.
+    /// How long a pluck pushes, s, 1e-4 to 0.1.
     pub pluck_duration: f64,
-    /// How long it takes to let go after that, s; 0 is at once.
+    /// How long it takes to let go after that, s, 0 to 0.1; 0 is at once.
     #[serde(default)]
     pub pluck_release: f64,
-    /// Largest force of a pluck at velocity 127, N.
+    /// Largest force of a pluck at velocity 127, N, 1e-3 to 1e3.
     pub pluck_force: f64,
     /// The finger that stops a string.
     pub fretting: Fretting,
@@ -31,11 +31,11 @@ pub struct Player {
 pub struct Fretting {
     /// The finger.
     pub touch: Touch,
-    /// Force at rest on the string, N.
+    /// Force at rest on the string, N, 0.1 to 100.
     pub force: f64,
-    /// Height above the string from which it comes, m.
+    /// Height above the string from which it comes, m, 0 to 0.1.
     pub hover: f64,
-    /// Time over which its force rises, s.
+    /// Time over which its force rises, s, 0 to 1.
     pub landing: f64,
     /// Where it presses: this fraction of the fret's own space behind the crown, 0.05 to 0.95.
     pub behind: f64,
@@ -49,11 +49,11 @@ pub struct Fretting {
 pub struct Damper {
     /// The finger or palm.
     pub touch: Touch,
-    /// Force at rest on the string, N.
+    /// Force at rest on the string, N, 1e-3 to 100.
     pub force: f64,
-    /// Time over which its force rises, s.
+    /// Time over which its force rises, s, 0 to 1.
     pub landing: f64,
-    /// The place farthest from the saddle that it touches, m from the saddle.
+    /// The place farthest from the saddle that it touches, m from the saddle, strictly between the ends of the string.
     pub position: f64,
 }
 
