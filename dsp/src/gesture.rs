@@ -108,7 +108,7 @@ pub const MOST_FORCE: f64 = 1e6;
 pub const MOST_CLEARANCE: f64 = 10.0;
 
 /// The largest velocity that a string or a finger may begin with, m/s.
-pub(crate) const FASTEST: f64 = 1e3;
+pub const FASTEST: f64 = 1e3;
 
 /// Something a hand does to one string.
 ///

@@ -40,6 +40,12 @@ impl Grid {
         self.length * node as f64 / self.intervals as f64
     }
 
+    /// The interval that a point so many spacings from the nut lies in, 0 for the first.
+    #[inline]
+    pub(crate) fn interval(&self, spacings: f64) -> usize {
+        (spacings.floor() as usize).min(self.intervals - 1)
+    }
+
     /// The reading of the point `position` (m from the nut), which must lie on the string.
     pub fn reading(&self, position: f64) -> Reading {
         Reading::new(self, position)
@@ -117,7 +123,7 @@ impl Reading {
         if (place - nearest).abs() < AT_NODE {
             return Reading::at_node(grid, nearest as usize);
         }
-        let cell = (place.floor() as usize).min(nodes - 1);
+        let cell = grid.interval(place);
         // The window of four nodes, kept inside 0 … N where the grid is long enough for that.
         let window = cell.saturating_sub(1).min((nodes + 1).saturating_sub(4)) as isize;
         let mut weights = [0.0; 4];

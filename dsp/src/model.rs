@@ -19,6 +19,7 @@ use crate::grid::{Grid, Reading};
 use crate::scene::{FretPlacement, MOST_FINGERS, SolverSettings, Stencil};
 use crate::skyline::Blocks;
 pub use barrier::Barrier;
+pub(crate) use barrier::equal_place;
 pub(crate) use coasting::Coasting;
 pub use fixed::{Contact, ContactKind};
 pub use parameters::StringParameters;

@@ -6,7 +6,7 @@ use crate::contact::ContactLaw;
 use crate::curve::Curve;
 use crate::digits::{at_most, plain};
 use crate::error::{Error, limited, ranged, within};
-use crate::model::Barrier;
+use crate::model::{Barrier, equal_place};
 use crate::scene::FretPlacement;
 
 /// Frets and board, the same under every string but for the exact fret places.
@@ -138,7 +138,7 @@ impl Neck {
 
     /// Place of a fret in equal temperament, m from the nut; fractions of a fret lie between.
     pub fn equal_place(&self, fret: f64) -> f64 {
-        self.scale_length * (1.0 - libm::exp2(-fret / 12.0))
+        equal_place(self.scale_length, fret)
     }
 
     /// Places of all frets in equal temperament, m from the nut, fret 1 first.

@@ -113,7 +113,7 @@ fn beside(contact: &Contact, grid: &Grid) -> (Range<usize>, bool) {
         let (start, end) = contact.reading.span();
         return (start..end, false);
     }
-    let cell = ((contact.place / grid.spacing) as usize).min(grid.intervals - 1);
+    let cell = grid.interval(contact.place / grid.spacing);
     let (first, last) = (cell.max(1), (cell + 1).min(grid.intervals - 1));
     (first..last + 1, cell == 0 || cell + 1 == grid.intervals)
 }

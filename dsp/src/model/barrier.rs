@@ -7,6 +7,11 @@ use crate::error::{Error, ranged, within};
 use crate::grid::{AT_NODE, Grid, Reading};
 use crate::scene::{FretPlacement, FretboardSpec};
 
+/// Place of a fret in equal temperament, m from the nut, of a string of a length, m: fret m leaves 2^(−m/12) of it.
+pub(crate) fn equal_place(length: f64, fret: f64) -> f64 {
+    length * (1.0 - libm::exp2(-fret / 12.0))
+}
+
 /// Board and frets under one string.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Barrier {
@@ -39,10 +44,7 @@ impl Barrier {
     pub fn from_spec(spec: &FretboardSpec, length: f64) -> Result<Self, Error> {
         spec.check()?;
         let places: Vec<f64> = match &spec.frets {
-            // Equal temperament: fret m leaves 2^(−m/12) of the string.
-            CountOrList::Count(count) => {
-                (1..=*count).map(|m| length * (1.0 - libm::exp2(-(m as f64) / 12.0))).collect()
-            }
+            CountOrList::Count(count) => (1..=*count).map(|fret| equal_place(length, fret as f64)).collect(),
             CountOrList::List(places) => places.clone(),
         };
         let height = |i: usize| match &spec.fret_top {

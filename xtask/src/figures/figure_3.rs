@@ -67,7 +67,7 @@ fn with_law(scene: &Scene, stiffness: f64, exponent: f64) -> Result<Scene> {
 
 fn observe(scene: &Scene, stiffness: f64, exponent: f64) -> Result<Outcome> {
     let scene = with_law(scene, stiffness, exponent)?;
-    let samples = (scene.duration * scene.sample_rate).ceil() as u64;
+    let samples = scene.samples();
     let (mut depth, mut bound) = (Course::new(samples, BINS), Course::new(samples, BINS));
     let (mut closest, mut iterations) = (0.0f64, (0, 0, 0));
     let walls = low_action_dsp::Simulation::new(&scene)?;

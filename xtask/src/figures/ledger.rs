@@ -18,7 +18,7 @@ const LIMIT: f64 = 1e-14;
 /// Draws it and measures how well it closes.
 pub fn make(repository: &Repository) -> Result<Made> {
     let scene = repository.scene(SCENE)?;
-    let samples = (scene.duration * scene.sample_rate).ceil() as u64;
+    let samples = scene.samples();
     let step = 1.0 / scene.sample_rate;
     let mut courses = [0; 5].map(|_| Course::new(samples, BINS));
     let (mut put_in, mut lost, mut open, mut widest) = (0.0, 0.0, 0.0, 0.0f64);

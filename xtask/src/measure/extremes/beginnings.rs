@@ -1,11 +1,9 @@
 //! How strings of random scenes begin: drawn out to a shape, struck, or both.
 
+use low_action_dsp::gesture::FASTEST;
 use toml::Value;
 
 use super::draw::Draw;
-
-/// As fast as a scene file lets a string be struck, m/s.
-const FASTEST_STROKE: f64 = 1e3;
 
 /// A shape that a string is released from, its ends at 0; distances in the scene are of the order of `reach`, m.
 pub fn shape(draw: &mut Draw, length: f64, reach: f64) -> Value {
@@ -19,7 +17,7 @@ pub fn shape(draw: &mut Draw, length: f64, reach: f64) -> Value {
 
 /// The velocity of a string that has been struck: by a hammer, however narrow, or all along, with jumps at its ends.
 pub fn velocity(draw: &mut Draw, length: f64) -> Value {
-    let speed = draw.either_way(1e-3, FASTEST_STROKE);
+    let speed = draw.either_way(1e-3, FASTEST);
     if draw.chance(0.5) {
         let middle = length * draw.between(0.001, 0.999);
         let half = length * draw.over(1e-9, 1.0);

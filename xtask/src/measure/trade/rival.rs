@@ -92,7 +92,7 @@ impl Rival {
         let room = || vec![0.0; model.grid.intervals + 1];
         Ok(Rival {
             stiffness: model.stiffness(model.string.tension),
-            samples: (scene.duration * scene.sample_rate).ceil() as u64,
+            samples: scene.samples(),
             step: 0,
             displacement: room(),
             motion: room(),
