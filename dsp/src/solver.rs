@@ -111,7 +111,7 @@ impl Solver {
         Solver {
             response: Response::with_capacity(spans, fingers),
             room: Roomy::with_capacity(ARRAYS * contacts),
-            aside: Roomy::with_capacity(contacts),
+            aside: Roomy::with_capacity(fingers),
         }
     }
 
