@@ -34,7 +34,7 @@ impl State {
         scratch: &mut Scratch,
     ) -> Convergence {
         let mut convergence = Convergence::default();
-        let free = self.stretching(products, scratch);
+        let free = self.would_stretch(products, scratch);
         let free_pull = scratch.pull(free);
         self.touch(model, free_pull, scratch);
         let mut created = 0.0;
@@ -62,7 +62,7 @@ impl State {
                     let spread = spread(mobility, &mut scratch.active, &mut scratch.prediction);
                     products.along += spread.along;
                     scratch.tried += spread.sum;
-                    let more = self.stretching(&products, scratch);
+                    let more = self.would_stretch(&products, scratch);
                     stretching += more;
                     largest = self.advance(simd, more, scratch);
                     // (It knows of what is added in this round.)
@@ -141,8 +141,8 @@ impl State {
                 finger.height = old.height + finger.motion;
             }
         }
-        if self.settling > 0 {
-            self.settling -= 1;
+        if self.heights_rest_in > 0 {
+            self.heights_rest_in -= 1;
             self.heights_before.copy_from_slice(&self.heights);
             self.heights.copy_from_slice(&self.heights_next);
         }

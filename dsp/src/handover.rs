@@ -196,7 +196,7 @@ impl State {
         self.take_over_heights(model, old, old_model, same_grid);
         self.calm.fill(0);
         self.heights_next.copy_from_slice(&self.heights);
-        self.settling = 2;
+        self.heights_rest_in = 2;
         self.look_at_all(model);
     }
 
@@ -282,7 +282,7 @@ impl Hands {
     }
 
     /// Has the tension at the end of its way.
-    pub(crate) fn settle(&mut self) {
+    pub(crate) fn arrive(&mut self) {
         self.bent = Ramp::at(self.bent.goal());
         self.tuned = Ramp::at(1.0);
     }

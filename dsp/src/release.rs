@@ -50,7 +50,7 @@ impl State {
             self.heights_before[index] = height.min(past + overlap);
         }
         // Until the end of the next step.
-        self.settling = 1;
+        self.heights_rest_in = 1;
     }
 }
 

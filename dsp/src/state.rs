@@ -1,4 +1,12 @@
 //! The state of one string: all that must be remembered from one sample to the next.
+//!
+//! What it does stands where it belongs:
+//! - here: how it begins, in a shape or thrown; what is seen of it; fingers put and taken away;
+//! - `release`: how it begins to move when it is let go of;
+//! - `string`: a step of it, and what of that needs no contacts;
+//! - `touching`: which contacts act in a step, and which were missed;
+//! - `contact_step`: the part of a step that solves for them;
+//! - `handover`: what it takes over from a string on another model.
 
 use crate::curve::Curve;
 use crate::digits::plain;
@@ -42,7 +50,7 @@ pub struct State {
     /// Heights bⁿ⁺¹ within a step; the same as bⁿ between steps, once the barrier rests.
     pub(crate) heights_next: Vec<f64>,
     /// Steps until all three heights are the same again.
-    pub(crate) settling: u8,
+    pub(crate) heights_rest_in: u8,
     /// How often a finger has been placed or removed.
     pub(crate) finger_changes: u64,
     /// The highest of the fixed contacts beside each grid point, m, by `heights_next`.
@@ -79,7 +87,7 @@ impl State {
             heights_before: heights.clone(),
             heights_next: heights.clone(),
             heights,
-            settling: 0,
+            heights_rest_in: 0,
             finger_changes: 0,
             skyline: Field::new(&model.grid),
             close: Roomy::with_capacity(contacts),
@@ -109,7 +117,7 @@ impl State {
         }
         self.heights_before.copy_from_slice(&self.heights);
         self.heights_next.copy_from_slice(&self.heights);
-        self.settling = 0;
+        self.heights_rest_in = 0;
         self.finger_changes = 0;
         self.look_at_all(model);
         self.calm.fill(0);

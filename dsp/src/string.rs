@@ -228,7 +228,7 @@ impl State {
             scratch.fingers.fill(None);
             scratch.tried = 0.0;
             let products = self.predict(simd, model, drive, scratch);
-            let stretching = self.stretching(&products, scratch);
+            let stretching = self.would_stretch(&products, scratch);
             self.advance(simd, stretching, scratch);
             Convergence::default()
         } else {
@@ -273,7 +273,7 @@ impl State {
 
     /// (δuⁿ)ᵀδ(uⁿ⁺¹ + uⁿ⁻¹)/2, m², of a prediction, the forces of contacts in it.
     #[inline(always)]
-    pub(crate) fn stretching(&self, products: &Products, scratch: &Scratch) -> f64 {
+    pub(crate) fn would_stretch(&self, products: &Products, scratch: &Scratch) -> f64 {
         0.5 * scratch.yielding * (self.stretched - products.along)
     }
 

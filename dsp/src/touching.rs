@@ -52,7 +52,7 @@ impl State {
         if !drive.heights.is_empty() && !resting {
             self.heights_next.copy_from_slice(&drive.heights);
             draw(&model.grid, &model.contacts, &self.heights_next, &mut self.skyline);
-            self.settling = 2;
+            self.heights_rest_in = 2;
         }
         scratch.active.clear();
         scratch.near.clear();
@@ -253,7 +253,7 @@ impl State {
 
     /// How far any fixed contact itself moves in this step, m.
     fn lifted(&self) -> f64 {
-        if self.settling == 0 {
+        if self.heights_rest_in == 0 {
             return 0.0;
         }
         let lifts = self.heights_next.iter().zip(&self.heights).map(|(next, now)| (next - now).abs());

@@ -268,7 +268,7 @@ impl Voice {
         self.decimator.take_over(&old.decimator);
         if self.asleep {
             // Nobody heard the old tension, and no ramp runs while nothing moves.
-            self.hands.settle();
+            self.hands.arrive();
             return self.rebook();
         }
         self.state.take_over(&self.model, &old.state, &old.model);

@@ -86,7 +86,7 @@ fn fall_back(
         for i in 0..rows.len() {
             room.forces[i] = room.start[i] + room.unknown[i];
         }
-        let gain = settle(rows, answer, room.forces, room.motion);
+        let gain = energy_given(rows, answer, room.forces, room.motion);
         if gain <= 0.0 && (attempt >= EASINGS || bounded(rows, room.forces, 0.0)) {
             return gain;
         }
@@ -109,7 +109,7 @@ fn fall_back(
         }
     }
     room.forces.copy_from_slice(room.step);
-    settle(rows, answer, room.forces, room.motion)
+    energy_given(rows, answer, room.forces, room.motion)
 }
 
 /// Goes on from forces that create nothing, by which the solver takes `taken`, in the direction of a Newton step
@@ -164,11 +164,11 @@ fn stretch_to(t: f64, rows: &mut [Active], answer: &impl Answer, room: &mut Room
     for i in 0..rows.len() {
         room.forces[i] = room.start[i] + t * room.step[i];
     }
-    settle(rows, answer, room.forces, room.motion)
+    energy_given(rows, answer, room.forces, room.motion)
 }
 
 /// Evaluates the laws under forces beyond the base; returns the energy given to the string, J.
-fn settle(rows: &mut [Active], answer: &impl Answer, forces: &[f64], motion: &mut [f64]) -> f64 {
+fn energy_given(rows: &mut [Active], answer: &impl Answer, forces: &[f64], motion: &mut [f64]) -> f64 {
     answer.product(forces, motion);
     for (row, answer) in rows.iter_mut().zip(&*motion) {
         row.evaluate(row.centre - answer);
