@@ -60,7 +60,7 @@ fn what_it_has_no_room_for_is_kept_beside_it_and_named() {
     let kept: Vec<_> = kept.split(", ").map(|kept| kept.split_once(" as ").unwrap()).collect();
     let [(sound, sound_kept), (labels, labels_kept)] = kept.as_slice() else { panic!("{said}") };
     assert!(sound.ends_with("mounted.wav") && labels.ends_with("new.json"), "{said}");
-    assert!(peak(sound_kept.as_ref()) > 0.01);
-    assert!(fs::read_to_string(labels_kept).unwrap().starts_with('{'));
+    assert!(peak(&room.path(sound_kept)) > 0.01);
+    assert!(fs::read_to_string(room.path(labels_kept)).unwrap().starts_with('{'));
     assert!(!room.path("new.json").exists());
 }
