@@ -372,12 +372,14 @@ fn what_is_said_of_all_notes_is_said_of_each() {
 #[test]
 fn what_other_channels_play_is_no_reason_to_pluck() {
     let melody = [(0, cc(68, 127)), (0, note(0, 64)), (24_000, note(0, 66))];
-    let alone = keyboard(&melody);
+    let exact =
+        |events: &[(u64, PlayerEvent)]| GUITAR.told(InputMode::Keyboard, &Touching::new(0.0, 2.0), events);
+    let alone = exact(&melody);
     assert_eq!(plucks(&alone).len(), 1);
     for time in [23_500, 24_000] {
         let mut both = [&melody[..], &[(time, note(1, 40))]].concat();
         both.sort_by_key(|event| event.0);
-        let both = keyboard(&both);
+        let both = exact(&both);
         assert_eq!(plucks(&both).iter().map(|pluck| pluck.1).collect::<Vec<_>>(), [0, 5], "{time}");
         assert_eq!(of_string(&both, 0), of_string(&alone, 0), "{time}");
     }

@@ -286,7 +286,6 @@ fn a_capo_moves_under_a_run() {
         let mut stage = Stage::alone("electric", 0);
         let moved = [(0.2, cc(26, capo)), (0.4, on(70, 90)), (0.6, on(key, 90))];
         let played = stage.play(&[&legato[..], &moved].concat(), 1.2);
-        assert_eq!(plucks(&played.gestures), 1);
         let off = off_key(&played.strings[0][at(0.8)..], f64::from(key));
         assert!(off.abs() < 10.0, "capo {capo}, key {key}: {off} cents");
     }
