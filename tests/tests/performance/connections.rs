@@ -282,9 +282,9 @@ fn a_pedal_that_goes_up_leaves_the_key_below() {
 #[test]
 fn a_capo_moves_under_a_run() {
     let legato = [(0.0, cc(68, 127)), (0.0, cc(26, 3)), (0.0, on(69, 90))];
-    for (capo, key) in [(0, 66), (0, 64), (2, 66), (5, 69), (1, 67)] {
+    for (capo, key) in [(0, 66), (0, 64), (2, 66), (2, 71), (4, 68), (1, 67)] {
         let mut stage = Stage::alone("electric", 0);
-        let moved = [(0.2, cc(26, capo)), (0.4, on(70, 90)), (0.6, on(key, 90))];
+        let moved = [(0.2, cc(26, capo)), (0.4, on(key, 90))];
         let played = stage.play(&[&legato[..], &moved].concat(), 1.2);
         let off = off_key(&played.strings[0][at(0.8)..], f64::from(key));
         assert!(off.abs() < 10.0, "capo {capo}, key {key}: {off} cents");

@@ -228,7 +228,8 @@ fn a_note_that_makes_room_goes_under_the_palm() {
         events.sort_by_key(|event| event.0);
         let (player, heard) = played(&events, 960);
         assert_eq!(player.compromises().moved_strings, 1);
-        let string = heard.strings()[2];
+        // The string that has given way is stilled before it is struck for the other.
+        let string = heard.strings()[1];
         let mut gestures = GUITAR.told(InputMode::Keyboard, &Touching::new(0.0, 2.0), &events);
         gestures.retain(|timed| timed.string == string && (480..9_600).contains(&timed.time));
         gestures.iter().filter(|timed| matches!(timed.gesture, Gesture::Lift { .. })).count()
