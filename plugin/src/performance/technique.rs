@@ -111,7 +111,7 @@ pub(crate) const RESTING: Parting = Parting { relaxing: 0.4, easing: FINGER_EASI
 /// Of a finger that has tapped, and is to be off the string before it taps again; but no sooner than the dampers have come to rest,
 /// in whose 10 ms a string that hangs high over its fret would sound by being let up.
 pub(crate) const TAPPING: Parting =
-    Parting { relaxing: 0.004, easing: Leaving { speed: 0.05, turning: 0.03 } };
+    Parting { relaxing: 0.004, easing: Leaving { speed: 0.05, turning: 0.036 } };
 /// What a fretting finger goes on pressing with when a note has ended, as a multiple of the force at
 /// which the string would leave the fret.
 pub(crate) const HOLDING: f64 = 1.25;
@@ -153,21 +153,33 @@ pub(crate) struct Hammer {
     pub part: f64,
     /// Speed of the softest, m/s; that of the others is added to it.
     pub slowest: f64,
-    /// What is added stays below it however hard the note is, m/s; where that would ask for as much, it is half of it.
+    /// What is added stays below it however thin the string is if the note is as hard as can be, m/s; where that would ask for as much,
+    /// it is half of it. Softer notes have less of it, by this power of their force: or those of thin strings would all be as fast
+    /// as fingers are.
     pub limit: f64,
+    pub effort: f64,
 }
 
-/// The usual. Fingertips reach 1 to 2 m/s; on thin strings nothing is gained above 1.5. (Fitted to taps on four frets of nine strings
-/// of five instruments, and to runs of hammers.)
-pub(crate) const HAMMER: Hammer = Hammer { part: 1.3, slowest: 0.1, limit: 1.8 };
+/// The usual. Fingertips reach 1 to 2 m/s. (Fitted to taps on five frets of nine strings of five instruments, and to runs of hammers.)
+pub(crate) const HAMMER: Hammer = Hammer { part: 1.35, slowest: 0.1, limit: 2.7, effort: 0.6 };
 /// Time in which a string comes up from a fret that its finger leaves, s, before another can strike it there.
 pub(crate) const RISING: f64 = 0.003;
 /// How much of the landing speed the hand behind it would keep up by its force alone: the finger is thrown,
 /// and held back enough not to bounce.
 pub(crate) const HAMMER_GRIP: f64 = 0.5;
-/// How much of its force and speed it gathers on its way if that takes a period or more: as little is left at first as has the
-/// string moving within 3 ms.
-pub(crate) const GATHERED: f64 = 0.8;
+/// How a finger gathers force and speed on its way, if that takes long.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Gathering {
+    /// In what part of the period of what sounds it is on its way if it begins to, and from what part on it does so as much as can be.
+    pub from: f64,
+    pub to: f64,
+    /// How much of both it gathers then: as little is left at first as has the string moving within 3 ms.
+    pub most: f64,
+}
+
+/// The usual. On a way of x periods the speed at the end is (1 + what is gathered) / x of a constant one: gathered from half a period
+/// to nine tenths of one, it would be the same for all fingers that take so long.
+pub(crate) const GATHERING: Gathering = Gathering { from: 0.2, to: 0.7, most: 0.8 };
 /// Time in which it comes to press if it is thrown, s.
 pub(crate) const HAMMER_LANDING: f64 = 0.001;
 /// How fast a finger that is only held down behind another relaxes, and presses again, s: pressed on, it would

@@ -31,7 +31,7 @@ const STRINGS: [(&str, usize, u8); 5] =
 /// The way down takes from a third of a period to six of them; where it took whole ones at constant speed, harder taps were up
 /// to 14 dB softer. What is left comes from where partials stand: what is thrown at the string strikes it where the finger is,
 /// what gathers speed where the fret is. From the softest to the hardest they become louder by 10.5 to
-/// 30.8 dB.
+/// 34 dB.
 #[test]
 fn a_harder_tap_is_louder() {
     for (setup, string, open) in STRINGS {
@@ -53,7 +53,7 @@ fn a_harder_tap_is_louder() {
             let range = hardest - softest.expect("it has been tapped");
             println!("{setup} {string}, fret {fret}: {range:.2} dB from the softest to the hardest");
             assert!(
-                (9.0..31.0).contains(&range),
+                (9.0..35.0).contains(&range),
                 "{setup} {string}, fret {fret}: {range} dB from the softest to the hardest"
             );
         }

@@ -18,9 +18,11 @@ impl Fingers {
         let sounding = geometry.length - geometry.finger_position(fret);
         let pluck = self.usual_place.min(FARTHEST_PLUCK * sounding);
         let impedance = self.string.tension * self.open_period() / (2.0 * geometry.length);
-        let force = strength * self.hands.pluck_force;
-        let as_loud = force * libm::sin(PI * pluck / sounding) / impedance;
-        let Hammer { part, slowest, limit } = HAMMER;
-        slowest + part * as_loud / (1.0 + part * as_loud / limit)
+        let as_loud = self.hands.pluck_force * libm::sin(PI * pluck / sounding) / impedance;
+        let Hammer { part, slowest, limit, effort } = HAMMER;
+        let hardest = part * as_loud;
+        // What is asked for over what limits it, where the hardest has 1: no force, no speed.
+        let asked = if strength < 1.0 { libm::pow(strength, 1.0 - effort) } else { strength };
+        slowest + strength * hardest / (1.0 + asked * hardest / limit)
     }
 }

@@ -69,7 +69,7 @@ impl Fingers {
     }
 
     /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, behind a fret of a string that is held down
-    /// somewhere: thrown if it takes less than half a period, slowly at first if it takes more than one, and
+    /// somewhere: thrown if it takes a small part of a period, slowly at first if it takes more than half of one, and
     /// something of both in between.
     pub(super) fn throw(&self, fret: usize, stopped: Down, speed: f64) -> Thrown {
         let Fretting { mut touch, hover, .. } = self.hands.fretting;
@@ -77,7 +77,8 @@ impl Fingers {
         touch.hand_damping = touch.hand_damping.min(force / (HAMMER_GRIP * speed));
         let (way, pull) = self.way_down(fret, stopped);
         let time = way * touch.hand_damping / driving(force, pull);
-        let gathered = (2.0 * time / self.stopped_period(fret) - 1.0).clamp(0.0, GATHERED);
+        let Gathering { from, to, most } = GATHERING;
+        let gathered = most * ((time / self.stopped_period(fret) - from) / (to - from)).clamp(0.0, 1.0);
         let thrown = 1.0 - gathered;
         // Of a force that grows all the while, the mean of its beginning and its end.
         touch.hand_damping *= 0.5 * (thrown + 1.0);
