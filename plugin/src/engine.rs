@@ -226,13 +226,23 @@ impl Engine {
         }
     }
 
-    /// Whether a string sounds a key of a channel that has not been let go of, or will as soon as one is free; or the key asks
-    /// for a string, as long as it is down.
+    /// Whether a string sounds a key of a channel that has not been let go of, or will as soon as one is free or its sample
+    /// comes; or the key asks for a string, as long as it is down.
     pub fn sounds(&self, channel: u8, key: u8) -> bool {
         let Self { performance, .. } = self;
         performance.sounds(channel, key)
             || performance.awaits(channel, key)
             || performance.forces(channel, key)
+            || self.is_to_begin(channel, key)
+    }
+
+    /// Whether a note-on of a key waits for its sample: a block that a host's event cuts short ends before it.
+    fn is_to_begin(&self, channel: u8, key: u8) -> bool {
+        let begins = |event| match event {
+            PlayerEvent::NoteOn { channel: own, key: its, .. } => (own, its) == (channel, key),
+            _ => false,
+        };
+        self.waiting.iter().any(|waiting| begins(waiting.event))
     }
 
     /// Number of strings, and so of stems.

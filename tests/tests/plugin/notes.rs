@@ -241,6 +241,21 @@ fn a_note_struck_again_under_another_number_ends_with_both() {
     }
 }
 
+/// A parameter that is set cuts the block, and what comes at the same sample before it is of the part that ends there.
+#[test]
+fn a_note_that_begins_where_a_parameter_is_set_has_not_ended() {
+    let score = vec![
+        (100, Action::Begin { number: 1, channel: 0, key: 62 }),
+        (100, Action::Parameter(parameter("pluck_force"), 0.4)),
+        (6000, Action::Lift { number: 1 }),
+    ];
+    let performed = Host::new().perform(RATE, &score, LENGTH, &[512], 0);
+    assert_eq!(performed.ended, [(6144, 62)]);
+    // Its number is still known, so that it is let go of.
+    assert!(rms(&performed.stereo[0][480..6000]) > 1e-3, "it never sounds");
+    assert!(rms(&performed.stereo[0][30_000..]) < 1e-3, "it is not let go of");
+}
+
 /// However often its key went down, and whether it sounds or lies under another.
 #[test]
 fn a_choke_ends_a_note() {
