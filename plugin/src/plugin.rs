@@ -233,9 +233,7 @@ impl Plugin for LowAction {
             playing.silence();
         }
         playing.follow(&self.params);
-        while let Some(event) = self.played.next() {
-            playing.touch(event);
-        }
+        playing.take_up(&self.played);
         let is_vst3 = context.plugin_api() == PluginApi::Vst3;
         while let Some(event) = context.next_event() {
             playing.event(if is_vst3 { vst3::mended(event) } else { event }, &self.params);

@@ -19,6 +19,7 @@ use super::workshop::{Finished, Workshop};
 use crate::engine::{Engine, INAUDIBLE, Quality};
 use crate::params::LowActionParams;
 use crate::performance::{Announced, PlayerEvent};
+use crate::pointer::Played;
 
 /// An engine, what it was built from, and the workshop that builds others.
 pub(super) struct Playing {
@@ -148,7 +149,18 @@ impl Playing {
         events::translate(event, params, mpe, &mut self.voices, |offset, event| engine.event(offset, event));
     }
 
-    /// Plays what was done with the editor's strings, at once.
+    /// Plays what was done with the editor's strings. A rendering has only what the host plays, and is the same every time:
+    /// there it is forgotten.
+    pub fn take_up(&mut self, played: &Played) {
+        if self.offline {
+            return played.clear();
+        }
+        while let Some(event) = played.next() {
+            self.touch(event);
+        }
+    }
+
+    /// Plays something at once.
     pub fn touch(&mut self, event: PlayerEvent) {
         if event == PlayerEvent::AllNotesOff {
             self.voices.lift_all();

@@ -3,6 +3,7 @@
 use nice_plug::midi::{Channel, Key, VoiceID};
 
 use super::*;
+use crate::pointer::pointer;
 
 const RATE: f32 = 48_000.0;
 
@@ -117,6 +118,21 @@ fn a_keyswitch_for_a_string_is_let_go_of_by_its_number() {
     block(on(2, 52));
     let fingers = |string| playing.engine.instrument().state(string).fingers().iter().flatten().count();
     assert_eq!(fingers(5), 0, "the keyswitch still asks for its string");
+}
+
+#[test]
+fn what_is_done_in_the_editor_is_not_rendered() {
+    let meters = Arc::new(Meters::default());
+    for offline in [false, true] {
+        let (pointer, played) = pointer();
+        let mut playing = playing(order(), offline, &meters);
+        assert!(pointer.play(PlayerEvent::NoteOn { channel: 0, key: 45, velocity: 1.0 }));
+        playing.take_up(&played);
+        assert!(played.next().is_none(), "it would be played later");
+        let (mut left, mut right) = ([0.0; 4800], [0.0; 4800]);
+        playing.play(&LowActionParams::default(), &mut left, &mut right, &mut []);
+        assert_eq!(left.iter().all(|&sample| sample == 0.0), offline);
+    }
 }
 
 #[test]
