@@ -47,29 +47,41 @@ impl Order {
         Self { instrument: instrument.instrument.value(), file, luthier, sample_rate }
     }
 
-    /// Builds what is asked for. Where the file that was chosen cannot be played, the instrument that comes with the
-    /// program is, and the shelf tells why.
+    /// Builds what is asked for. Where the file that was chosen cannot be played, whatever is done to it, the instrument
+    /// that comes with the program is, and the shelf tells why. One that only bears too much is nobody else's: it is refused.
     pub fn build<T>(
         &self,
         shelf: &Shelf,
         make: impl Fn(&EngineOptions) -> Result<T, Error>,
     ) -> Result<T, String> {
         let name = self.instrument.id();
-        let make = |setup| {
-            make(&self.luthier.options(setup, f64::from(self.sample_rate))).map_err(|error| error.to_string())
+        let make_by = |luthier: &Luthier, setup| {
+            make(&luthier.options(setup, f64::from(self.sample_rate))).map_err(|error| error.to_string())
         };
         let problem = match self.file {
             (shelf::NONE, _) => None,
-            (number, _) => match shelf.setup(number).and_then(make) {
-                Ok(made) => {
-                    shelf.tell(None);
-                    return Ok(made);
+            (number, _) => {
+                let setup = shelf.setup(number);
+                match setup.clone().and_then(|setup| make_by(&self.luthier, setup)) {
+                    Ok(made) => {
+                        shelf.tell(None);
+                        return Ok(made);
+                    }
+                    Err(problem) => {
+                        let untouched = self.untouched().luthier;
+                        let bears_less =
+                            |setup| untouched != self.luthier && make_by(&untouched, setup).is_ok();
+                        if setup.is_ok_and(bears_less) {
+                            shelf.tell(None);
+                            return Err(problem);
+                        }
+                        Some(format!("{problem}; {name} is played instead"))
+                    }
                 }
-                Err(problem) => Some(format!("{problem}; {name} is played instead")),
-            },
+            }
         };
         shelf.tell(problem);
-        make(Setup::shipped(name).ok_or_else(|| format!("there is no set-up {name}"))?)
+        make_by(&self.luthier, Setup::shipped(name).ok_or_else(|| format!("there is no set-up {name}"))?)
     }
 
     /// The set-up that is asked for, as it comes, for pictures: nothing is built, and nobody is told what is wrong with a
@@ -215,6 +227,37 @@ mod tests {
             }
             // SAFETY: as above.
             set(unsafe { param.default_normalized_value() });
+        }
+    }
+
+    /// Only the file that cannot be played at all gives way to another instrument.
+    #[test]
+    fn a_file_that_bears_less_is_refused_and_not_replaced() {
+        let shelf = Shelf::new(Vec::new());
+        let text = "name = \"mine\"\nbased_on = \"electric\"\n";
+        let number = shelf.keep("mine", text);
+        let own = Setup::from_toml(text).expect("it is a set-up").neck.action;
+        let params = LowActionParams::new(shelf.clone(), &Start::default());
+        let plain = Order { file: (number, shelf.edition()), ..Order::of(&params, 48_000.0, false) };
+        let low = Order { luthier: Luthier { action: 0.5, ..plain.luthier }, ..plain };
+        // What is built is a name. The file bears no action lower than its own, or none at all.
+        let built = |order: &Order, bears_its_own: bool| {
+            order.build(&shelf, |EngineOptions { setup, .. }| {
+                let bears_it = bears_its_own && setup.neck.action > 0.9 * own;
+                match setup.name.as_str() {
+                    "mine" if !bears_it => Err(Error::range("neck.action", setup.neck.action, "more")),
+                    name => Ok(name.to_owned()),
+                }
+            })
+        };
+        let told = || shelf.message().unwrap_or_default();
+        assert_eq!((built(&plain, true).as_deref(), told()), (Ok("mine"), String::new()));
+        let refused = built(&low, true).expect_err("it bears no such action");
+        assert!(refused.starts_with("neck.action"), "{refused}");
+        assert_eq!(told(), "", "who asked for it says what is done about it");
+        for order in [&plain, &low] {
+            assert_eq!(built(order, false).as_deref(), Ok("electric"));
+            assert!(told().ends_with("; electric is played instead"), "{}", told());
         }
     }
 
