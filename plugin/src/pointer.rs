@@ -15,7 +15,7 @@ use crate::performance::PlayerEvent;
 const CAPACITY: usize = 512;
 
 /// How long an event may wait: longer than any block takes (8,192 samples at 8 kHz are a second).
-const OLD: Duration = Duration::from_millis(1500);
+pub(crate) const OLD: Duration = Duration::from_millis(1500);
 
 /// What is on its way, and since when.
 type Queue = Arc<ArrayQueue<(Instant, PlayerEvent)>>;

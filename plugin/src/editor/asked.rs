@@ -6,8 +6,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use nice_plug::params::internals::ParamPtr;
 
-/// How long a host has for it, s: more than its longest block.
-const PATIENCE: f64 = 0.5;
+use crate::pointer::OLD;
+
+/// How long a host has for it, s: as long as what is played may wait, more than the longest block takes.
+const PATIENCE: f64 = OLD.as_secs_f64();
 /// By how much values, 0 to 1, may differ that are the same; hosts round them. The finest steps are three times as wide.
 const SAME: f32 = 5e-5;
 
