@@ -32,6 +32,8 @@ pub(super) struct Playing {
     asked: Option<Order>,
     /// The sample at which the instrument of that was first asked for: notes since then are meant for it.
     asked_at: u64,
+    /// The sample since which nothing is ordered, as a file is awaited whose values are only coming.
+    awaits_since: Option<u64>,
     /// A finished engine waiting until the last one has faded.
     ready: Option<Finished>,
     /// What the outgoing part of the engine was ordered as.
@@ -66,6 +68,7 @@ impl Playing {
             refused: (order != wanted).then_some(wanted),
             asked: None,
             asked_at: 0,
+            awaits_since: None,
             ready: None,
             leaving: order,
             workshop,
@@ -106,6 +109,7 @@ impl Playing {
         }
         self.voices = Voices::default();
         self.asked_at = 0;
+        self.awaits_since = None;
     }
 
     /// The host begins to process again, or asks for silence: the framework tells of both in the same way. One that lets a
@@ -181,6 +185,7 @@ impl Playing {
         right: &mut [f32],
         stems: &mut [&mut [f32]],
     ) {
+        self.look_at(&params.shelf);
         let wanted = Order::of(params, self.order.sample_rate, self.offline);
         let mut done = 0;
         while done < left.len() {

@@ -40,6 +40,8 @@ struct Inside {
     stands_for: AtomicU32,
     /// A number, and what it is to stand for when it is chosen: a file, or what the folder has.
     promised: Mutex<Option<(u32, Option<Kept>)>>,
+    /// The number that was promised something else while it was chosen, until all that belongs to it is there; or [`NONE`].
+    awaited: AtomicU32,
     chosen: AtomicU32,
     /// Grows when the same number comes to mean something else.
     edition: AtomicU32,
@@ -68,6 +70,7 @@ impl Shelf {
             kept: Mutex::new(None),
             stands_for: AtomicU32::new(NONE),
             promised: Mutex::new(None),
+            awaited: AtomicU32::new(NONE),
             chosen: AtomicU32::new(NONE),
             edition: AtomicU32::new(0),
             message: Mutex::new(None),
@@ -151,7 +154,17 @@ impl Shelf {
     /// already, once [all that belongs to it](Self::keep_promise) is there.
     #[cfg(feature = "editor")]
     pub(crate) fn promise(&self, number: u32, file: Option<Kept>) {
-        *lock(&self.0.promised) = Some((number, file));
+        let mut promised = lock(&self.0.promised);
+        *promised = Some((number, file));
+        let is_chosen = self.0.chosen.load(Ordering::Relaxed) == number;
+        self.0.awaited.store(if is_chosen { number } else { NONE }, Ordering::Release);
+    }
+
+    /// Whether what is chosen is about to become another file, of whose values some may be there and some not: what would be
+    /// built now is neither. Neither waits nor allocates.
+    pub(super) fn is_awaited(&self) -> bool {
+        let awaited = self.0.awaited.load(Ordering::Acquire);
+        awaited != NONE && awaited == self.0.chosen.load(Ordering::Relaxed)
     }
 
     fn of_promised<T>(&self, number: u32, read: impl FnOnce(&Kept) -> T) -> Option<T> {
@@ -165,9 +178,16 @@ impl Shelf {
     pub(crate) fn keep_promise(&self) {
         let mut kept = lock(&self.0.kept);
         let Some((number, file)) = lock(&self.0.promised).take() else { return };
-        if number == NONE || self.0.chosen.load(Ordering::Relaxed) != number {
-            return;
+        if number != NONE && self.0.chosen.load(Ordering::Relaxed) == number {
+            self.stand(&mut kept, number, file);
         }
+        // Whoever sees that nothing is awaited sees the edition, too.
+        self.0.awaited.store(NONE, Ordering::Release);
+    }
+
+    /// Has the chosen number stand for a file, or for what the folder has.
+    #[cfg(feature = "editor")]
+    fn stand(&self, kept: &mut Option<Kept>, number: u32, file: Option<Kept>) {
         let is_file = file.is_some();
         let stands_for = if is_file { number } else { NONE };
         if is_file {
@@ -224,7 +244,9 @@ impl Shelf {
             *kept = Some(found.clone());
             self.0.stands_for.store(number, Ordering::Relaxed);
             // Also where it was what the folder has: kept later, it would be read once more.
-            promised.take_if(|(known, _)| *known == number);
+            if promised.take_if(|(known, _)| *known == number).is_some() {
+                self.0.awaited.store(NONE, Ordering::Release);
+            }
         }
         Ok(found)
     }

@@ -3,7 +3,12 @@
 use super::Playing;
 use crate::engine::Replacement;
 use crate::plugin::order::Order;
+use crate::plugin::shelf::Shelf;
 use crate::plugin::workshop::Finished;
+
+/// How long values may take that belong to an awaited file, s: longer than the editor waits for them. A window that was closed
+/// meanwhile waits for nothing.
+const PATIENCE: f64 = 2.0;
 
 impl Playing {
     /// Sees to it that the engine becomes what is wanted: at once where the host renders offline, as soon as
@@ -57,8 +62,24 @@ impl Playing {
         None
     }
 
-    /// Orders what is wanted, unless it is played, on its way, or was refused.
+    /// Looks whether a file is awaited, before the parameters are looked at: in real time only, since the editor has its own
+    /// time.
+    pub(super) fn look_at(&mut self, shelf: &Shelf) {
+        let awaits = !self.offline && shelf.is_awaited();
+        self.awaits_since = awaits.then(|| self.awaits_since.unwrap_or_else(|| self.engine.now()));
+    }
+
+    /// Whether what is wanted now is to be passed over: a mixture of one file's values and another's.
+    fn awaits(&self) -> bool {
+        let patience = (PATIENCE * f64::from(self.order.sample_rate)) as u64;
+        self.awaits_since.is_some_and(|since| self.engine.now().saturating_sub(since) < patience)
+    }
+
+    /// Orders what is wanted, unless it is played, on its way, or was refused; or something else is awaited.
     fn ask(&mut self, wanted: Order) {
+        if self.awaits() {
+            return;
+        }
         if self.refused.take_if(|refused| *refused != wanted).is_some() && wanted == self.order {
             // It plays already. But only who builds it tells that all is well again.
             self.workshop.order(wanted);
@@ -101,7 +122,6 @@ mod tests {
     use crate::engine::Quality;
     use crate::params::{InstrumentChoice, LowActionParams};
     use crate::plugin::meters::Meters;
-    use crate::plugin::shelf::Shelf;
 
     fn order() -> Order {
         Order::of(&LowActionParams::default(), 48_000.0, false)

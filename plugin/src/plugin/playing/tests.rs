@@ -3,6 +3,8 @@
 use nice_plug::midi::{Channel, Key, VoiceID};
 
 use super::*;
+#[cfg(feature = "editor")]
+use crate::params::Start;
 use crate::pointer::pointer;
 
 const RATE: f32 = 48_000.0;
@@ -132,6 +134,42 @@ fn what_is_done_in_the_editor_is_not_rendered() {
         let (mut left, mut right) = ([0.0; 4800], [0.0; 4800]);
         playing.play(&LowActionParams::default(), &mut left, &mut right, &mut []);
         assert_eq!(left.iter().all(|&sample| sample == 0.0), offline);
+    }
+}
+
+/// As when it is saved over the file that plays, or that is taken back: its values come before it does.
+#[cfg(feature = "editor")]
+#[test]
+fn nothing_is_built_of_a_file_that_is_on_its_way() {
+    let shelf = Shelf::new(Vec::new());
+    let number = shelf.keep("mine", "name = \"mine\"\nbased_on = \"electric\"\n");
+    let file = shelf.held(number);
+    let params = LowActionParams::new(shelf.clone(), &Start::default());
+    let set = |param: ParamPtr, value: f32| {
+        // SAFETY: the pointers lead into `params`.
+        unsafe { param._internal_set_normalized_value(param.preview_normalized(value)) };
+    };
+    set(params.instrument.file.as_ptr(), number as f32);
+    for (offline, waits) in [(false, true), (true, false)] {
+        set(params.setup.action.as_ptr(), 1.0);
+        let order = Order::of(&params, RATE, offline);
+        let meters = Arc::new(Meters::default());
+        let mut playing = Playing::new(order, offline, shelf.clone(), meters).expect("it can be built");
+        let mut block = || {
+            let (mut left, mut right) = ([0.0; 4800], [0.0; 4800]);
+            playing.play(&params, &mut left, &mut right, &mut []);
+            !playing.is(&order)
+        };
+        assert!(!block(), "it plays already");
+        shelf.promise(number, file.clone());
+        set(params.setup.action.as_ptr(), 1.5);
+        assert_eq!(block(), !waits);
+        if waits {
+            // A window that was closed keeps no promise.
+            assert_eq!((0..20).filter(|_| block()).count(), 1, "two seconds and a tenth");
+        }
+        shelf.keep_promise();
+        assert!(block());
     }
 }
 

@@ -34,6 +34,7 @@ impl<'a> PersistentField<'a, Saved> for Shelf {
         let number = saved.as_ref().map_or(NONE, |saved| saved.number);
         *kept = saved;
         *lock(&self.0.promised) = None;
+        self.0.awaited.store(NONE, Ordering::Release);
         self.0.stands_for.store(number, Ordering::Relaxed);
         self.0.edition.fetch_add(1, Ordering::Relaxed);
     }

@@ -46,6 +46,25 @@ fn what_is_to_be_kept_counts_before_it_is() {
     assert_eq!(shelf.held(1), None, "what the folder has");
 }
 
+/// Only where it is chosen already: another one is taken up as soon as it is.
+#[test]
+fn a_file_in_place_of_the_one_that_is_chosen_is_awaited() {
+    let (_folder, shelf) = shelf();
+    let other = kept("based_on = \"bass\"\n");
+    shelf.promise(1, Some(other.clone()));
+    shelf.choose(1);
+    assert!(!shelf.is_awaited());
+    shelf.setup(1).expect("it is a set-up");
+    let ends: [fn(&Shelf); 2] = [Shelf::keep_promise, |shelf| shelf.choose(2)];
+    for end in ends {
+        shelf.choose(1);
+        shelf.promise(1, Some(other.clone()));
+        assert!(shelf.is_awaited());
+        end(&shelf);
+        assert!(!shelf.is_awaited());
+    }
+}
+
 /// As when the one that was chosen after it could not be read.
 #[test]
 fn a_file_that_comes_back_is_heard() {
