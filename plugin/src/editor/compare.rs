@@ -1,7 +1,8 @@
 //! Two sets of values, A and B, to be compared by ear.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use nice_plug::params::internals::ParamPtr;
-use nice_plug::prelude::Params;
 
 use super::Given;
 use super::noted::put;
@@ -15,46 +16,67 @@ pub type File = (u32, Option<Kept>);
 
 /// A whole set of values.
 #[derive(Debug)]
-struct Set {
-    values: Values,
-    file: File,
+pub(crate) struct Set {
+    /// All values.
+    pub values: Values,
+    /// The file that is played.
+    pub file: File,
 }
 
-/// Two sets of values, of which one is heard.
 #[derive(Debug, Default)]
-pub struct Compare {
-    /// Whether B is heard.
-    pub is_b: bool,
+struct Inside {
+    is_b: bool,
     /// The one that is not heard; none if it is the same.
     other: Option<Set>,
 }
 
+/// Two sets of values, of which one is heard. The history has them: who goes back over a change from one to the other hears the
+/// other again, under its own letter.
+#[derive(Debug, Default)]
+pub struct Compare(Mutex<Inside>);
+
 impl Compare {
-    /// Hears A or B.
-    pub fn hear(&mut self, given: &Given, b: bool) {
-        if self.is_b == b {
-            return;
-        }
-        self.is_b = b;
-        let present = Set::present(given);
-        if let Some(Set { values, file }) = self.other.replace(present) {
-            change(given, &values, file);
-        }
+    /// Whether B is heard.
+    pub fn is_b(&self) -> bool {
+        self.inside().is_b
     }
 
     /// Makes the one that is not heard the same as the other.
-    pub fn copy(&mut self) {
-        self.other = None;
+    pub fn copy(&self) {
+        self.inside().other = None;
+    }
+
+    /// A or B is to be heard from now on: keeps what was heard if that is the other one, and gives back what it is itself
+    /// if it is not the same.
+    pub(crate) fn turn(&self, b: bool, present: impl FnOnce() -> Set) -> Option<Set> {
+        let mut inside = self.inside();
+        if inside.is_b == b {
+            return None;
+        }
+        inside.is_b = b;
+        inside.other.replace(present())
+    }
+
+    /// Both are the same, and A is heard.
+    pub fn forget(&self) {
+        *self.inside() = Inside::default();
+    }
+
+    /// Nothing a panicking view could have left half-done matters here.
+    fn inside(&self) -> MutexGuard<'_, Inside> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Set {
-    /// All values as they are.
-    fn present(given: &Given) -> Self {
-        let number = given.history.number();
-        let map = given.params.param_map().into_iter();
-        let values = map.map(|(_, param, _)| (param, given.history.asked.value(param))).collect();
-        Self { values, file: (number, given.params.shelf.held(number)) }
+/// Hears A or B.
+pub fn hear(given: &Given, b: bool) {
+    let history = given.history;
+    let was_b = history.compare.is_b();
+    if let Some(Set { values, file }) = history.compare.turn(b, || history.present()) {
+        history.together(|| {
+            history.turns_from(was_b);
+            change(given, &values, file);
+        });
     }
 }
 

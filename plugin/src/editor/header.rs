@@ -7,7 +7,7 @@ use egui::{
 };
 
 use super::Given;
-use super::compare::Compare;
+use super::compare;
 use super::presets::Presets;
 use super::shortcuts::COMMAND;
 use super::theme::{self, GAP, NEAR, TIGHT};
@@ -20,7 +20,6 @@ pub struct Header {
     /// The highest since somebody has said that they have seen it.
     highest: [f32; 2],
     presets: Presets,
-    compare: Compare,
 }
 
 /// Widest that the meter is, points.
@@ -45,12 +44,7 @@ const FALL: f32 = 24.0;
 
 impl Default for Header {
     fn default() -> Self {
-        Self {
-            levels: [FLOOR; 2],
-            highest: [FLOOR; 2],
-            presets: Presets::default(),
-            compare: Compare::default(),
-        }
+        Self { levels: [FLOOR; 2], highest: [FLOOR; 2], presets: Presets::default() }
     }
 }
 
@@ -77,13 +71,13 @@ impl Header {
             if row.width() > FOR_COMPARING {
                 self.presets.show(ui, given, row.width());
                 ui.add_space(NEAR);
-                self.show_compare(ui, given);
+                show_compare(ui, given);
                 ui.add_space(NEAR);
                 show_history(ui, given);
                 None
             } else {
                 self.presets.show(ui, given, row.width() - TIGHT - MORE);
-                Some(self.show_more(ui, given, &messages))
+                Some(show_more(ui, given, &messages))
             }
         });
         let rest = row.with_min_x(taken.response.rect.right() + GAP);
@@ -104,49 +98,6 @@ impl Header {
     fn messages(given: &Given) -> Vec<String> {
         let late = given.meters.relaxed().then(|| "Over budget: contacts are solved less exactly".to_owned());
         [late, given.params.shelf.message()].into_iter().flatten().collect()
-    }
-
-    /// A button, and behind it what has no room beside it; it stays open, since one compares more than once. Gives back
-    /// where the button is.
-    fn show_more(&mut self, ui: &mut Ui, given: &Given, messages: &[String]) -> Rect {
-        let more = ui.add_sized(vec2(MORE, BUTTON), Button::new("…"));
-        more.widget_info(|| WidgetInfo::labeled(Role::Button, true, "More"));
-        let more = more.on_hover_text("More: A and B to compare, undo and redo");
-        let style = |style: &mut Style| {
-            menu_style(style);
-            style.spacing.button_padding = vec2(NEAR, TIGHT);
-        };
-        let menu = Popup::menu(&more).style(style).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-        menu.show(|ui| {
-            ui.set_min_width(MENU);
-            self.show_compare(ui, given);
-            ui.separator();
-            show_history(ui, given);
-            for text in messages {
-                ui.separator();
-                ui.set_max_width(MESSAGE);
-                Frame::NONE.inner_margin(vec2(NEAR, TIGHT)).show(ui, |ui| {
-                    ui.with_layout(Layout::top_down(Align::LEFT), |ui| {
-                        ui.colored_label(theme::ALARM, text);
-                    });
-                });
-            }
-        });
-        more.rect
-    }
-
-    /// Two sets of values to hear one after the other.
-    fn show_compare(&mut self, ui: &mut Ui, given: &Given) {
-        for (b, name) in [(false, "A"), (true, "B")] {
-            let button = Button::selectable(self.compare.is_b == b, name).frame_when_inactive(true);
-            if ui.add(button).on_hover_text("Hear one set of values, then the other").clicked() {
-                self.compare.hear(given, b);
-            }
-        }
-        let copy = if self.compare.is_b { "B to A" } else { "A to B" };
-        if ui.button(copy).on_hover_text("Make the other the same as what is heard").clicked() {
-            self.compare.copy();
-        }
     }
 
     /// Both channels, one over the other.
@@ -211,6 +162,50 @@ fn show_lights(ui: &mut Ui, messages: &[String], area: Rect) -> bool {
 
 fn show_light(ui: &Ui, at: Pos2) {
     ui.painter().circle_filled(at, 4.0, theme::ALARM);
+}
+
+/// A button, and behind it what has no room beside it; it stays open, since one compares more than once. Gives back
+/// where the button is.
+fn show_more(ui: &mut Ui, given: &Given, messages: &[String]) -> Rect {
+    let more = ui.add_sized(vec2(MORE, BUTTON), Button::new("…"));
+    more.widget_info(|| WidgetInfo::labeled(Role::Button, true, "More"));
+    let more = more.on_hover_text("More: A and B to compare, undo and redo");
+    let style = |style: &mut Style| {
+        menu_style(style);
+        style.spacing.button_padding = vec2(NEAR, TIGHT);
+    };
+    let menu = Popup::menu(&more).style(style).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    menu.show(|ui| {
+        ui.set_min_width(MENU);
+        show_compare(ui, given);
+        ui.separator();
+        show_history(ui, given);
+        for text in messages {
+            ui.separator();
+            ui.set_max_width(MESSAGE);
+            Frame::NONE.inner_margin(vec2(NEAR, TIGHT)).show(ui, |ui| {
+                ui.with_layout(Layout::top_down(Align::LEFT), |ui| {
+                    ui.colored_label(theme::ALARM, text);
+                });
+            });
+        }
+    });
+    more.rect
+}
+
+/// Two sets of values to hear one after the other.
+fn show_compare(ui: &mut Ui, given: &Given) {
+    let sides = &given.history.compare;
+    for (b, name) in [(false, "A"), (true, "B")] {
+        let button = Button::selectable(sides.is_b() == b, name).frame_when_inactive(true);
+        if ui.add(button).on_hover_text("Hear one set of values, then the other").clicked() {
+            compare::hear(given, b);
+        }
+    }
+    let copy = if sides.is_b() { "B to A" } else { "A to B" };
+    if ui.button(copy).on_hover_text("Make the other the same as what is heard").clicked() {
+        sides.copy();
+    }
 }
 
 /// Undo and redo.

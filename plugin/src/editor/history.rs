@@ -7,9 +7,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use nice_plug::context::gui::GuiContext;
 use nice_plug::params::internals::ParamPtr;
-use nice_plug::prelude::Param;
+use nice_plug::prelude::{Param, Params};
 
 use super::asked::Asked;
+use super::compare::{Compare, Set};
 use super::noted::put;
 use crate::params::LowActionParams;
 use crate::plugin::shelf::Kept;
@@ -44,6 +45,8 @@ struct Entry {
     /// Where the set-up file is concerned, the one that is played on the other side of the entry: a number alone does not tell
     /// it, as a session may keep another than the folder has.
     file: Option<Option<Kept>>,
+    /// Where it goes from A to B or back: whether B was heard before, and whether it is after.
+    sides: Option<[bool; 2]>,
     /// When it was last a step, s.
     stepped: Option<f64>,
 }
@@ -65,13 +68,15 @@ pub struct History {
     params: Arc<LowActionParams>,
     /// What the host has yet to do of it.
     pub asked: Asked,
+    /// The two sets of values it goes on with.
+    pub compare: Compare,
     inside: Mutex<Inside>,
 }
 
 impl History {
     /// Of these parameters, so far empty.
     pub fn new(params: Arc<LowActionParams>) -> Self {
-        Self { params, asked: Asked::default(), inside: Mutex::default() }
+        Self { params, asked: Asked::default(), compare: Compare::default(), inside: Mutex::default() }
     }
 
     /// A new picture at a time, s. Gives back whether all that was asked for is there.
@@ -114,6 +119,22 @@ impl History {
         }
     }
 
+    /// What is done together goes over to the set that is heard now, from A or B.
+    pub fn turns_from(&self, was_b: bool) {
+        let sides = [was_b, self.compare.is_b()];
+        if let Some(together) = &mut self.inside().together {
+            together.sides = Some(sides);
+        }
+    }
+
+    /// All values as they are, or are to be.
+    pub(crate) fn present(&self) -> Set {
+        let number = self.number();
+        let map = self.params.param_map().into_iter();
+        let values = map.map(|(_, param, _)| (param, self.asked.value(param))).collect();
+        Set { values, file: (number, self.params.shelf.held(number)) }
+    }
+
     /// Whether there is something to undo, and to redo.
     pub fn can(&self) -> [bool; 2] {
         let inside = self.inside();
@@ -124,7 +145,7 @@ impl History {
     pub fn undo(&self, gui: &GuiContext) {
         let Some(mut entry) = self.inside().done.pop_back() else { return };
         let back: Vec<_> = entry.changes.iter().rev().map(|change| (change.param, change.before)).collect();
-        self.cross(&mut entry, &back, gui);
+        self.cross(&mut entry, &back, 0, gui);
         self.inside().undone.push(entry);
     }
 
@@ -132,12 +153,16 @@ impl History {
     pub fn redo(&self, gui: &GuiContext) {
         let Some(mut entry) = self.inside().undone.pop() else { return };
         let again: Vec<_> = entry.changes.iter().map(|change| (change.param, change.after)).collect();
-        self.cross(&mut entry, &again, gui);
+        self.cross(&mut entry, &again, 1, gui);
         self.inside().done.push_back(entry);
     }
 
-    /// Goes over an entry, one way or the other, past what notes gestures.
-    fn cross(&self, entry: &mut Entry, values: &[(ParamPtr, f32)], gui: &GuiContext) {
+    /// Goes over an entry to one end of it, before (0) or after (1), past what notes gestures.
+    fn cross(&self, entry: &mut Entry, values: &[(ParamPtr, f32)], end: usize, gui: &GuiContext) {
+        if let Some(sides) = entry.sides {
+            // What is set now is that set's own; what was heard is kept as the other.
+            self.compare.turn(sides[end], || self.present());
+        }
         if let Some(file) = entry.file.take() {
             let own = self.params.instrument.file.as_ptr();
             let value = values.iter().rfind(|(param, _)| *param == own).map(|(_, value)| *value);
@@ -212,7 +237,7 @@ impl History {
             let Gesture { change, file, .. } = inside.under_way.remove(place);
             if change.before != change.after {
                 let stepped = inside.stepping.then_some(now);
-                inside.keep(Entry { changes: vec![change], file, stepped });
+                inside.keep(Entry { changes: vec![change], file, sides: None, stepped });
             }
         }
     }

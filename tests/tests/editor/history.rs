@@ -98,6 +98,39 @@ fn what_a_host_does_is_not_undone() {
     assert_eq!((desk.action(), desk.params.player.variation.value()), (1.0, 0.5));
 }
 
+fn is_b_heard(desk: &Desk) -> bool {
+    desk.harness.query_by_label("B to A").is_some()
+}
+
+/// Clicks on something, and gives back what is heard then.
+fn heard_after(desk: &mut Desk, name: &str) -> (bool, f32) {
+    desk.click(desk.named(name));
+    desk.wait(0.05);
+    (is_b_heard(desk), desk.action())
+}
+
+#[test]
+fn who_goes_back_over_a_and_b_hears_each_under_its_letter() {
+    let mut desk = Desk::new();
+    assert_eq!(heard_after(&mut desk, "B"), (true, 1.0));
+    desk.enter("Luthier", "Action", "150");
+    assert_eq!(heard_after(&mut desk, "A"), (false, 1.0));
+    assert_eq!(heard_after(&mut desk, "Undo"), (true, 1.5));
+    // Neither was lost by it.
+    assert_eq!(heard_after(&mut desk, "A"), (false, 1.0));
+    assert_eq!(heard_after(&mut desk, "Undo"), (true, 1.5));
+    assert_eq!(heard_after(&mut desk, "Undo"), (true, 1.0));
+    assert_eq!(heard_after(&mut desk, "Redo"), (true, 1.5));
+    assert_eq!(heard_after(&mut desk, "Redo"), (false, 1.0));
+    assert_eq!(heard_after(&mut desk, "B"), (true, 1.5));
+    assert_eq!(heard_after(&mut desk, "A"), (false, 1.0));
+    // Made the same in between, the one that was heard is the one that comes back.
+    assert_eq!(heard_after(&mut desk, "A to B"), (false, 1.0));
+    assert_eq!(heard_after(&mut desk, "B"), (true, 1.0));
+    assert_eq!(heard_after(&mut desk, "Undo"), (true, 1.5));
+    assert_eq!(heard_after(&mut desk, "A"), (false, 1.0));
+}
+
 #[test]
 fn a_and_b_are_heard_in_turn() {
     let mut desk = Desk::new();
