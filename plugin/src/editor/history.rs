@@ -53,6 +53,8 @@ struct Entry {
 
 #[derive(Debug, Default)]
 struct Inside {
+    /// How many sessions had been loaded at the last picture.
+    loads: u32,
     /// Gestures that have begun.
     under_way: Vec<Gesture>,
     /// What is one entry together, while it is being done.
@@ -76,17 +78,36 @@ pub struct History {
 impl History {
     /// Of these parameters, so far empty.
     pub fn new(params: Arc<LowActionParams>) -> Self {
-        Self { params, asked: Asked::default(), compare: Compare::default(), inside: Mutex::default() }
+        let inside = Inside { loads: params.shelf.loads(), ..Inside::default() };
+        Self { params, asked: Asked::default(), compare: Compare::default(), inside: Mutex::new(inside) }
     }
 
     /// A new picture at a time, s. Gives back whether all that was asked for is there.
     pub fn look(&self, now: f64) -> bool {
         self.asked.look(now);
+        let loads = self.params.shelf.loads();
+        if std::mem::replace(&mut self.inside().loads, loads) != loads {
+            self.forget();
+        }
         let is_settled = self.asked.is_settled();
         if is_settled {
             self.params.shelf.keep_promise();
         }
         is_settled
+    }
+
+    /// Another session is there, in which nothing has been done yet. A gesture that is under way goes on from what that has.
+    fn forget(&self) {
+        let file = self.params.shelf.held(self.number());
+        let mut inside = self.inside();
+        for Gesture { change, file: before, .. } in &mut inside.under_way {
+            change.before = self.asked.value(change.param);
+            change.after = change.before;
+            *before = before.take().map(|_| file.clone());
+        }
+        inside.done.clear();
+        inside.undone.clear();
+        self.compare.forget();
     }
 
     /// All gestures that are made meanwhile are one entry, and so are those of parts that are such themselves.

@@ -45,6 +45,8 @@ struct Inside {
     chosen: AtomicU32,
     /// Grows when the same number comes to mean something else.
     edition: AtomicU32,
+    /// How many sessions have been loaded.
+    loads: AtomicU32,
     message: Mutex<Option<String>>,
 }
 
@@ -73,6 +75,7 @@ impl Shelf {
             awaited: AtomicU32::new(NONE),
             chosen: AtomicU32::new(NONE),
             edition: AtomicU32::new(0),
+            loads: AtomicU32::new(0),
             message: Mutex::new(None),
         }))
     }
@@ -211,6 +214,12 @@ impl Shelf {
     /// A number that tells apart what one number of a file means at different times.
     pub(super) fn edition(&self) -> u32 {
         self.0.edition.load(Ordering::Relaxed)
+    }
+
+    /// How many sessions have been loaded: what was done before the last one was done to another.
+    #[cfg(feature = "editor")]
+    pub(crate) fn loads(&self) -> u32 {
+        self.0.loads.load(Ordering::Relaxed)
     }
 
     /// The set-up of a number.

@@ -1,9 +1,10 @@
 //! Promise: every gesture is one step back, steps that follow at once are one together, and what a host does is none; A and B
-//! are two sets of values.
+//! are two sets of values; another session has neither.
 
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 use low_action_tests::desk::Desk;
+use nice_plug::context::gui::GuiContextInner;
 use nice_plug::prelude::{Enum, ParamSetter};
 
 #[test]
@@ -129,6 +130,30 @@ fn who_goes_back_over_a_and_b_hears_each_under_its_letter() {
     assert_eq!(heard_after(&mut desk, "B"), (true, 1.0));
     assert_eq!(heard_after(&mut desk, "Undo"), (true, 1.5));
     assert_eq!(heard_after(&mut desk, "A"), (false, 1.0));
+}
+
+/// What was done before belongs to another session: it would be set in this one.
+#[test]
+fn another_session_begins_anew() {
+    let mut desk = Desk::new();
+    desk.enter("Luthier", "Action", "150");
+    let session = desk.host.get_state();
+    heard_after(&mut desk, "B");
+    desk.enter("Luthier", "Action", "60");
+    desk.enter("Luthier", "Action", "80");
+    desk.undo();
+    desk.host.set_state(session);
+    desk.wait(0.05);
+    assert_eq!((is_b_heard(&desk), desk.action()), (false, 1.5));
+    desk.undo();
+    assert_eq!(desk.action(), 1.5);
+    desk.redo();
+    assert_eq!(desk.action(), 1.5);
+    assert_eq!(heard_after(&mut desk, "B"), (true, 1.5));
+    // From then on it is as ever.
+    desk.enter("Luthier", "Action", "70");
+    desk.undo();
+    assert_eq!(desk.action(), 1.5);
 }
 
 #[test]

@@ -37,6 +37,7 @@ impl<'a> PersistentField<'a, Saved> for Shelf {
         self.0.awaited.store(NONE, Ordering::Release);
         self.0.stands_for.store(number, Ordering::Relaxed);
         self.0.edition.fetch_add(1, Ordering::Relaxed);
+        self.0.loads.fetch_add(1, Ordering::Relaxed);
     }
 
     fn map<F, R>(&self, read: F) -> R
