@@ -63,8 +63,8 @@ pub struct Editor {
     words: Words,
     history: Arc<History>,
     keys: keys::Keys,
-    /// Whether the window has yet to become as it was left.
-    opening: bool,
+    /// What the window has yet to become as it was left.
+    opening: Opening,
     /// Whether something was typed into at the last picture.
     typing: bool,
     header: header::Header,
@@ -79,7 +79,7 @@ impl Editor {
             words: Words::of(&params),
             history: Arc::new(History::new(params.clone())),
             keys: keys::Keys::default(),
-            opening: true,
+            opening: Opening::Zoom,
             typing: false,
             params,
             meters,
@@ -106,7 +106,7 @@ impl Editor {
         }
         self.plan.follow(&self.params);
         let noted = Noted { gui: gui.clone(), history: self.history.clone() };
-        if self.opening {
+        if self.opening == Opening::Zoom {
             closing::end_gestures(ui.ctx(), noted.clone(), self.strings.finger(), self.pointer.clone());
         }
         self.resume(ui);
@@ -136,16 +136,18 @@ impl Editor {
         }
         place(ui, "panels", panels, |ui| self.panels.show(ui, &given));
         let panel = Tab::ALL.iter().position(|tab| *tab == self.panels.tab).unwrap_or(0);
-        let (size, zoom) = (Some(window.size().into()), ui.ctx().zoom_factor());
-        let seen = self.params.layout.seen();
-        self.params.layout.keep(Seen { panel, string: self.strings.watched(), size, zoom, ..seen });
+        let seen = Seen { panel, string: self.strings.watched(), ..self.params.layout.seen() };
+        self.params.layout.keep(match self.opening {
+            Opening::Done => Seen { size: Some(window.size().into()), zoom: ui.ctx().zoom_factor(), ..seen },
+            _ => seen,
+        });
         self.typing = ui.ctx().text_edit_focused();
         noted.end_dropped();
     }
 
     /// A window opens, which is to become as it was left.
     pub fn open(&mut self) {
-        self.opening = true;
+        self.opening = Opening::Zoom;
         // What was loud while nobody looked is over.
         self.meters.take_peaks();
         self.header.rest();
@@ -157,8 +159,16 @@ impl Editor {
         self.panels.tab = Tab::ALL.get(seen.panel).copied().unwrap_or_default();
         self.strings.watch(seen.string);
         let context = ui.ctx();
-        if std::mem::take(&mut self.opening) {
+        if self.opening == Opening::Zoom {
             context.set_zoom_factor(seen.zoom);
+            self.opening = Opening::Size;
+            if context.zoom_factor() != seen.zoom {
+                // It is so at the next picture, and only then are points as large as those that the size is given in.
+                context.request_repaint();
+                return;
+            }
+        }
+        if std::mem::take(&mut self.opening) == Opening::Size {
             let left = seen.size.map(egui::Vec2::from);
             if let Some(size) = left.filter(|size| *size != context.content_rect().size()) {
                 context.send_viewport_cmd(ViewportCommand::InnerSize(size));
@@ -202,6 +212,18 @@ impl NiceEguiApp for Editor {
     }
 }
 
+/// What a window that opens has yet to become as it was left.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Opening {
+    /// Everything in it has yet to become as large as it was, and then the window itself.
+    Zoom,
+    /// The window itself has.
+    Size,
+    /// Nothing.
+    #[default]
+    Done,
+}
+
 /// Where the parts of the window are.
 struct Areas {
     header: Rect,
@@ -218,7 +240,8 @@ const SIDE_PART: f32 = 0.19;
 
 impl Areas {
     /// Header, panels and side view have the height they need, if there is room for them, and the strings what is left.
-    /// Where there is little room only the tabs of the panels are seen, until one is opened in place of the side view.
+    /// Where there is little room only the tabs of the panels are seen, until one is opened in place of the side view; where
+    /// there is hardly any, what has room of it under its tabs.
     fn of(window: Rect, open: bool) -> Self {
         let row = |top: f32, bottom: f32| {
             let rect = Rect::from_min_max(pos2(window.left(), top), pos2(window.right(), bottom));
@@ -227,7 +250,7 @@ impl Areas {
         let header = row(window.top(), window.top() + HEADER);
         let mut bottom = window.bottom() - GAP;
         let mut take = |height: f32| {
-            let taken = row(bottom - height, bottom);
+            let taken = row((bottom - height).max(header.bottom()), bottom);
             bottom = taken.top() - GAP;
             taken
         };
@@ -235,7 +258,7 @@ impl Areas {
         let panels = take(if crowded && !open { TABS } else { PANELS });
         let for_side = if crowded && open { FOR_PANELS } else { FOR_SIDE };
         let side = (window.height() >= for_side).then(|| take(SIDE.max(SIDE_PART * window.height())));
-        Self { header, strings: row(header.bottom(), bottom), side, panels }
+        Self { header, strings: row(header.bottom(), bottom.max(header.bottom())), side, panels }
     }
 }
 

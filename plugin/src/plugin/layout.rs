@@ -13,7 +13,7 @@ use crate::files;
 
 /// Usual size of the window, in points.
 pub const SIZE: [f32; 2] = [1120.0, 760.0];
-/// Least and largest size of the window, and of everything in it, as parts of the usual one.
+/// Least and largest size of the window, whatever the size of what is in it, and of that, as parts of the usual one.
 pub const SIZES: [f32; 2] = [0.5, 3.0];
 
 /// What the computer's keys are, where there is no host that wants them for itself.
@@ -49,7 +49,7 @@ pub struct Seen {
     pub panel: usize,
     /// The string seen from the side, counted from 0.
     pub string: usize,
-    /// Of the window, points; none before it was ever open.
+    /// Of the window, points, which are as large as everything in it; none before it was ever open.
     pub size: Option<[f32; 2]>,
     /// Of everything in it, 1 as usual.
     pub zoom: f32,
@@ -71,8 +71,11 @@ impl Seen {
             true => value.clamp(least * usual, largest * usual),
             false => usual,
         };
-        let size = self.size.map(|[width, height]| [fit(width, SIZE[0]), fit(height, SIZE[1])]);
-        Self { size, zoom: fit(self.zoom, 1.0), ..self }
+        let zoom = fit(self.zoom, 1.0);
+        // In a window of the same size there are fewer points the larger they are.
+        let [usual_width, usual_height] = SIZE.map(|usual| usual / zoom);
+        let size = self.size.map(|[width, height]| [fit(width, usual_width), fit(height, usual_height)]);
+        Self { size, zoom, ..self }
     }
 }
 

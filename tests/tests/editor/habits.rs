@@ -102,9 +102,27 @@ fn the_window_is_as_large_as_it_was() {
     let nonsense =
         [("editor".to_owned(), r#"{"size": [1e9, 0.0], "zoom": 77, "panel": 9}"#.to_owned())].into();
     desk.params.deserialize_fields(&nonsense);
-    assert_eq!(desk.params.layout.seen().size, Some([3360.0, 380.0]));
+    // The largest window and the smallest, counted in points that are three times as large.
+    assert_eq!(desk.params.layout.seen().size, Some([1120.0, 380.0 / 3.0]));
     assert_eq!(desk.params.layout.seen().zoom, 3.0);
     desk.wait(0.1);
+}
+
+/// There are few points in a window of the usual size where they are large, and many where they are small.
+#[test]
+fn size_and_zoom_come_back_together() {
+    let sizes = [(3.0, [380.0, 260.0]), (2.0, [1120.0, 760.0]), (0.5, [4000.0, 2000.0])];
+    for (zoom, [width, height]) in sizes {
+        let mut desk = Desk::new();
+        let left = format!(r#"{{"size": [{width:?}, {height:?}], "zoom": {zoom:?}}}"#);
+        desk.params.deserialize_fields(&[("editor".to_owned(), left)].into());
+        desk.harness.state_mut().open();
+        desk.wait(0.1);
+        let ctx = &desk.harness.ctx;
+        assert_eq!((ctx.zoom_factor(), ctx.content_rect().size()), (zoom, egui::vec2(width, height)));
+        let seen = desk.params.layout.seen();
+        assert_eq!((seen.zoom, seen.size), (zoom, Some([width, height])));
+    }
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Promise: everything at the top of the window can be reached at every width that it can have; what has no room there
-//! is in a menu, which mouse and keyboard open and use alike.
+//! is in a menu, which mouse and keyboard open and use alike; so can the tabs of the panels at its bottom.
 
+use egui::accesskit::Role;
 use egui::{Key, Pos2, Rect, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use low_action_tests::desk::Desk;
@@ -79,6 +80,27 @@ fn the_menu_needs_no_mouse() {
     assert_eq!(instrument(&desk), "Electric");
     desk.key(Key::Escape);
     assert!(!is_seen(&desk, "Undo"), "the menu is still open");
+}
+
+/// The smallest window has few points where they are large.
+#[test]
+fn panels_open_and_close_however_little_room_there_is() {
+    let mut desk = desk();
+    for zoom in [1.0, 1.5, 2.0, 2.5, 3.0] {
+        let size = vec2(560.0, 380.0) / zoom;
+        desk.harness.set_size(size);
+        desk.wait(0.05);
+        let room = Rect::from_min_max(pos2(0.0, 48.0), size.to_pos2());
+        for (index, tab) in ["Player", "Luthier", "Sound", "Engine"].into_iter().enumerate() {
+            // Opens, and closes with the second click.
+            for click in 0..2 {
+                desk.open(tab);
+                assert_eq!(desk.params.layout.seen().panel, index, "{tab} at {size}, click {click}");
+                let place = desk.harness.get_by_role_and_label(Role::Tab, tab).rect();
+                assert!(room.contains_rect(place), "{tab} at {size}, click {click}: {place}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -63,6 +63,8 @@ pub struct Panels {
 
 /// Height of the row of tabs, points.
 pub(super) const TABS: f32 = 32.0;
+/// Width of a tab where there is room for all, points.
+const TAB: f32 = 80.0;
 /// What is narrower than this is scrolled, points.
 const NARROWEST: f32 = 1072.0;
 
@@ -99,8 +101,8 @@ impl Panels {
 
     fn show_tabs(&mut self, ui: &mut Ui, area: Rect) {
         let mut left = area.left() + NEAR;
+        let width = TAB.min((area.width() - 2.0 * NEAR) / Tab::ALL.len() as f32);
         for tab in Tab::ALL {
-            let width = 80.0;
             let place = Rect::from_min_size(pos2(left, area.top()), vec2(width, area.height()));
             left += width;
             let response = ui.interact(place, ui.scope_id().with(tab.name()), Sense::click());
