@@ -218,10 +218,10 @@ pub struct StandAloneArgs {
     /// How much computing.
     #[arg(short, long, value_name = "QUALITY", default_value_t = Quality::Live, help = qualities())]
     pub quality: Quality,
-    /// The keyboard or guitar that plays [default: the first there is].
+    /// The keyboard or guitar that plays, or a part of its name that no other has [default: the first there is].
     #[arg(long, value_name = "NAME")]
     pub midi_input: Option<String>,
-    /// Where the sound goes [default: where the system's usually does].
+    /// Where the sound goes, or a part of its name that no other has [default: where the system's usually does].
     #[arg(long, value_name = "NAME")]
     pub output_device: Option<String>,
     /// Way to the devices: jack, alsa (Linux), core-audio (macOS) or wasapi (Windows), or none for no sound [default:

@@ -32,21 +32,20 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
             setup
         }
     };
+    let devices = Devices {
+        backend: arguments.backend.clone(),
+        output: arguments.output_device.clone(),
+        keyboard: arguments.midi_input.clone(),
+        sample_rate: arguments.sample_rate,
+        period: arguments.period_size,
+        others: arguments.options.clone(),
+    };
+    let way = devices.way()?;
     // Whatever cannot be built is better said before the devices are opened.
-    let rate = f64::from(arguments.sample_rate);
+    let rate = f64::from(way.sample_rate);
     let options = EngineOptions { quality: arguments.quality, ..EngineOptions::new(setup, rate) };
     Engine::new(&options).map_err(|error| Failure::Impossible(anyhow::anyhow!("{name}: {error}")))?;
-    standalone::open(
-        start,
-        &Devices {
-            backend: arguments.backend.clone(),
-            output: arguments.output_device.clone(),
-            keyboard: arguments.midi_input.clone(),
-            sample_rate: arguments.sample_rate,
-            period: arguments.period_size,
-            others: arguments.options.clone(),
-        },
-    )?;
+    standalone::open(start, &devices, &way)?;
     Ok(())
 }
 

@@ -1,8 +1,9 @@
 //! The keyboards that could play, and which does.
 
-use anyhow::{Result, ensure};
-use jack::{Client, ClientOptions, PortFlags};
+use anyhow::Result;
 use midir::MidiInput;
+
+use super::names;
 
 /// A port that leads programs to each other and is no keyboard.
 const THROUGH: &str = "Midi Through";
@@ -13,26 +14,15 @@ pub(super) fn of_system() -> Vec<String> {
     midi.ports().iter().filter_map(|port| midi.port_name(port).ok()).collect()
 }
 
-/// The names of the JACK server's ports at which keyboards arrive, if one runs; none is started.
-pub(super) fn of_jack() -> Option<Vec<String>> {
-    let (client, _) = Client::new("Low Action", ClientOptions::NO_START_SERVER).ok()?;
-    Some(client.ports(None, Some("midi"), PortFlags::IS_PHYSICAL | PortFlags::IS_OUTPUT))
-}
-
 /// The one that is to play, if there is one: the named one, or the first.
 ///
 /// # Errors
-/// When the named one is not there.
+/// When the named one is not there, or it may be several.
 pub(super) fn choose(known: &[String], named: Option<&str>) -> Result<Option<String>> {
-    let Some(name) = named else {
-        return Ok(known.iter().find(|name| !name.contains(THROUGH)).cloned());
-    };
-    let there = match known {
-        [] => "there is none at all".to_owned(),
-        known => format!("it must be {}", known.join(" or ")),
-    };
-    ensure!(known.iter().any(|one| one == name), "there is no MIDI input {name:?}: {there}");
-    Ok(Some(name.to_owned()))
+    match named {
+        Some(name) => names::find("MIDI input", known, name).map(Some),
+        None => Ok(known.iter().find(|name| !name.contains(THROUGH)).cloned()),
+    }
 }
 
 /// A line for each, for people to read.
@@ -53,6 +43,7 @@ mod tests {
         assert_eq!(choose(&known, None).unwrap().as_deref(), Some("Keys"));
         assert_eq!(choose(&known[..1], None).unwrap(), None, "what leads programs to each other is none");
         assert_eq!(choose(&known, Some("Pads")).unwrap().as_deref(), Some("Pads"));
+        assert_eq!(choose(&known, Some("key")).unwrap().as_deref(), Some("Keys"), "a part of it is enough");
         assert_eq!(choose(&known, Some("Midi Through:0")).unwrap().as_deref(), Some("Midi Through:0"));
         let told = choose(&known, Some("Drums")).unwrap_err().to_string();
         assert_eq!(told, "there is no MIDI input \"Drums\": it must be Midi Through:0 or Keys or Pads");
