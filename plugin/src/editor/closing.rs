@@ -1,9 +1,11 @@
 //! What is held when a host closes the window. The library tells nobody that it is closed, but what the window remembers goes
-//! with it.
+//! with it. A program of its own ends then.
 
 use std::sync::Arc;
 
 use egui::{Context, Id};
+#[cfg(feature = "standalone")]
+use nice_plug::context::PluginApi;
 
 use super::noted::Noted;
 use super::strings::Finger;
@@ -25,6 +27,10 @@ impl Drop for Closing {
         // No mouse will ever be let go of in it: a finger that was to leave then leaves now.
         if let Some(string) = self.finger.take() {
             self.pointer.play(PlayerEvent::Touched { string, deed: StringDeed::Lift });
+        }
+        #[cfg(feature = "standalone")]
+        if self.noted.gui.plugin_api() == PluginApi::Standalone {
+            crate::standalone::window::gone();
         }
     }
 }

@@ -30,10 +30,17 @@ pub struct Link {
 impl Link {
     /// Makes an editor, whose window is closed.
     pub fn new(params: Arc<LowActionParams>, meters: Arc<Meters>, reader: Reader, pointer: Pointer) -> Self {
+        let repaint = RepaintNotifier::new();
+        let make = || {
+            let editor = Editor::new(params, meters, reader, pointer);
+            #[cfg(all(feature = "standalone", unix))]
+            let editor = editor.drawn_by(repaint.clone());
+            editor
+        };
         Self {
             state: EguiEditorState::from_size(LogicalSize::new(SIZE[0], SIZE[1]), 1.0),
-            repaint: RepaintNotifier::new(),
-            editor: (!start().windowless).then(|| Editor::new(params, meters, reader, pointer)),
+            editor: (!start().windowless).then(make),
+            repaint,
         }
     }
 

@@ -37,6 +37,8 @@ use nice_plug::context::PluginApi;
 use nice_plug::context::gui::GuiContext;
 use nice_plug::prelude::ParamSetter;
 use nice_plug_egui::NiceEguiApp;
+#[cfg(all(feature = "standalone", unix))]
+use nice_plug_egui::RepaintNotifier;
 
 use crate::display::Reader;
 use crate::params::LowActionParams;
@@ -59,6 +61,9 @@ pub struct Editor {
     reader: Reader,
     pointer: Pointer,
     gui: Option<GuiContext>,
+    /// Has the window drawn, whoever asks for it.
+    #[cfg(all(feature = "standalone", unix))]
+    repaint: Option<RepaintNotifier>,
     plan: Plan,
     words: Words,
     history: Arc<History>,
@@ -86,11 +91,19 @@ impl Editor {
             reader,
             pointer,
             gui: None,
+            #[cfg(all(feature = "standalone", unix))]
+            repaint: None,
             plan: Plan::default(),
             header: header::Header::default(),
             strings: strings::Strings::default(),
             panels: panels::Panels::default(),
         }
+    }
+
+    /// The same, whose window is drawn when that is asked for.
+    #[cfg(all(feature = "standalone", unix))]
+    fn drawn_by(self, repaint: RepaintNotifier) -> Self {
+        Self { repaint: Some(repaint), ..self }
     }
 
     /// Colours, fonts and spacings of a new window.
@@ -194,8 +207,8 @@ impl NiceEguiApp for Editor {
         let [red, green, blue, _] = theme::GROUND.to_normalized_gamma_f32();
         frame.set_clear_color(egui::Rgba::from_rgb(red, green, blue));
         #[cfg(all(feature = "standalone", unix))]
-        if gui.plugin_api() == PluginApi::Standalone {
-            crate::standalone::window::close_on_signals(context);
+        if let Some(repaint) = self.repaint.clone().filter(|_| gui.plugin_api() == PluginApi::Standalone) {
+            crate::standalone::window::close_on_signals(repaint);
         }
         self.gui = Some(gui);
         self.open();
@@ -205,6 +218,10 @@ impl NiceEguiApp for Editor {
     fn ui(&mut self, ui: &mut Ui, frame: &mut nice_plug_egui::Frame) {
         if let Some(gui) = self.gui.clone() {
             self.show(ui, &gui);
+            #[cfg(all(feature = "standalone", unix))]
+            if crate::standalone::window::is_leaving() {
+                ui.ctx().send_viewport_cmd(ViewportCommand::Close);
+            }
             if gui.plugin_api() != PluginApi::Standalone {
                 frame.set_key_capture(capture::kept(self.typing, ui.input(|input| input.modifiers.command)));
             }
