@@ -203,8 +203,8 @@ impl Limits {
         Self {
             // Three times as hard in a pop; or 50 N by who points.
             pluck: largest([3.0 * hands.pluck_force * strummed, 50.0]),
-            // The hardest tap, however hard a pluck would be.
-            throw: 1.9,
+            // The hardest tap, however hard a pluck would be: 2.7 m/s more than the softest.
+            throw: 2.8,
             // At full pressure 2.5 times, or as a note has it for itself. What rests, grazes or slaps presses with 2 N and less on any
             // string.
             press: largest([largest([2.5, pressed]) * fretting.force, 2.0]),
