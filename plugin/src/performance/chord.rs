@@ -148,9 +148,7 @@ impl Performance {
             self.strings[string].bend(time, channel, bend);
             self.just_begun.note(string, self.chord[index]);
         }
-        if self.chord.iter().any(|note| note.articulation.stroke == Stroke::Alternate) && !self.goes_on() {
-            self.upward = !self.upward;
-        }
+        self.turn_stroke();
         self.chord.clear();
     }
 

@@ -154,9 +154,9 @@ pub(crate) struct Hammer {
     /// Speed of the softest, m/s; that of the others is added to it.
     pub slowest: f64,
     /// What is added stays below it however thin the string is if the note is as hard as can be, m/s; where that would ask for as much,
-    /// it is half of it. Softer notes have less of it, by this power of their force: or those of thin strings would all be as fast
-    /// as fingers are.
+    /// it is half of it.
     pub limit: f64,
+    /// Softer notes stay below less, by this power of their force: or those of thin strings would all be as fast as fingers are.
     pub effort: f64,
 }
 
@@ -170,8 +170,9 @@ pub(crate) const HAMMER_GRIP: f64 = 0.5;
 /// How a finger gathers force and speed on its way, if that takes long.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gathering {
-    /// In what part of the period of what sounds it is on its way if it begins to, and from what part on it does so as much as can be.
+    /// On ways that take no longer it gathers nothing, as a part of the period of what sounds.
     pub from: f64,
+    /// On those that take as long, or longer, it gathers most, as a part of that.
     pub to: f64,
     /// How much of both it gathers then: as little is left at first as has the string moving within 3 ms.
     pub most: f64,

@@ -115,21 +115,28 @@ fn who_goes_back_over_a_and_b_hears_each_under_its_letter() {
     let mut desk = Desk::new();
     assert_eq!(heard_after(&mut desk, "B"), (true, 1.0));
     desk.enter("Luthier", "Action", "150");
-    assert_eq!(heard_after(&mut desk, "A"), (false, 1.0));
-    assert_eq!(heard_after(&mut desk, "Undo"), (true, 1.5));
-    // Neither was lost by it.
-    assert_eq!(heard_after(&mut desk, "A"), (false, 1.0));
-    assert_eq!(heard_after(&mut desk, "Undo"), (true, 1.5));
-    assert_eq!(heard_after(&mut desk, "Undo"), (true, 1.0));
-    assert_eq!(heard_after(&mut desk, "Redo"), (true, 1.5));
-    assert_eq!(heard_after(&mut desk, "Redo"), (false, 1.0));
-    assert_eq!(heard_after(&mut desk, "B"), (true, 1.5));
-    assert_eq!(heard_after(&mut desk, "A"), (false, 1.0));
-    // Made the same in between, the one that was heard is the one that comes back.
-    assert_eq!(heard_after(&mut desk, "A to B"), (false, 1.0));
-    assert_eq!(heard_after(&mut desk, "B"), (true, 1.0));
-    assert_eq!(heard_after(&mut desk, "Undo"), (true, 1.5));
-    assert_eq!(heard_after(&mut desk, "A"), (false, 1.0));
+    for (step, (name, heard)) in [
+        ("A", (false, 1.0)),
+        ("Undo", (true, 1.5)),
+        // Neither was lost by it.
+        ("A", (false, 1.0)),
+        ("Undo", (true, 1.5)),
+        ("Undo", (true, 1.0)),
+        ("Redo", (true, 1.5)),
+        ("Redo", (false, 1.0)),
+        ("B", (true, 1.5)),
+        ("A", (false, 1.0)),
+        // Made the same in between, the one that was heard is the one that comes back.
+        ("A to B", (false, 1.0)),
+        ("B", (true, 1.0)),
+        ("Undo", (true, 1.5)),
+        ("A", (false, 1.0)),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        assert_eq!(heard_after(&mut desk, name), heard, "{name}, step {step}");
+    }
 }
 
 /// What was done before belongs to another session: it would be set in this one.
@@ -161,15 +168,9 @@ fn a_and_b_are_heard_in_turn() {
     let mut desk = Desk::new();
     desk.click(desk.named("B"));
     desk.enter("Luthier", "Action", "150");
-    desk.click(desk.named("A"));
-    desk.wait(0.05);
-    assert_eq!(desk.action(), 1.0);
-    desk.click(desk.named("B"));
-    desk.wait(0.05);
-    assert_eq!(desk.action(), 1.5);
-    desk.click(desk.named("B to A"));
-    desk.wait(0.05);
-    desk.click(desk.named("A"));
-    desk.wait(0.05);
-    assert_eq!(desk.action(), 1.5);
+    for (name, heard) in
+        [("A", (false, 1.0)), ("B", (true, 1.5)), ("B to A", (true, 1.5)), ("A", (false, 1.5))]
+    {
+        assert_eq!(heard_after(&mut desk, name), heard, "{name}");
+    }
 }

@@ -99,6 +99,48 @@ fn taps_are_about_as_loud_as_plucks() {
     assert!(wrong.is_empty(), "docs/gestures.md has other numbers than {wrong:#?}");
 }
 
+/// When a string is as far down at a fret, within 2 %, as it stays: what is the least and the most of a tap of such velocities on
+/// such frets of all strings of three guitars, ms.
+fn on_the_fret(velocities: &[u8], frets: &[u8]) -> [f64; 2] {
+    let [mut least, mut most] = [f64::INFINITY, 0.0];
+    let strings = [64, 59, 55, 50, 45, 40].into_iter().enumerate();
+    let guitars = ["electric", "steel", "classical"].into_iter();
+    for (setup, (string, open)) in
+        guitars.flat_map(|setup| strings.clone().map(move |string| (setup, string)))
+    {
+        let mut stage = Stage::alone(setup, string);
+        for (&fret, &velocity) in
+            frets.iter().flat_map(|fret| velocities.iter().map(move |velocity| (fret, velocity)))
+        {
+            let mut depths = Vec::new();
+            let events = [(0.0, cc(22, 7)), (0.0, on(open + fret, velocity))];
+            stage.watch(&events, 0.15, |time, instrument| {
+                let crown = instrument.geometry(0).frets[usize::from(fret) - 1];
+                let reading = instrument.model(0).grid.reading(crown);
+                depths.push((1e3 * time, instrument.state(0).displacement_at(&reading)));
+            });
+            let stays = depths[depths.len() - 100..].iter().map(|(_, depth)| depth).sum::<f64>() / 100.0;
+            let there = depths.iter().find(|(_, depth)| *depth <= 0.98 * stays).expect("it comes down").0;
+            [least, most] = [least.min(there), most.max(there)];
+        }
+    }
+    [least, most]
+}
+
+/// Within the third of a millisecond from one look to the next, as docs/gestures.md has it.
+#[test]
+fn a_tap_is_on_its_fret_in_time() {
+    let [hard, soft] = [&[64, 90, 127][..], &[1]];
+    let [low, high] = [&[2, 5, 7][..], &[12]];
+    let found = [(hard, low), (soft, low), (hard, high), (soft, high)]
+        .map(|(velocities, frets)| on_the_fret(velocities, frets));
+    println!("{found:?} ms");
+    let [[quick, late], [soft_quick, soft_late], [_, high_late], [_, soft_high_late]] = found;
+    assert!(quick > 1.0 && late < 10.5, "{quick} to {late} ms");
+    assert!(soft_quick > 13.0 && soft_late < 38.5, "{soft_quick} to {soft_late} ms");
+    assert!(high_late < 13.0 && soft_high_late < 51.0, "{high_late} and {soft_high_late} ms at fret 12");
+}
+
 #[test]
 fn taps_in_a_row_are_as_soft_as_their_velocity() {
     for (setup, string, open) in STRINGS {

@@ -15,7 +15,7 @@ pub(in crate::performance) struct JustBegun {
     /// When it began, and when it went on, samples.
     began: u64,
     went_on: u64,
-    /// Whether what begins now goes on with its stroke back and forth.
+    /// Whether what is being placed goes on with its stroke back and forth.
     goes_on: bool,
 }
 
@@ -28,7 +28,7 @@ impl JustBegun {
     /// None has begun.
     pub fn reset(&mut self) {
         self.notes.fill(None);
-        (self.began, self.went_on) = (0, 0);
+        (self.began, self.went_on, self.goes_on) = (0, 0, false);
     }
 
     /// As another has begun: on its strings, if these go on, or on strings that are no more.
@@ -95,7 +95,6 @@ impl Performance {
     /// Notes that have just begun are placed with the chord, and so are those before them that each came in time for the next, as
     /// those of a strum do.
     pub(super) fn join_just_begun(&mut self) {
-        self.just_begun.goes_on = false;
         if self.just_begun.went_on < self.before(TOGETHER) {
             return;
         }
@@ -160,7 +159,14 @@ impl Performance {
     }
 
     /// Whether the chord goes on with a stroke back and forth that has just begun.
-    pub(super) fn goes_on(&self) -> bool {
+    fn goes_on(&self) -> bool {
         self.just_begun.goes_on
+    }
+
+    /// The chord has been placed: the next stroke back and forth goes the other way, if it was one.
+    pub(super) fn turn_stroke(&mut self) {
+        let goes_on = std::mem::take(&mut self.just_begun.goes_on);
+        let is_stroke = |note: &Unplaced| note.articulation.stroke == Stroke::Alternate;
+        self.upward ^= !goes_on && self.chord.iter().any(is_stroke);
     }
 }
