@@ -39,11 +39,33 @@ struct Finger {
     bar: bool,
     /// When it is where a slide to its note's fret takes it.
     arrives: u64,
-    /// Where it presses, m from the nut, if not where its fret has it.
+    /// Semitones by which it has glided away from its fret, where nothing keeps it on frets.
+    glided: f64,
+    /// Where it presses, m from the nut, if its fret has nothing to do with that.
     free: Option<f64>,
 }
 
 impl Finger {
+    /// Where it stops the string, counted in frets.
+    fn stands(&self) -> f64 {
+        self.fret as f64 + self.glided
+    }
+
+    /// The fret that is nearest to where it stops the string.
+    fn nearest_fret(&self) -> usize {
+        self.stands().round() as usize
+    }
+
+    /// Whether a slide to its note's fret has not got there yet.
+    fn is_under_way(&self, time: u64) -> bool {
+        time < self.arrives
+    }
+
+    /// Whether it stops the string nearer to the nut than a fret.
+    fn is_below(&self, fret: usize) -> bool {
+        self.stands() < fret as f64
+    }
+
     /// It leaves when the next note is about to sound.
     fn gives_way(&self) -> Gesture {
         hurried(self.slot, self.touch)
@@ -89,8 +111,6 @@ pub(crate) struct Fingers {
     right: RightHand,
     /// Fret of the present note, from which slides are counted.
     home: usize,
-    /// Semitones by which the finger has glided away from there, where nothing keeps it on frets.
-    glided: f64,
     /// Factor of the fretting finger's force: what a key is pressed down with.
     pressure: f64,
     /// Fret of the capo on notes to come, 0 for none, and of the one on the string.
@@ -116,7 +136,6 @@ impl Fingers {
             resting: [false; FINGERS_PER_STRING],
             right: RightHand::default(),
             home: 0,
-            glided: 0.0,
             pressure: 1.0,
             capo: [0, 0],
             capo_touch,
@@ -130,7 +149,7 @@ impl Fingers {
         self.next_slot = 0;
         self.resting = [false; FINGERS_PER_STRING];
         self.right.reset();
-        (self.home, self.glided) = (0, 0.0);
+        self.home = 0;
         self.pressure = 1.0;
         self.capo = [0, 0];
     }
@@ -142,7 +161,7 @@ impl Fingers {
         self.touched = old.touched;
         (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
         self.right.take_over(&old.right);
-        (self.home, self.glided, self.pressure) = (old.home, old.glided, old.pressure);
+        (self.home, self.pressure) = (old.home, old.pressure);
         (self.capo, self.capo_touch) = (old.capo, old.capo_touch);
     }
 
@@ -225,7 +244,7 @@ impl Fingers {
 
     /// Whether the finger that stops the string lets it up for a note at a fret, 0 for the open string.
     pub(crate) fn lets_up_to(&self, fret: usize) -> bool {
-        self.fretting.is_some_and(|finger| !finger.bar && finger.fret > fret)
+        self.fretting.is_some_and(|finger| !finger.bar && finger.stands() > fret as f64)
     }
 
     /// Period of the open string, s.
@@ -338,7 +357,20 @@ impl Fingers {
 
     /// Where a finger presses, m from the nut.
     fn pressed(&self, finger: &Finger) -> f64 {
-        finger.free.unwrap_or_else(|| self.place(finger.fret, finger.bar))
+        finger.free.unwrap_or_else(|| self.glided_place(finger.stands(), finger.bar))
+    }
+
+    /// Where a finger presses, or a bar lies, m from the nut, counted in frets: between two of them the sounding length goes by equal
+    /// factors.
+    fn glided_place(&self, stands: f64, bar: bool) -> f64 {
+        let (below, part) = (stands.floor(), stands - stands.floor());
+        if part == 0.0 {
+            return self.place(below as usize, bar);
+        }
+        let last = self.string.geometry.frets.len() as f64;
+        let sounding = |fret: f64| self.string.geometry.length - self.place(fret as usize, bar);
+        let (long, short) = (sounding(below), sounding((below + 1.0).min(last)));
+        self.string.geometry.length - long * libm::pow(short / long, part)
     }
 
     /// Where a finger stops a fret, or a bar lies over it, m from the nut.

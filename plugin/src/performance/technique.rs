@@ -191,7 +191,7 @@ pub(crate) const BEHIND_SPEED: f64 = 0.5;
 /// How fast one that is behind another already is at another fret, s, and how far off that may be, frets: where more go by under it
 /// they are heard, and another comes down.
 pub(crate) const BEHIND_SLIDE: f64 = 0.002;
-pub(crate) const BEHIND_REACH: usize = 2;
+pub(crate) const BEHIND_REACH: f64 = 2.0;
 /// How a finger plucks the string that it pulls off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pull {

@@ -11,7 +11,8 @@ use proptest::prelude::*;
 
 const RATE: f64 = 48_000.0;
 /// Set-up, string, its open key.
-const STRINGS: [(&str, usize, u8); 3] = [("electric", 2, 55), ("classical", 4, 45), ("bass", 2, 33)];
+const STRINGS: [(&str, usize, u8); 4] =
+    [("electric", 2, 55), ("classical", 4, 45), ("bass", 2, 33), ("fretless-bass", 2, 33)];
 /// Farthest a note may be from its key, cents: a string alone is within 2 of it over the frets, pulls of fingers included,
 /// and the rest of a bend that is still being let go of within 3.
 const IN_TUNE: f64 = 5.0;

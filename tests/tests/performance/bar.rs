@@ -3,8 +3,8 @@
 use low_action::performance::PlayerEvent;
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, play};
-use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{Stage, cc, hertz, on};
+use low_action_tests::pitch::{cents, frequency_near, off_key};
+use low_action_tests::stage::{Stage, at, cc, hertz, off, on};
 
 /// Heaviest finger, kg, and a bar with the hand that holds it is heavier.
 const FINGER: f64 = 0.05;
@@ -52,5 +52,20 @@ fn so_it_is_in_tune_by_itself() {
             let off = cents(frequency_near(&sound[12_000..], 48_000.0, hertz(key)), hertz(key));
             assert!((-4.0..10.0).contains(&off), "string {string}, semitone {fret}: {off} cents");
         }
+    }
+}
+
+/// One that is going is laid anew: it came down so slowly that the open string sounded first, for 120 ms after a rest of 0.88 s.
+#[test]
+fn it_lies_there_when_its_note_comes_again() {
+    let mut stage = Stage::alone("lap-steel", 3);
+    for rest in [0.2, 0.45, 0.6, 0.75, 0.8, 0.88, 0.95, 1.2] {
+        let again = 0.3 + rest;
+        let events = [(0.0, on(55, 90)), (0.3, off(55)), (again, on(55, 90))];
+        let sound = &stage.play(&events, again + 0.5).strings[0];
+        let off = [(0.02, 0.12), (0.1, 0.5)]
+            .map(|(from, to)| off_key(&sound[at(again + from)..at(again + to)], 55.0));
+        println!("{rest} s: {off:?} cents");
+        assert!((-10.0..40.0).contains(&off[0]) && (-4.0..40.0).contains(&off[1]), "{rest} s: {off:?} cents");
     }
 }

@@ -12,6 +12,7 @@ mod endings;
 mod evenness;
 mod expressions;
 mod gestures;
+mod glides;
 mod goes_on;
 mod landings;
 mod legato;

@@ -48,13 +48,14 @@ impl Fingers {
     /// Its force f falls along a ramp to what lifts the finger, and its hand brakes it: R dy/dt = f − Ly/w, if w is the way down and L
     /// what the string pulls with there. The mass counts for nothing in so slow a motion.
     fn held_down(&self, finger: &Finger, time: u64, sample_rate: f64) -> Down {
-        let pull = self.string.leaving_force(finger.fret);
-        let Grip::Eases { since, manner } = finger.grip else { return Down::on(finger.fret) };
+        let fret = finger.nearest_fret();
+        let pull = self.string.leaving_force(fret);
+        let Grip::Eases { since, manner } = finger.grip else { return Down::on(fret) };
         if pull <= 0.0 {
-            return Down::on(finger.fret);
+            return Down::on(fret);
         }
         let step_time = time.saturating_sub(since) as f64 / sample_rate / f64::from(PARTS);
-        let rise = finger.touch.hand_damping * self.string.depth(finger.fret) / pull;
+        let rise = finger.touch.hand_damping * self.string.depth(fret) / pull;
         let stays = libm::exp(-step_time / rise.max(f64::MIN_POSITIVE));
         let (from, to) = (HOLDING, -lift_force(finger.touch, manner) / pull);
         let follow = |part: f64, step: u32| {
@@ -62,6 +63,6 @@ impl Fingers {
             let goal = from + (to - from) * x * x * (3.0 - 2.0 * x);
             (goal + (part - goal) * stays).clamp(0.0, 1.0)
         };
-        Down { fret: finger.fret, part: (0..PARTS).fold(1.0, follow) }
+        Down { fret, part: (0..PARTS).fold(1.0, follow) }
     }
 }

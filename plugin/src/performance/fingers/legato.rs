@@ -4,7 +4,7 @@ use low_action_dsp::{FingerSlot, Gesture};
 
 use super::held::{Down, Grip};
 use super::landing::Thrown;
-use super::{Finger, Fingers, pulling};
+use super::{Departing, Finger, Fingers, pulling};
 use crate::performance::articulation::{Stop, Stroke};
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment, Technique};
@@ -80,7 +80,7 @@ impl Fingers {
         // An anchor there was has the slot that the new finger takes.
         self.anchor = None;
         match before {
-            Some(old) if old.fret < fret && !old.bar => self.hold_behind(old, at),
+            Some(old) if old.is_below(fret) && !old.bar => self.hold_behind(old, at),
             Some(old) => at.does(old.gives_way()),
             None => {}
         }
@@ -96,7 +96,7 @@ impl Fingers {
         strength: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> Option<f64> {
-        if self.fretting.is_some_and(|finger| finger.fret < fret && !finger.bar) {
+        if self.fretting.is_some_and(|finger| finger.is_below(fret) && !finger.bar) {
             return None;
         }
         let manner = self.letting_go(strength);
@@ -118,7 +118,6 @@ impl Fingers {
         self.make_way(at);
         let old = self.fretting.take()?;
         self.home = fret;
-        self.glided = 0.0;
         self.next_slot = (old.slot + 1) % FRETTING_SLOTS;
         match self.anchor.take() {
             anchor if fret > self.capo[1] => self.stop_behind(fret, old.slot, anchor, at),
@@ -141,16 +140,17 @@ impl Fingers {
         anchor: Option<Finger>,
         at: &mut Moment<impl GestureSink>,
     ) {
-        let Some(anchor) = anchor.filter(|anchor| anchor.fret.abs_diff(fret) <= BEHIND_REACH) else {
+        let is_near = |anchor: &Finger| (anchor.stands() - fret as f64).abs() <= BEHIND_REACH;
+        let Some(anchor) = anchor.filter(is_near) else {
             self.come_down(fret, Down::on(fret), BEHIND_SPEED, at);
             return;
         };
         let finger = anchor.slot;
-        if anchor.fret != fret || anchor.free.is_some() {
+        if anchor.stands() != fret as f64 || anchor.free.is_some() {
             let position = self.string.geometry.finger_position(fret);
             at.does(Gesture::Slide { finger, position, duration: BEHIND_SLIDE });
         }
-        self.fretting = Some(Finger { fret, free: None, grip: Grip::Presses, ..anchor });
+        self.fretting = Some(Finger { fret, glided: 0.0, free: None, grip: Grip::Presses, ..anchor });
         self.next_slot = leaving;
         let force = self.force();
         at.does(Gesture::Press { finger, force, duration: ANCHOR_RAMP.1 });
@@ -159,7 +159,7 @@ impl Fingers {
     /// A finger that stopped the string stays down behind the one that does, just hard enough.
     pub(super) fn hold_behind(&mut self, anchor: Finger, at: &mut Moment<impl GestureSink>) {
         self.anchor = Some(Finger { grip: Grip::Presses, ..anchor });
-        let force = (HOLDING * self.string.leaving_force(anchor.fret)).min(self.force());
+        let force = (HOLDING * self.string.leaving_force(anchor.nearest_fret())).min(self.force());
         at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.0 });
     }
 
@@ -184,7 +184,7 @@ impl Fingers {
         at: &mut Moment<impl GestureSink>,
     ) -> Gesture {
         let Thrown { touch, clearance, speed, force_at_first, rise } = self.throw(fret, stopped, speed);
-        (self.home, self.glided) = (fret, 0.0);
+        self.home = fret;
         let finger = self.take_slot(fret, touch, false);
         let thrown = Gesture::Throw { finger, touch, position, clearance, speed };
         at.does(thrown);
@@ -200,7 +200,7 @@ impl Fingers {
     fn slide_to(&mut self, fret: usize, duration: f64, at: &mut Moment<impl GestureSink>) -> Option<Gesture> {
         let way = self.fretting.map_or(0.0, |finger| self.place(fret, finger.bar) - self.pressed(&finger));
         let duration = duration.max(way.abs() / SLIDE_SPEED);
-        (self.home, self.glided) = (fret, 0.0);
+        self.home = fret;
         if let Some(finger) = &mut self.fretting {
             finger.arrives = at.after(duration);
         }
@@ -213,11 +213,20 @@ impl Fingers {
         duration.max(finger.arrives.saturating_sub(at.time) as f64 / at.sample_rate)
     }
 
-    /// A finger behind the one that moves to a fret leaves, fast if it is in the way.
+    /// A finger behind the one that moves to a fret leaves, fast if it is in the way, as one does that is leaving there already.
     fn lift_anchor(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
         if let Some(anchor) = self.anchor.take() {
-            let manner = if fret > anchor.fret { NODE_LIFT } else { QUICK_LIFT };
+            let manner = if anchor.is_below(fret) { NODE_LIFT } else { QUICK_LIFT };
             self.depart(anchor.slot, anchor.touch, manner, at);
+        }
+        let time = at.time;
+        let in_the_way = |departing: &mut Departing| {
+            time < departing.clear && departing.back.is_some_and(|(finger, _)| !finger.is_below(fret))
+        };
+        for departing in &mut self.departing {
+            if let Some(Departing { lift, .. }) = departing.take_if(in_the_way) {
+                at.does(lift);
+            }
         }
     }
 
@@ -237,7 +246,7 @@ impl Fingers {
         if fret as usize != at_fret {
             self.lift_anchor(fret as usize, at);
             if let Some(finger) = &mut self.fretting {
-                (finger.fret, finger.free) = (fret as usize, None);
+                (finger.fret, finger.glided, finger.free) = (fret as usize, 0.0, None);
             }
             let position = self.place(fret as usize, bar);
             let duration = Self::unhurried(&sliding, duration, at);
@@ -280,19 +289,16 @@ impl Fingers {
     /// away then.
     pub(crate) fn glide(&mut self, semitones: f64, duration: f64, at: &mut Moment<impl GestureSink>) -> f64 {
         let Some(finger) = self.slidable() else { return 0.0 };
-        let last = self.string.geometry.frets.len() as f64;
         let reached = self.can_glide(semitones);
-        let fret = finger.fret as f64 + reached;
-        if semitones == self.glided {
+        if reached == finger.glided {
             return reached;
         }
-        self.glided = semitones;
-        self.lift_anchor(fret as usize, at);
-        // Between two frets the sounding length goes by equal factors.
-        let (below, part) = (fret.floor(), fret - fret.floor());
-        let sounding = |fret: f64| self.string.geometry.length - self.place(fret as usize, finger.bar);
-        let (long, short) = (sounding(below), sounding((below + 1.0).min(last)));
-        let position = self.string.geometry.length - long * libm::pow(short / long, part);
+        let stands = finger.fret as f64 + reached;
+        self.lift_anchor(stands as usize, at);
+        if let Some(finger) = &mut self.fretting {
+            finger.glided = reached;
+        }
+        let position = self.glided_place(stands, finger.bar);
         let duration = Self::unhurried(&finger, duration, at);
         at.does(Gesture::Slide { finger: finger.slot, position, duration });
         reached

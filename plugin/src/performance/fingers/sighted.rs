@@ -23,8 +23,8 @@ impl Fingers {
         let fret = self.stopped_at(position);
         let presses = |finger: &&mut Finger| finger.free.is_some() && finger.grip == Grip::Presses;
         if let Some(finger) = self.fretting.as_mut().filter(presses) {
-            (self.home, self.glided) = (fret, 0.0);
-            (finger.fret, finger.free) = (fret, Some(position));
+            self.home = fret;
+            (finger.fret, finger.glided, finger.free) = (fret, 0.0, Some(position));
             return at.does(Gesture::Slide { finger: finger.slot, position, duration: POINTING });
         }
         self.make_way(at);

@@ -26,22 +26,26 @@ impl Fingers {
         self.lay_capo(at);
         self.home = fret;
         let bar = stop == Stop::Bar;
+        // One that eases off hangs over the string for longer than its note waits, and a bar is not caught as it goes.
+        let stays_down = |finger: &Finger| match bar {
+            true => finger.grip == Grip::Presses || finger.grip == Grip::Holds,
+            false => self.down(Some(finger), at).part > STILL_DOWN,
+        };
         let stays = |finger: &Finger| {
             finger.fret == fret
                 && finger.bar == bar
                 && finger.free.is_none()
                 && stop != Stop::Mute
-                && (bar || self.down(Some(finger), at).part > STILL_DOWN)
+                && stays_down(finger)
         };
         if self.fretting.is_some_and(|finger| stays(&finger)) {
             return self.press_again(at);
         }
-        self.glided = 0.0;
         let (old, anchor) = (self.fretting.take(), self.anchor.take().or(called_back));
         let presses = matches!(stop, Stop::Press | Stop::Harmonic) && fret > self.capo[1];
         let down = self.down(old.as_ref(), at);
         match old.filter(|old| presses && !old.bar && old.free.is_none()) {
-            Some(old) if old.fret < fret => {
+            Some(old) if old.is_below(fret) && !old.is_under_way(at.time) => {
                 self.land(fret, down, coming, at);
                 return self.depart_from(old, BEHIND_LIFT, at);
             }
@@ -81,7 +85,7 @@ impl Fingers {
     /// A finger that has eased off presses again.
     fn press_again(&mut self, at: &mut Moment<impl GestureSink>) {
         let (usual, landing) = (self.force(), self.hands.fretting.landing);
-        let bar = self.fretting.map_or(0.0, |finger| self.bar_force(finger.fret));
+        let bar = self.fretting.map_or(0.0, |finger| self.bar_force(finger.nearest_fret()));
         let Some(finger) = &mut self.fretting else { return };
         if std::mem::replace(&mut finger.grip, Grip::Presses) != Grip::Presses {
             let force = if finger.bar { bar } else { usual };
@@ -93,7 +97,8 @@ impl Fingers {
     pub(super) fn take_slot(&mut self, fret: usize, touch: Touch, bar: bool) -> FingerSlot {
         let slot = self.next_slot;
         self.next_slot = (slot + 1) % FRETTING_SLOTS;
-        self.fretting = Some(Finger { slot, fret, touch, grip: Grip::Presses, bar, arrives: 0, free: None });
+        let grip = Grip::Presses;
+        self.fretting = Some(Finger { slot, fret, touch, grip, bar, arrives: 0, glided: 0.0, free: None });
         slot
     }
 }

@@ -35,7 +35,7 @@ impl Fingers {
     fn added_tension(&self) -> f64 {
         let PlayedString { geometry, .. } = &self.string;
         let finger = self.fretting.filter(|finger| !finger.bar);
-        let fret = finger.map_or(self.capo[1], |finger| finger.fret);
+        let fret = finger.map_or(self.capo[1], |finger| finger.nearest_fret());
         let crown = fret.checked_sub(1).and_then(|index| geometry.frets.get(index));
         crown.map_or(0.0, |crown| {
             let ratio = (geometry.length - crown) / geometry.length * libm::exp2(fret as f64 / 12.0);

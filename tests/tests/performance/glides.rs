@@ -1,0 +1,109 @@
+//! The promise: a finger that has glided or slid is where it is, and not where its note began: what comes after it is stopped where
+//! it should be, from the first moment on.
+
+use low_action::performance::PlayerEvent;
+use low_action_tests::pitch::off_key;
+use low_action_tests::stage::{Stage, at, cc, off, on};
+
+const FRETLESS: (&str, usize) = ("fretless-bass", 2);
+
+fn wheel(semitones: f32) -> PlayerEvent {
+    PlayerEvent::PitchBend { channel: 0, value: semitones / 12.0 }
+}
+
+/// How far off a key a string alone sounds in parts of what is played, from and to s, cents; the wheel goes an octave far.
+fn off_keys(
+    (setup, string): (&str, usize),
+    events: &[(f64, PlayerEvent)],
+    heard: &[(f64, f64, f64)],
+) -> Vec<f64> {
+    let octave = [(0.0, cc(101, 0)), (0.0, cc(100, 0)), (0.0, cc(6, 12))];
+    let last = heard.iter().map(|part| part.1).fold(0.0, f64::max);
+    let sound = &Stage::alone(setup, string).play(&[&octave, events].concat(), last).strings[0];
+    heard.iter().map(|&(from, to, key)| off_key(&sound[at(from)..at(to)], key)).collect()
+}
+
+/// All within so many cents.
+fn are_in_tune(what: &str, off: &[f64], cents: f64) {
+    assert!(off.iter().all(|off| off.abs() < cents), "{what}: {off:?} cents off");
+}
+
+/// The finger had glided, and lies behind the one that was hammered.
+#[test]
+fn a_pull_comes_back_to_its_note() {
+    let events = [
+        (0.0, cc(68, 127)),
+        (0.0, on(43, 90)),
+        (0.2, wheel(1.0)),
+        (0.6, wheel(0.0)),
+        (0.6, on(45, 90)),
+        (1.0, off(45)),
+    ];
+    let off = off_keys(FRETLESS, &events, &[(0.4, 0.6, 44.0), (0.8, 1.0, 45.0), (1.15, 1.6, 43.0)]);
+    are_in_tune("glided up, hammered, pulled off", &off, 8.0);
+}
+
+/// It stops the string in front of the one that is to be hammered.
+#[test]
+fn a_note_behind_a_glided_finger_is_no_hammer() {
+    let events =
+        [(0.0, cc(68, 127)), (0.0, on(43, 90)), (0.2, wheel(3.0)), (0.6, wheel(0.0)), (0.6, on(45, 90))];
+    let off = off_keys(FRETLESS, &events, &[(0.4, 0.6, 46.0), (0.75, 1.2, 45.0)]);
+    are_in_tune("glided three up, two asked for", &off, 8.0);
+}
+
+#[test]
+fn a_plucked_note_behind_it_is_heard_at_once() {
+    let events = [(0.0, on(35, 90)), (0.2, wheel(4.0)), (0.6, wheel(0.0)), (0.6, off(35)), (0.6, on(36, 90))];
+    let off = off_keys(FRETLESS, &events, &[(0.4, 0.6, 39.0), (0.65, 0.8, 36.0), (0.8, 1.2, 36.0)]);
+    are_in_tune("glided four up, one asked for", &off, 15.0);
+}
+
+/// One that glided down and was leaving is called back.
+#[test]
+fn one_that_is_called_back_comes_to_its_fret() {
+    let events = [
+        (0.0, wheel(-1.0)),
+        (0.0, on(43, 90)),
+        (0.4, off(43)),
+        (0.4, wheel(0.0)),
+        (0.4, on(45, 90)),
+        (0.5, off(45)),
+        (0.5, on(43, 90)),
+    ];
+    let off = off_keys(FRETLESS, &events, &[(0.2, 0.4, 42.0), (0.65, 1.1, 43.0)]);
+    are_in_tune("glided down, called back", &off, 8.0);
+}
+
+/// What stopped the string before is still on its way up behind, where a slide passes: as if nobody had been there.
+#[test]
+fn a_slide_down_passes_what_is_leaving() {
+    let before = [(0.0, on(60, 90)), (0.3, off(60))];
+    let by_wheel = [(0.3, on(62, 90)), (0.33, wheel(-5.0))];
+    let by_legato = [(0.3, on(62, 90)), (0.33, cc(68, 127)), (0.33, cc(65, 127)), (0.33, on(58, 90))];
+    for (events, to, from) in [(&by_wheel[..], 57.0, 0.4), (&by_legato, 58.0, 0.45)] {
+        let heard = [(from, from + 0.06, to), (from + 0.06, from + 0.12, to), (0.6, 0.8, to)];
+        let alone = off_keys(("electric", 2), events, &heard);
+        let after = off_keys(("electric", 2), &[&before, events].concat(), &heard);
+        println!("to {to}: {after:?} cents off, {alone:?} alone");
+        let more: Vec<f64> = after.iter().zip(&alone).map(|(after, alone)| after - alone).collect();
+        are_in_tune("more than alone", &more, 10.0);
+        assert!(alone[2].abs() < 8.0, "{alone:?}");
+    }
+}
+
+/// The finger is to be a fret below the new note, and is ten above it.
+#[test]
+fn a_note_in_a_slide_is_stopped_where_it_should_be() {
+    let events = [
+        (0.0, cc(68, 127)),
+        (0.0, cc(65, 127)),
+        (0.0, on(67, 90)),
+        (0.3, on(56, 90)),
+        (0.38, off(56)),
+        (0.38, off(67)),
+        (0.38, on(58, 90)),
+    ];
+    let off = off_keys(("electric", 2), &events, &[(0.44, 0.54, 58.0), (0.6, 0.9, 58.0)]);
+    are_in_tune("plucked in a slide", &off, 15.0);
+}
