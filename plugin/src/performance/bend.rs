@@ -77,6 +77,15 @@ impl Bend {
         self.due = self.due.map(|_| time.max(self.ready));
     }
 
+    /// The fret at which a finger comes down for a note on another, 0 for the open string, which wheel and tuning bend by so much
+    /// from the beginning, semitones: past the reach of pulling it is where it would have to slide.
+    pub(crate) fn begin_slid(&mut self, fret: usize, asked: f64, fingers: &Fingers) -> usize {
+        if !fingers.glides_on_its_way() {
+            self.slid = fingers.reach(fret, self.frets_to_slide(asked, reach_of_pulling(fingers)));
+        }
+        (fret as i32 + self.slid) as usize
+    }
+
     /// Something else stops the string.
     pub(crate) fn renew(&mut self, time: u64) {
         self.followed = f64::NAN;
@@ -131,7 +140,7 @@ impl Bend {
     pub(crate) fn send(&mut self, fingers: &mut Fingers, at: &mut Moment<impl GestureSink>) -> bool {
         self.due = None;
         let asked = self.wheel + self.tuning;
-        let most = 6.0 * libm::log2(fingers.geometry().highest_ratio);
+        let most = reach_of_pulling(fingers);
         let unheard = self.unheard.take() == Some(at.time);
         let duration = |change: f64| (change.abs() / BEND_SPEED).max(BEND_RAMP);
         // Within a sample, since labels divide by durations. A finger that slides takes its time even so: it is heard.
@@ -215,4 +224,9 @@ impl Bend {
             self.due = Some(time.max(self.ready));
         }
     }
+}
+
+/// How far tension goes, semitones.
+fn reach_of_pulling(fingers: &Fingers) -> f64 {
+    6.0 * libm::log2(fingers.geometry().highest_ratio)
 }

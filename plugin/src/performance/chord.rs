@@ -199,6 +199,7 @@ impl Performance {
             strength: self.touching.strength(velocity),
             deviation: self.variation.next(),
             manner: own.with(manner),
+            wheel: self.bend(wanted.channel),
             articulation,
             order: self.hand.order(string, wanted.pitch),
             wait,

@@ -11,6 +11,7 @@ mod leaving;
 mod legato;
 mod pulling;
 mod sighted;
+mod sliding;
 mod stopping;
 mod tension;
 mod touches;

@@ -107,3 +107,31 @@ fn a_note_in_a_slide_is_stopped_where_it_should_be() {
     let off = off_keys(("electric", 2), &events, &[(0.44, 0.54, 58.0), (0.6, 0.9, 58.0)]);
     are_in_tune("plucked in a slide", &off, 15.0);
 }
+
+/// Past the reach of pulling it comes down where it would have to slide: on an open string, too, and again and again.
+#[test]
+fn a_note_under_a_wheel_begins_in_tune_however_far_that_stands() {
+    let cases = [
+        ("classical", 3, 50, 2.0),
+        ("classical", 3, 57, 2.0),
+        ("electric", 2, 57, 5.0),
+        ("electric", 5, 40, 7.0),
+        ("electric", 5, 47, -3.0),
+        ("steel", 2, 55, 12.0),
+    ];
+    for (setup, string, key, turned) in cases {
+        let events = [
+            (0.0, wheel(turned)),
+            (0.01, on(key, 90)),
+            (0.3, off(key)),
+            (0.31, on(key, 90)),
+            (0.6, off(key)),
+            (1.05, on(key, 90)),
+        ];
+        let to = f64::from(key) + f64::from(turned);
+        let heard =
+            [(0.015, 0.065, to), (0.05, 0.3, to), (0.34, 0.4, to), (1.055, 1.105, to), (1.1, 1.4, to)];
+        let off = off_keys((setup, string), &events, &heard);
+        are_in_tune(setup, &off, 8.0);
+    }
+}

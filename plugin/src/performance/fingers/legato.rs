@@ -1,10 +1,10 @@
-//! From one note to the next without the right hand: hammers, pulls, slides and glides.
+//! From one note to the next without the right hand: hammers, pulls and slides.
 
 use low_action_dsp::{FingerSlot, Gesture};
 
 use super::held::{Down, Grip};
 use super::landing::Thrown;
-use super::{Departing, Finger, Fingers, pulling};
+use super::{Finger, Fingers, pulling};
 use crate::performance::articulation::{Stop, Stroke};
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment, Technique};
@@ -193,114 +193,5 @@ impl Fingers {
         }
         at.does(Gesture::Press { finger, force: self.force(), duration: rise });
         thrown
-    }
-
-    /// The finger that sounds slides to another fret, which is the note's own from then on, no faster than hands do. Gives back
-    /// the slide.
-    fn slide_to(&mut self, fret: usize, duration: f64, at: &mut Moment<impl GestureSink>) -> Option<Gesture> {
-        let way = self.fretting.map_or(0.0, |finger| self.place(fret, finger.bar) - self.pressed(&finger));
-        let duration = duration.max(way.abs() / SLIDE_SPEED);
-        self.home = fret;
-        if let Some(finger) = &mut self.fretting {
-            finger.arrives = at.after(duration);
-        }
-        self.slide(0, duration, at).1
-    }
-
-    /// How long a finger takes that is to be elsewhere after so many seconds: no wheel and no vibrato hurries one that is on
-    /// its way to its note, s.
-    fn unhurried(finger: &Finger, duration: f64, at: &Moment<impl GestureSink>) -> f64 {
-        duration.max(finger.arrives.saturating_sub(at.time) as f64 / at.sample_rate)
-    }
-
-    /// A finger behind the one that moves to a fret leaves, fast if it is in the way, as one does that is leaving there already.
-    fn lift_anchor(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
-        if let Some(anchor) = self.anchor.take() {
-            let manner = if anchor.is_below(fret) { NODE_LIFT } else { QUICK_LIFT };
-            self.depart(anchor.slot, anchor.touch, manner, at);
-        }
-        let time = at.time;
-        let in_the_way = |departing: &mut Departing| {
-            time < departing.clear && departing.back.is_some_and(|(finger, _)| !finger.is_below(fret))
-        };
-        for departing in &mut self.departing {
-            if let Some(Departing { lift, .. }) = departing.take_if(in_the_way) {
-                at.does(lift);
-            }
-        }
-    }
-
-    /// Slides the fretting finger so many frets away from where the note began, as far as it [can](Self::can_slide).
-    /// Gives back how many it is away then, and the slide if it moves.
-    pub(crate) fn slide(
-        &mut self,
-        frets: i32,
-        duration: f64,
-        at: &mut Moment<impl GestureSink>,
-    ) -> (i32, Option<Gesture>) {
-        let frets = self.can_slide(frets);
-        let Some(sliding) = self.slidable() else { return (frets, None) };
-        let Finger { slot, fret: at_fret, bar, .. } = sliding;
-        let fret = self.home as i32 + frets;
-        let mut slide = None;
-        if fret as usize != at_fret {
-            self.lift_anchor(fret as usize, at);
-            if let Some(finger) = &mut self.fretting {
-                (finger.fret, finger.glided, finger.free) = (fret as usize, 0.0, None);
-            }
-            let position = self.place(fret as usize, bar);
-            let duration = Self::unhurried(&sliding, duration, at);
-            let moves = Gesture::Slide { finger: slot, position, duration };
-            at.does(moves);
-            slide = Some(moves);
-        }
-        (frets, slide)
-    }
-
-    /// How far the fretting finger can be away from where the note began if it is to be so many frets: as far as the neck goes. One
-    /// that has ceased to press stays where it is, and where there is none nothing slides.
-    pub(crate) fn can_slide(&self, frets: i32) -> i32 {
-        let home = self.home as i32;
-        if self.slidable().is_none() {
-            return self.fretting.map_or(0, |finger| finger.fret as i32 - home);
-        }
-        let last = self.string.geometry.frets.len() as i32;
-        let first = self.capo[1] as i32 + 1;
-        frets.clamp(first.min(last) - home, last - home)
-    }
-
-    /// So many semitones, or as many of them as the neck has for a finger that glides.
-    pub(crate) fn can_glide(&self, semitones: f64) -> f64 {
-        let Some(finger) = self.slidable() else { return semitones };
-        let (fret, last) = (finger.fret as f64, self.string.geometry.frets.len() as f64);
-        semitones.max(0.3 - fret).min(last - fret)
-    }
-
-    fn slidable(&self) -> Option<Finger> {
-        self.fretting.filter(|finger| finger.grip == Grip::Presses)
-    }
-
-    /// Whether nothing keeps the finger on frets, so that it is moved where others pull the string.
-    pub(crate) fn glides(&self) -> bool {
-        self.slidable().is_some_and(|finger| finger.bar || self.string.fretless)
-    }
-
-    /// Moves a finger that glides to so many semitones from its note, as far as the neck goes. Gives back how many it is
-    /// away then.
-    pub(crate) fn glide(&mut self, semitones: f64, duration: f64, at: &mut Moment<impl GestureSink>) -> f64 {
-        let Some(finger) = self.slidable() else { return 0.0 };
-        let reached = self.can_glide(semitones);
-        if reached == finger.glided {
-            return reached;
-        }
-        let stands = finger.fret as f64 + reached;
-        self.lift_anchor(stands as usize, at);
-        if let Some(finger) = &mut self.fretting {
-            finger.glided = reached;
-        }
-        let position = self.glided_place(stands, finger.bar);
-        let duration = Self::unhurried(&finger, duration, at);
-        at.does(Gesture::Slide { finger: finger.slot, position, duration });
-        reached
     }
 }

@@ -13,7 +13,7 @@ impl StringPlayer {
         self.strike_in_time(&mut self.moment(time, out));
         // A hand that is farther away has not come to the string when it turns to this note.
         self.overtaken += u64::from(self.deeds.await_sound());
-        let stills = self.wants_stilling(time);
+        let (stills, silent) = (self.wants_stilling(time), self.is_silent(time));
         self.take_presses(&mut start);
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
@@ -31,7 +31,7 @@ impl StringPlayer {
         start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
         self.call_off(&mut self.moment(time, out));
         self.begin(time, &start, strength);
-        self.bend.begin_struck(time, !stills);
+        self.bend.begin_struck(time, silent);
         let mut at = self.moment(time, out);
         at.tells(self.new_note(&start));
         self.fingers.press(start.manner.pressure, &mut at);
@@ -73,14 +73,19 @@ impl StringPlayer {
         let haste = start.haste();
         let coming = Coming { strength: strength * haste, haste };
         // The little by which a string comes up to a lower fret is not heard under the hand that stills it; more is.
-        let by_little = start.fret > self.fingers.capo();
+        let fret = match stop {
+            Stop::Press => self.bend.begin_slid(start.fret, start.wheel + start.manner.tuning, &self.fingers),
+            _ => start.fret,
+        };
+        let by_little = fret > self.fingers.capo();
         let leaves = match stilling {
             Some(stilling) if by_little && stilling.comes_at_once(start.wait) => QUICK_LIFT,
             // Under a palm a string that is let up would be louder than the stroke.
             _ if self.fingers.palm_rests() => self.fingers.letting_go(0.0),
             _ => self.fingers.letting_go(coming.strength),
         };
-        self.fingers.stop(start.fret, stop, coming, leaves, at);
+        self.fingers.stop(fret, stop, coming, leaves, at);
+        self.fingers.count_from(start.fret);
         self.touch_node(start.wait, at);
         if let Some(stilling) = stilling {
             self.still_before(start.wait, stilling, at);

@@ -28,6 +28,8 @@ pub(crate) struct Start {
     pub deviation: Deviation,
     /// What the note has for itself.
     pub manner: Manner,
+    /// Bend by its channel's wheel, semitones.
+    pub wheel: f64,
     /// What the hands are told to do.
     pub articulation: Articulation,
     /// The partial that a harmonic is of what sounds.

@@ -36,6 +36,15 @@ impl StringPlayer {
         self.note.is_some() || ends || rings
     }
 
+    /// Whether nobody hears what is done to the string: it has been damped, or has come to rest.
+    pub(super) fn is_silent(&self, time: u64) -> bool {
+        let damped = |step| matches!(step, Ending::Leave | Ending::Gone | Ending::Over);
+        !self.wants_stilling(time)
+            || (self.note.is_none()
+                && self.touched.is_none()
+                && self.ending.is_some_and(|(_, step)| damped(step)))
+    }
+
     /// How the hand stills the string for a stroke on a fret, 0 for the open string. Where a finger lets the string up to
     /// that, what counts is how long the hand is still there when the string has come up: letting go is a pluck, too.
     pub(super) fn stilling(&self, stroke: Stroke, fret: usize) -> Stilling {
