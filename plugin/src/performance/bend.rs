@@ -2,8 +2,9 @@
 //! a hand bends, in goals at a bounded rate. Before a note on a string at rest nobody hears it pulled: it begins in tune.
 //!
 //! Wheel and tuning pull the string as far as its set-up lets tension go. Past that a finger that stops the
-//! string slides to the nearest fret and pulling does the rest; an open string stays where pulling ends. A finger that has ceased to
-//! press, as its note is over, stays where it has slid or glided to, and pulling does what it can.
+//! string slides to the nearest fret and pulling does the rest, or comes down there if the note is yet to be plucked; an open string
+//! that sounds stays where pulling ends. A finger that has ceased to press, as its note is over, stays where it has slid or glided to,
+//! and pulling does what it can.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +14,7 @@ use super::fingers::{Fingers, Pulled};
 use super::technique::{
     BEND_INTERVAL, BEND_RAMP, BEND_SPEED, OUT_OF_TUNE, SLID_STAYS, VIBRATO, VIBRATO_STEP,
 };
-use super::{Annotation, GestureSink, Moment};
+use super::{Annotation, GestureSink, Moment, Technique};
 
 /// What is asked of a string and what has been done about it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -34,8 +35,9 @@ pub(crate) struct Bend {
     sent: f64,
     /// The tension for it, as a multiple of the string's own: what stops the string counts, too.
     ratio: f64,
-    /// All of the bend as last told, semitones.
+    /// All of the bend as last told, semitones, and how much of it is where the finger has gone.
     told: f64,
+    moved: f64,
     /// Frets the finger has been slid by.
     slid: i32,
     /// Semitones the finger has glided.
@@ -84,6 +86,39 @@ impl Bend {
             self.slid = fingers.reach(fret, self.frets_to_slide(asked, reach_of_pulling(fingers)));
         }
         (fret as i32 + self.slid) as usize
+    }
+
+    /// Whatever the finger before had slid or glided is over with it, within a sample: another one has come down.
+    pub(crate) fn tell_landing(&mut self, fingers: &Fingers, at: &mut Moment<impl GestureSink>) {
+        self.tell_moved(fingers.away(), at);
+    }
+
+    /// A note takes over from another by one technique or another: one that slides comes from so far, semitones. (A hand that
+    /// swings has its next goals told, and they have the finger there already.)
+    pub(crate) fn tell_change(
+        &mut self,
+        technique: Technique,
+        from: f64,
+        fingers: &Fingers,
+        at: &mut Moment<impl GestureSink>,
+    ) {
+        if technique == Technique::Slide && self.swings.is_none() {
+            self.tell_moved(from, at);
+            self.due = Some(self.ready.max(at.time));
+        } else {
+            self.tell_landing(fingers, at);
+        }
+    }
+
+    /// A finger stops the string so far from its note's fret now, semitones. What is pulled comes after that.
+    fn tell_moved(&mut self, moved: f64, at: &mut Moment<impl GestureSink>) {
+        let semitones = self.told - std::mem::replace(&mut self.moved, moved) + moved;
+        if semitones != self.told && self.unheard.is_none() {
+            self.told = semitones;
+            at.tells(Annotation::Bent { semitones, duration: 1.0 / at.sample_rate });
+            self.ready = self.ready.max(at.time + 1);
+            self.due = self.due.map(|due| due.max(self.ready));
+        }
     }
 
     /// Something else stops the string.
@@ -186,10 +221,12 @@ impl Bend {
             self.ratio = ratio;
             at.does(Gesture::Bend { tension_ratio: ratio, duration: pulling(change) });
         }
+        self.moved = moved;
         let semitones = moved + semitones;
         if semitones != self.told {
             self.told = semitones;
-            at.tells(Annotation::Bent { semitones, duration: taken.max(pulling(change)) });
+            let slides = if self.swings.is_none() { fingers.time_to_arrive(at) } else { 0.0 };
+            at.tells(Annotation::Bent { semitones, duration: taken.max(pulling(change)).max(slides) });
         }
         (asked - reached).abs() > OUT_OF_TUNE
     }

@@ -62,6 +62,11 @@ impl Finger {
         time < self.arrives
     }
 
+    /// How long that takes yet, s.
+    fn time_to_arrive(&self, at: &Moment<impl GestureSink>) -> f64 {
+        self.arrives.saturating_sub(at.time) as f64 / at.sample_rate
+    }
+
     /// Whether it stops the string nearer to the nut than a fret.
     fn is_below(&self, fret: usize) -> bool {
         self.stands() < fret as f64

@@ -213,6 +213,41 @@ fn bends_are_what_is_heard_all_the_way() {
     assert!(range[0] < -0.4 && range[1] > 1.9, "{range:?}");
 }
 
+/// From its onset on, though the finger before had slid far away; and through a slide, whose frets go by as steps.
+#[test]
+fn fingers_that_slide_are_in_the_contour() {
+    let far = [(0, [0xB0, 101, 0]), (0, [0xB0, 100, 0]), (0, [0xB0, 6, 12]), (0, [0xB0, 14, 3])];
+    let slid = [(0, [0x90, 57, 100]), (300, [0xE0, 0, 64 + 27]), (1000, [0xE0, 0, 64])];
+    let next = [(1000, [0x80, 57, 0]), (1000, [0x90, 60, 100]), (1500, [0x80, 60, 0])];
+    let legato = [(3000, [0xB0, 68, 127]), (3000, [0xB0, 65, 127]), (3000, [0xB0, 5, 90])];
+    let slides =
+        [(3100, [0x90, 57, 100]), (3400, [0x90, 64, 100]), (4600, [0x80, 64, 0]), (5600, [0x80, 57, 0])];
+    let played =
+        render(PROGRAM, &song(&[&far[..], &slid, &next, &legato, &slides].concat()), &["--variation", "0"]);
+    let bends = list(&played.labels, "bends");
+    let window = samples(0.03);
+    let mut largest = [0.0_f64; 2];
+    for note in played.notes() {
+        let sound = played.string_of(note);
+        let (from, to) = (sample(note, "onset_sample") + samples(0.02), sample(note, "end_sample") - window);
+        let arrives = match note["technique"].as_str() {
+            Some("slide") => from + samples(number(note, "stroke_duration")),
+            _ => from,
+        };
+        for at in (from..to).step_by(samples(0.01)) {
+            let bend = bend_at(bends, sample(note, "string"), at);
+            let pitch = number(note, "frequency") * (bend / 12.0).exp2();
+            let off = cents(frequency_near(&sound[at..at + window], RATE, pitch), pitch).abs();
+            // The wheel's, too.
+            let slides = at < arrives || (samples(0.28)..samples(0.36)).contains(&at);
+            largest[usize::from(slides)] = largest[usize::from(slides)].max(off);
+        }
+    }
+    assert!(played.notes().iter().filter(|note| note["technique"] == "slide").count() == 2);
+    // Steps are half a semitone off their mean, a string is on the last fret until it touches the next, and a window has both.
+    assert!(largest[0] < 3.0 && largest[1] < 200.0, "{largest:?}");
+}
+
 #[test]
 fn strings_are_silent_where_labels_say_nothing() {
     let mut messages: Vec<(u32, [u8; 3])> = Vec::new();

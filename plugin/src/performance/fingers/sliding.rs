@@ -28,7 +28,12 @@ impl Fingers {
     /// How long a finger takes that is to be elsewhere after so many seconds: no wheel and no vibrato hurries one that is on
     /// its way to its note, s.
     fn unhurried(finger: &Finger, duration: f64, at: &Moment<impl GestureSink>) -> f64 {
-        duration.max(finger.arrives.saturating_sub(at.time) as f64 / at.sample_rate)
+        duration.max(finger.time_to_arrive(at))
+    }
+
+    /// How long the finger that stops the string will be under way to its note's fret, s.
+    pub(crate) fn time_to_arrive(&self, at: &Moment<impl GestureSink>) -> f64 {
+        self.fretting.map_or(0.0, |finger| finger.time_to_arrive(at))
     }
 
     /// A finger behind the one that moves to a fret leaves, fast if it is in the way, as one does that is leaving there already.
@@ -114,6 +119,16 @@ impl Fingers {
 
     pub(super) fn slidable(&self) -> Option<Finger> {
         self.fretting.filter(|finger| finger.grip == Grip::Presses)
+    }
+
+    /// Where a finger or the capo stops the string, counted in frets.
+    pub(crate) fn stands(&self) -> f64 {
+        self.fretting.map_or(self.capo[1] as f64, |finger| finger.stands())
+    }
+
+    /// How far from the fret of its note a finger stops the string, semitones.
+    pub(crate) fn away(&self) -> f64 {
+        self.fretting.map_or(0.0, |finger| finger.stands() - self.home as f64)
     }
 
     /// Whether nothing keeps a finger on frets that comes down.

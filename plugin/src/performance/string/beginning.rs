@@ -86,6 +86,7 @@ impl StringPlayer {
         };
         self.fingers.stop(fret, stop, coming, leaves, at);
         self.fingers.count_from(start.fret);
+        self.bend.tell_landing(&self.fingers, at);
         self.touch_node(start.wait, at);
         if let Some(stilling) = stilling {
             self.still_before(start.wait, stilling, at);

@@ -39,7 +39,9 @@ impl StringPlayer {
         let mut at = self.moment(time, out);
         self.fingers.press(start.manner.pressure, &mut at);
         at.tells(self.new_note(&start));
+        let stood = self.fingers.stands();
         let (technique, gesture) = self.fingers.change(start.fret, slide, bar, strength, &mut at);
+        self.bend.tell_change(technique, stood - start.fret as f64, &self.fingers, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         self.begin_tremolo(tremolo, &at);
         self.follow(time, &start.manner);
@@ -94,8 +96,10 @@ impl StringPlayer {
         self.deeds.forget_tap();
         let mut at = self.moment(time, out);
         at.tells(self.returning_note(&back, time));
+        let stood = self.fingers.stands();
         let (technique, gesture) =
             self.fingers.change(back.fret, from.slide, from.bar, from.struck.strength, &mut at);
+        self.bend.tell_change(technique, stood - back.fret as f64, &self.fingers, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         self.fingers.press(back.pressure, &mut at);
         self.bend.tune(time, back.tuning);

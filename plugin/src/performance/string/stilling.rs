@@ -38,11 +38,14 @@ impl StringPlayer {
 
     /// Whether nobody hears what is done to the string: it has been damped, or has come to rest.
     pub(super) fn is_silent(&self, time: u64) -> bool {
-        let damped = |step| matches!(step, Ending::Leave | Ending::Gone | Ending::Over);
-        !self.wants_stilling(time)
-            || (self.note.is_none()
-                && self.touched.is_none()
-                && self.ending.is_some_and(|(_, step)| damped(step)))
+        let damped = |step| match step {
+            // What stops the string eases off first, when it is quiet.
+            Ending::Leave => self.fingers.stopped(),
+            Ending::Gone | Ending::Over => true,
+            Ending::Damp | Ending::DampBehind(_) | Ending::EaseOff => false,
+        };
+        let is_damped = self.ending.is_some_and(|(_, step)| damped(step));
+        !self.wants_stilling(time) || (self.note.is_none() && self.touched.is_none() && is_damped)
     }
 
     /// How the hand stills the string for a stroke on a fret, 0 for the open string. Where a finger lets the string up to
