@@ -89,6 +89,59 @@ fn a_click_beyond_the_board_plucks() {
     assert!(peak(&desk.sound) > 0.01);
 }
 
+/// As a touch pad's, or any where pictures are slow.
+#[test]
+fn a_tap_between_two_pictures_plays() {
+    let mut desk = Desk::new();
+    let places = [desk.at(BEYOND, 4.0), desk.at(FIFTH, 2.0)];
+    let mut tap = |at| {
+        desk.point(at);
+        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+        let press = |pressed| Event::PointerButton { pos: at, button, pressed, modifiers };
+        desk.harness.input_mut().events.extend([true, false].map(press));
+        desk.picture();
+        desk.wait(0.1);
+        std::mem::take(&mut desk.played)
+    };
+    let played = tap(places[0]);
+    let [PlayerEvent::Touched { string: 4, deed: StringDeed::Pluck { .. } }] = played[..] else {
+        panic!("{played:?}")
+    };
+    let played = tap(places[1]);
+    let [
+        PlayerEvent::Touched { string: 2, deed: StringDeed::Press { .. } },
+        PlayerEvent::Touched { string: 2, deed: StringDeed::Lift },
+    ] = played[..]
+    else {
+        panic!("{played:?}")
+    };
+}
+
+/// Some systems say that the mouse has left, and go on telling where it is.
+#[test]
+fn a_finger_and_a_strum_go_on_when_the_mouse_has_left_the_window() {
+    let leave = |desk: &mut Desk, from, to| {
+        desk.point(from);
+        desk.press(from, true, Modifiers::NONE);
+        desk.harness.event(Event::PointerGone);
+        desk.wait(0.05);
+        desk.played.clear();
+        desk.point(to);
+    };
+    let mut desk = Desk::new();
+    let (from, to) = (desk.at(FIFTH, 2.0), desk.at(FIFTH + 0.05, 2.0));
+    leave(&mut desk, from, to);
+    let [StringDeed::Press { position }] = deeds(&desk, 2)[..] else { panic!("{:?}", desk.played) };
+    assert!((position - FIFTH - 0.05).abs() < 1e-3, "{position} m");
+    desk.press(to, false, Modifiers::NONE);
+    assert_eq!(deeds(&desk, 2).last(), Some(&StringDeed::Lift));
+    let mut desk = Desk::new();
+    let (from, to) = (desk.at(BEYOND, 0.5), desk.at(BEYOND, 2.5));
+    leave(&mut desk, from, to);
+    let strings: Vec<u8> = plucks(&desk).iter().map(|pluck| pluck.0).collect();
+    assert_eq!(strings, [1, 2]);
+}
+
 #[test]
 fn a_finger_comes_slides_and_leaves() {
     let mut desk = Desk::new();

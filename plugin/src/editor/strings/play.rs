@@ -87,10 +87,16 @@ impl Play {
             (pointer.primary_pressed(), pointer.primary_down(), input.modifiers.shift, input.stable_dt)
         });
         let at = response.interact_pointer_pos().or(response.hover_pos());
+        // Whose a press was is forgotten when the mouse leaves the window.
+        let at = at.or_else(|| ui.input(|input| input.pointer.latest_pos().filter(|_| self.is_busy())));
+        // A tap that is over at the next picture is no press of anybody's any more.
+        let is_own = response.is_pointer_button_down_on() || response.clicked_by(PointerButton::Primary);
         if pressed
-            && response.is_pointer_button_down_on()
+            && is_own
             && let Some(at) = at
         {
+            // Between two pictures it may have been let go of elsewhere.
+            self.end(given);
             self.begin(at, shift, sight, setup, given);
         } else if let Some(at) = at.filter(|_| held) {
             self.go_on(at, seconds, sight, setup, given);
