@@ -30,16 +30,23 @@ pub const NAME: f32 = 16.0;
 /// How much finer a drag is with Shift.
 const FINE: f32 = 0.1;
 
-/// Sets a parameter in one gesture, 0 to 1.
+/// Sets a parameter in one gesture, 0 to 1; not while it is dragged, which is one gesture already.
 fn set<P: Param>(given: &Given, param: &P, normalized: f32) {
+    if given.history.is_under_way(param.as_ptr()) {
+        return;
+    }
     given.setter.begin_set_parameter(param);
     given.setter.set_parameter_normalized(param, normalized);
     given.setter.end_set_parameter(param);
 }
 
-/// Moves a parameter by so many steps, up or down. Gives back whether it is another value.
-fn step<P: Param>(given: &Given, param: &P, steps: i32, fine: bool) -> bool {
+/// Moves a parameter by so many steps, up or down, but not past the last value, 0 to 1, that there is to choose. Gives back
+/// whether it is another value.
+fn step<P: Param>(given: &Given, param: &P, (steps, last): (i32, f32), fine: bool) -> bool {
     let before = given.value(param);
+    if steps == 0 || given.history.is_under_way(param.as_ptr()) {
+        return false;
+    }
     let mut value = before;
     for _ in 0..steps.abs() {
         value = if steps > 0 {
@@ -48,9 +55,8 @@ fn step<P: Param>(given: &Given, param: &P, steps: i32, fine: bool) -> bool {
             param.previous_normalized_step(value, fine)
         };
     }
-    if steps != 0 {
-        given.history.stepping(|| set(given, param, value));
-    }
+    let value = value.min(last);
+    given.history.stepping(|| set(given, param, value));
     value != before
 }
 
@@ -95,8 +101,15 @@ struct Arrows {
     up_is_less: bool,
 }
 
-/// Takes what the keyboard does to a control that has the focus. Gives back whether it has set another value.
-fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response, arrows: Arrows) -> bool {
+/// Takes what the keyboard does to a control that has the focus, up to the last value, 0 to 1, that there is to choose. Gives
+/// back whether it has set another value.
+fn follow_keys<P: Param>(
+    ui: &Ui,
+    given: &Given,
+    param: &P,
+    response: &Response,
+    (arrows, last): (Arrows, f32),
+) -> bool {
     if response.clicked() {
         response.request_focus();
     }
@@ -117,15 +130,15 @@ fn follow_keys<P: Param>(ui: &Ui, given: &Given, param: &P, response: &Response,
             if arrows.right_is_less { -right } else { right } + if arrows.up_is_less { -up } else { up };
         let ends = [
             (Key::Home, 0.0),
-            (Key::End, 1.0),
+            (Key::End, last),
             (Key::Delete, param.default_normalized_value()),
             (Key::Backspace, param.default_normalized_value()),
         ];
         let end = ends.into_iter().filter(|(key, _)| pressed(*key) > 0).map(|(_, value)| value).last();
         (steps, fine, end)
     });
-    let mut is_another = step(given, param, steps, fine);
-    if let Some(end) = end {
+    let mut is_another = step(given, param, (steps, last), fine);
+    if let Some(end) = end.filter(|_| !given.history.is_under_way(param.as_ptr())) {
         is_another |= end != given.value(param);
         set(given, param, end);
     }

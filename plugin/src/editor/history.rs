@@ -162,16 +162,22 @@ impl History {
         [!inside.done.is_empty(), !inside.undone.is_empty()]
     }
 
-    /// Takes the last entry back.
+    /// Takes the last entry back, unless something is under way.
     pub fn undo(&self, gui: &GuiContext) {
+        if self.is_busy() {
+            return;
+        }
         let Some(mut entry) = self.inside().done.pop_back() else { return };
         let back: Vec<_> = entry.changes.iter().rev().map(|change| (change.param, change.before)).collect();
         self.cross(&mut entry, &back, 0, gui);
         self.inside().undone.push(entry);
     }
 
-    /// Does again what was taken back last.
+    /// Does again what was taken back last, unless something is under way.
     pub fn redo(&self, gui: &GuiContext) {
+        if self.is_busy() {
+            return;
+        }
         let Some(mut entry) = self.inside().undone.pop() else { return };
         let again: Vec<_> = entry.changes.iter().map(|change| (change.param, change.after)).collect();
         self.cross(&mut entry, &again, 1, gui);
@@ -220,6 +226,16 @@ impl History {
         let mut inside = self.inside();
         let gesture = inside.under_way.iter_mut().find(|gesture| gesture.change.param == param);
         gesture.map(|gesture| gesture.is_held = true).is_some()
+    }
+
+    /// Whether a gesture of a parameter has begun and not ended.
+    pub fn is_under_way(&self, param: ParamPtr) -> bool {
+        self.inside().under_way.iter().any(|gesture| gesture.change.param == param)
+    }
+
+    /// Whether any gesture has begun and not ended: an entry would be set within it.
+    fn is_busy(&self) -> bool {
+        !self.inside().under_way.is_empty()
     }
 
     /// The parameters that nobody has hold of any more though nobody has let go of them either: what had hold of them is

@@ -152,6 +152,33 @@ fn the_wheel_moves_by_steps() {
     assert_eq!(desk.params.output.level.value(), 0.0);
 }
 
+/// A host would be told of a second gesture within the first, and the end of one would be taken for that of both.
+#[test]
+fn nothing_else_moves_what_is_dragged() {
+    let mut desk = Desk::new();
+    let from = at(&mut desk, "Player", "Variation");
+    desk.click(from);
+    desk.wait(1.0);
+    desk.host.take();
+    let value = |desk: &Desk| desk.params.player.variation.value();
+    let before = value(&desk);
+    desk.press(from, true, Modifiers::NONE);
+    desk.point(from + vec2(20.0, 0.0));
+    desk.harness.event(wheel(MouseWheelUnit::Line, vec2(0.0, 2.0)));
+    desk.picture();
+    for key in [Key::ArrowUp, Key::End, Key::Delete] {
+        desk.key(key);
+    }
+    desk.undo();
+    desk.point(from + vec2(40.0, 0.0));
+    desk.press(from + vec2(40.0, 0.0), false, Modifiers::NONE);
+    let told = desk.host.take();
+    assert!(is_gesture(&told, "variation"), "{told:?}");
+    assert!((0.15..0.4).contains(&(value(&desk) - before)), "{}", value(&desk));
+    desk.undo();
+    assert_eq!(value(&desk), before);
+}
+
 #[test]
 fn numbers_are_typed_with_or_without_unit() {
     let mut desk = Desk::new();
@@ -209,6 +236,24 @@ fn the_keyboard_does_all_of_it() {
     desk.key(Key::Tab);
     desk.key(Key::End);
     assert_eq!(desk.params.setup.relief.value(), 2.0, "Tab goes to the next control");
+}
+
+#[test]
+fn the_keyboard_stays_among_what_there_is_to_choose() {
+    let mut desk = Desk::new();
+    let place = at(&mut desk, "Luthier", "Instrument file");
+    for _ in 0..2 {
+        // Its list is not needed.
+        desk.click(place);
+        desk.wait(0.1);
+    }
+    let last = desk.params.shelf.count() as i32;
+    for key in [Key::End, Key::ArrowUp, Key::ArrowRight] {
+        desk.key(key);
+        assert_eq!(desk.params.instrument.file.value(), last, "{key:?}");
+    }
+    desk.key(Key::Home);
+    assert_eq!(desk.params.instrument.file.value(), 0);
 }
 
 #[test]

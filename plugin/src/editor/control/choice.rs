@@ -21,11 +21,12 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
         info.current_text_value = Some(shown(given, param));
         info
     });
+    let steps = param.step_count().unwrap_or(1).max(1) as f32;
+    let last = count.saturating_sub(1) as f32 / steps;
     // Not whether the value is another than it was: a host may move it meanwhile.
-    let mut is_chosen_here = follow_keys(ui, given, param, &response, Arrows::default());
+    let mut is_chosen_here = follow_keys(ui, given, param, &response, (Arrows::default(), last));
     paint_name(ui, param, area, &response);
     paint_value(ui, &shown(given, param), area, &response);
-    let steps = param.step_count().unwrap_or(1).max(1) as f32;
     let chosen = given.value(param);
     Popup::menu(&response).width(area.width()).show(|ui| {
         ScrollArea::vertical().max_height(HIGHEST).show(ui, |ui| {

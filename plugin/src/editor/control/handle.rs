@@ -33,7 +33,7 @@ impl Handle<'_> {
             set(given, param, param.default_normalized_value());
         }
         let arrows = Arrows { right_is_less: self.growth.x < 0.0, up_is_less: self.growth.y > 0.0 };
-        follow_keys(ui, given, param, &response, arrows);
+        follow_keys(ui, given, param, &response, (arrows, 1.0));
         explain(given, param, response)
     }
 

@@ -24,8 +24,8 @@ pub fn slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect) -> Re
     if response.double_clicked() {
         set(given, param, param.default_normalized_value());
     }
-    step(given, param, notches(ui, id, area), ui.input(|input| input.modifiers.shift));
-    follow_keys(ui, given, param, &response, Arrows::default());
+    step(given, param, (notches(ui, id, area), 1.0), ui.input(|input| input.modifiers.shift));
+    follow_keys(ui, given, param, &response, (Arrows::default(), 1.0));
     paint_name(ui, param, area, &response);
     paint_line(ui, (param, value), area, &response);
     response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);

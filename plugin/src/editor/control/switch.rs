@@ -15,7 +15,7 @@ pub fn switch(ui: &mut Ui, given: &Given, param: &BoolParam, area: Rect) -> Resp
     if response.clicked() {
         set(given, param, if on { 0.0 } else { 1.0 });
     }
-    follow_keys(ui, given, param, &response, Arrows::default());
+    follow_keys(ui, given, param, &response, (Arrows::default(), 1.0));
     paint_name(ui, param, area, &response);
     let painter = ui.painter();
     let slot = Rect::from_min_size(pos2(area.left(), area.top() + NAME + 1.0), vec2(28.0, 14.0));
