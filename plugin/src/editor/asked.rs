@@ -46,6 +46,13 @@ impl Asked {
         });
     }
 
+    /// Time is counted from 0 again: what is left of what the host has stays as it is.
+    pub fn restart(&self) {
+        let mut inside = self.inside();
+        let now = std::mem::take(&mut inside.now);
+        inside.ways.values_mut().for_each(|way| way.until -= now);
+    }
+
     /// The time of the last look, s.
     pub fn now(&self) -> f64 {
         self.inside().now

@@ -2,6 +2,9 @@
 //!
 //! What a host does by itself is no gesture of the editor's, and is not undone.
 
+#[cfg(test)]
+mod tests;
+
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -94,6 +97,12 @@ impl History {
             self.params.shelf.keep_promise();
         }
         is_settled
+    }
+
+    /// A window opens, in which time is counted from 0 again: nothing is a step just after what was done in another.
+    pub fn restart(&self) {
+        self.asked.restart();
+        self.inside().done.iter_mut().for_each(|entry| entry.stepped = None);
     }
 
     /// Another session is there, in which nothing has been done yet. A gesture that is under way goes on from what that has.

@@ -161,6 +161,7 @@ impl Editor {
     /// A window opens, which is to become as it was left.
     pub fn open(&mut self) {
         self.opening = Opening::Zoom;
+        self.history.restart();
         // What was loud while nobody looked is over.
         self.meters.take_peaks();
         self.header.rest();
