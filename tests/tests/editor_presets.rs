@@ -31,6 +31,25 @@ fn kept_text(desk: &Desk) -> String {
     kept(desk)["text"].as_str().expect("a text").to_owned()
 }
 
+/// Has a session be loaded that keeps such a file.
+fn load(desk: &mut Desk, session: &Value) {
+    desk.params.deserialize_fields(&[("instrument_file".to_owned(), session.to_string())].into());
+    let number = session["number"].as_i64().expect("a number") as i32;
+    ParamSetter::new(&*desk.host).set_parameter(&desk.params.instrument.file, number);
+    desk.wait(0.1);
+}
+
+/// Writes a file to the user's folder.
+fn write(name: &str, text: &str) {
+    fs::write(folder().join(format!("{name}.toml")), text).expect("it can be written");
+}
+
+/// The number under which a file of the folder can be chosen.
+fn number(desk: &Desk, name: &str) -> u32 {
+    let names = desk.params.shelf.names();
+    names.iter().position(|known| known == name).expect("it is there") as u32 + 1
+}
+
 #[test]
 fn one_is_chosen_as_its_maker_left_it() {
     let mut desk = Desk::new();
@@ -189,7 +208,7 @@ fn names_that_cannot_be_are_told() {
 #[test]
 fn what_somebody_else_has_saved_is_not_replaced_unasked() {
     let mut desk = Desk::new();
-    fs::write(folder().join("Meanwhile.toml"), "based_on = \"steel\"\n").expect("it can be written");
+    write("Meanwhile", "based_on = \"steel\"\n");
     desk.click(desk.named("Save"));
     desk.wait(0.1);
     for (name, button, other) in [("Mean", "Save it", "Replace"), ("Meanwhile", "Replace", "Save it")] {
@@ -205,17 +224,13 @@ fn what_somebody_else_has_saved_is_not_replaced_unasked() {
 #[test]
 fn what_a_session_keeps_gives_way_to_what_is_chosen() {
     for name in ["Kept aa", "Kept cc"] {
-        fs::write(folder().join(format!("{name}.toml")), "based_on = \"steel\"\n")
-            .expect("it can be written");
+        write(name, "based_on = \"steel\"\n");
     }
     let mut desk = Desk::new();
-    let place = |desk: &Desk, name| desk.params.shelf.names().iter().position(|known| known == name);
-    let number = place(&desk, "Kept cc").expect("it is there") as u32 + 1;
+    let other = number(&desk, "Kept aa");
+    let number = number(&desk, "Kept cc");
     let session = json!({ "number": number, "name": "Kept aa", "text": "based_on = \"bass\"\n" });
-    desk.params.deserialize_fields(&[("instrument_file".to_owned(), session.to_string())].into());
-    let setter = ParamSetter::new(&*desk.host);
-    setter.set_parameter(&desk.params.instrument.file, number as i32);
-    desk.wait(0.1);
+    load(&mut desk, &session);
     assert_eq!(desk.params.shelf.name(number).as_deref(), Some("Kept aa"));
     assert_eq!(kept(&desk), session, "nobody has chosen anything yet");
     // The one after it in the list has its number.
@@ -264,7 +279,39 @@ fn what_a_session_keeps_gives_way_to_what_is_chosen() {
     desk.wait(0.1);
     desk.host.catch_up();
     desk.wait(0.1);
-    assert_eq!(desk.params.instrument.file.value(), place(&desk, "Kept aa").expect("it is there") as i32 + 1);
+    assert_eq!(desk.params.instrument.file.value(), other as i32);
+}
+
+/// Its list has what the session keeps under its number, and what is chosen is what the folder has there.
+#[test]
+fn what_the_luthier_chooses_anew_is_read_anew() {
+    write("Anew", "based_on = \"steel\"\n");
+    let mut desk = Desk::new();
+    let number = number(&desk, "Anew");
+    let choose = |desk: &mut Desk, name: &str| {
+        desk.click(desk.control("Instrument file").expect("it is there"));
+        desk.wait(0.1);
+        desk.click(desk.named(&format!("{number}: {name}")));
+        desk.wait(0.1);
+    };
+    desk.open("Luthier");
+    choose(&mut desk, "Anew");
+    let [steel, bass, own] = ["steel", "bass", "classical"].map(|name| format!("based_on = \"{name}\"\n"));
+    assert_eq!(kept_text(&desk), steel);
+    write("Anew", &bass);
+    desk.wait(0.1);
+    assert_eq!(kept_text(&desk), steel, "nobody has chosen it anew");
+    choose(&mut desk, "Anew");
+    assert_eq!(kept_text(&desk), bass);
+    desk.undo();
+    assert_eq!((desk.params.instrument.file.value(), kept_text(&desk)), (number as i32, steel));
+    desk.undo();
+    assert_eq!(desk.params.instrument.file.value(), 0);
+    load(&mut desk, &json!({ "number": number, "name": "Own", "text": own }));
+    choose(&mut desk, "Own");
+    assert_eq!(kept_text(&desk), bass);
+    desk.undo();
+    assert_eq!(kept_text(&desk), own);
 }
 
 #[test]

@@ -23,7 +23,15 @@ pub fn show(ui: &mut Ui, given: &Given) {
             change(given, &[(instrument.file.as_ptr(), none)], (NONE, None));
         }
     });
-    choice(ui, given, &instrument.file, cells.next(), 1 + given.params.shelf.count());
+    given.history.together(|| {
+        let count = 1 + given.params.shelf.count();
+        if choice(ui, given, &instrument.file, cells.next(), count).changed() {
+            // The one in the folder as it is now, also where the session keeps another under its number.
+            let number = given.history.number();
+            let value = instrument.file.preview_normalized(number as i32);
+            change(given, &[(instrument.file.as_ptr(), value)], (number, None));
+        }
+    });
     let rest = cells.rest();
     if let Some(setup) = given.plan.setup() {
         let job =
