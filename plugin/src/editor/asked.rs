@@ -38,7 +38,8 @@ impl Asked {
         inside.now = now;
         inside.ways.retain(|param, Way { values, until }| {
             let present = own(*param);
-            let reached = values.iter().rposition(|value| (value - present).abs() < SAME);
+            // Where it comes back to a value that it had, it may not have set out yet; time tells.
+            let reached = values.iter().position(|value| (value - present).abs() < SAME);
             // Where the host itself has moved it, that is what holds.
             let Some(reached) = reached else { return false };
             values.drain(..reached);
@@ -64,7 +65,11 @@ impl Asked {
         let until = inside.now + PATIENCE;
         let way = inside.ways.entry(param).or_insert_with(|| Way { values: vec![own(param)], until });
         // SAFETY: only the plugin's parameters are asked for, which live as long as its editor.
-        way.values.push(unsafe { param.preview_normalized(param.preview_plain(value)) });
+        let value = unsafe { param.preview_normalized(param.preview_plain(value)) };
+        // What is there or on its way already is not waited for twice.
+        if way.values.last().is_none_or(|last| (last - value).abs() >= SAME) {
+            way.values.push(value);
+        }
         way.until = until;
     }
 
