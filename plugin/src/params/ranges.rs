@@ -104,7 +104,8 @@ impl Default for PlayerParams {
             pluck_duration: factor("Pluck duration", 0.1, 5.0),
             pluck_release: shift("Pluck release", -1.0, 4.0, " ms", PART_STEP),
             velocity_curve: FloatParam::new("Velocity curve", 1.5, FloatRange::Linear { min: 0.0, max: 4.0 })
-                .with_step_size(PART_STEP),
+                .with_step_size(PART_STEP)
+                .with_string_to_value(Arc::new(number)),
             variation: part("Variation", EngineOptions::VARIATION as f32),
             finger_force: factor("Finger force", 0.02, 4.0).with_poly_modulation_id(poly::FINGER_FORCE),
             finger_hardness: factor("Finger hardness", 0.01, 10.0),
@@ -123,7 +124,9 @@ impl Default for ControlParams {
             input_mode: EnumParam::new("Input mode", InputChoice::Auto),
             first_channel: IntParam::new("First channel", 1, IntRange::Linear { min: 1, max: 16 }),
             string_order: EnumParam::new("String order", StringOrder::FirstFirst),
-            bend_range: IntParam::new("Bend range", range, reach).with_unit(" semitones"),
+            bend_range: IntParam::new("Bend range", range, reach)
+                .with_unit(" semitones")
+                .with_string_to_value(Arc::new(whole)),
             ignore_rpn: BoolParam::new("Ignore announced bend range", false),
             tremolo_arm: shift("Tremolo arm", -12.0, 3.0, " semitones", PART_STEP),
             legato: EnumParam::new("Legato", LegatoChoice::Pedal),
@@ -167,9 +170,8 @@ fn number_or(word: &'static str, name: &str, least: i32, most: i32) -> IntParam 
             number if number <= least => word.into(),
             number => number.to_string(),
         }))
-        .with_string_to_value(Arc::new(move |text| match text.trim().parse() {
-            Err(_) if text.contains(enough) => Some(least),
-            number => number.ok(),
+        .with_string_to_value(Arc::new(move |text| {
+            if text.to_lowercase().contains(enough) { Some(least) } else { whole(text) }
         }))
 }
 
@@ -205,6 +207,11 @@ fn number(text: &str) -> Option<f32> {
     text.replace(',', ".").replace('−', "-").parse().ok()
 }
 
+/// The same for whole numbers.
+fn whole(text: &str) -> Option<i32> {
+    number(text).filter(|number| number.fract() == 0.0).map(|number| number as i32)
+}
+
 /// The value of a parameter as the number its decimal notation means, so that 0.3 set in a host and
 /// 0.3 given on the command line are the same bits. No parameter has steps under a hundredth. Should a host send what is no
 /// number, the usual value takes its place: nothing that is built from it would ever be what was asked for.
@@ -216,7 +223,30 @@ pub fn exact(param: &FloatParam) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::number;
+    use nice_plug::prelude::Params;
+
+    use super::{LowActionParams, Shelf, Start, number};
+
+    /// Hosts have fields of their own for them. Words for one of a few things are the framework's, which takes them as they are.
+    #[test]
+    fn every_parameter_takes_its_text_with_a_comma_and_in_capitals() {
+        let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
+        for (id, param, _) in params.param_map() {
+            if matches!(param, nice_plug::params::internals::ParamPtr::EnumParam(_)) {
+                continue;
+            }
+            for value in [0.0, 0.1, 0.37, 0.5, 0.9, 1.0] {
+                // SAFETY: the pointers lead into the parameters, which are there until the end.
+                let (shown, read) = unsafe {
+                    let shown = param.normalized_value_to_string(value, true);
+                    let typed = shown.replace('.', ",").to_uppercase();
+                    let read = param.string_to_normalized_value(&typed);
+                    (shown, read.map(|value| param.normalized_value_to_string(value, true)))
+                };
+                assert_eq!(read.as_ref(), Some(&shown), "{id}");
+            }
+        }
+    }
 
     #[test]
     fn numbers_are_taken_as_people_write_them() {

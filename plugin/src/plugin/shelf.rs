@@ -309,7 +309,7 @@ impl Shelf {
     /// The number of a title, of a file's name or of the number itself.
     pub(crate) fn number(&self, title: &str) -> Option<i32> {
         let title = title.trim();
-        if title == "none" {
+        if title.eq_ignore_ascii_case("none") {
             return Some(NONE as i32);
         }
         let place =
