@@ -101,14 +101,25 @@ impl Writer {
         if !self.looked_at || self.waited * rate < engine.instrument().sample_rate() {
             return false;
         }
-        // One that nobody has fetched is out of date.
-        let Some(mut snapshot) = self.queues.seen.pop().or_else(|| self.queues.filled.pop()) else {
+        // One that nobody has fetched is out of date, but for what has happened in it.
+        let missed = self.queues.filled.pop();
+        let Some(mut snapshot) = self.queues.seen.pop() else {
+            // There are more than the reader can have in its hands.
+            missed.map(|missed| self.queues.filled.push(missed));
             return false;
         };
+        let looked_on = self.waited.is_finite();
         self.written += 1;
         (self.waited, self.still) = (0.0, still);
         snapshot.fill(engine, self.written, health);
         engine.observe_anew();
+        if let Some(missed) = missed {
+            // What happened before somebody looked again is over.
+            if looked_on {
+                snapshot.go_on_from(&missed);
+            }
+            self.queues.seen.push(missed).ok();
+        }
         if let Err(snapshot) = self.queues.filled.push(snapshot) {
             // There is room for all of them; should there not be, forgetting is what neither waits nor frees.
             std::mem::forget(snapshot);
@@ -121,7 +132,10 @@ impl Reader {
     /// Fetches the latest snapshot; `false` if there is none that has not been seen.
     pub fn fetch(&mut self) -> bool {
         let mut new = false;
-        while let Some(next) = self.queues.filled.pop() {
+        while let Some(mut next) = self.queues.filled.pop() {
+            if new {
+                next.go_on_from(&self.latest);
+            }
             let old = std::mem::replace(&mut self.latest, next);
             self.queues.seen.push(old).ok();
             new = true;

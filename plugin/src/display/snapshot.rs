@@ -110,6 +110,14 @@ impl Snapshot {
         Self { count: strings.len(), strings, ..Self::default() }
     }
 
+    /// Takes in what has happened in the one before, which nobody has seen, if it is of the same strings.
+    pub(super) fn go_on_from(&mut self, before: &Self) {
+        if self.count == before.count {
+            let strings = self.strings.iter_mut().zip(&before.strings).take(self.count);
+            strings.for_each(|(string, before)| string.go_on_from(before));
+        }
+    }
+
     /// The strings, in the set-up's order.
     pub fn strings(&self) -> &[StringSeen] {
         &self.strings[..self.count]
@@ -140,6 +148,27 @@ impl Default for StringSeen {
 }
 
 impl StringSeen {
+    fn go_on_from(&mut self, before: &Self) {
+        if self.length != before.length || self.fret_count != before.fret_count {
+            return;
+        }
+        let each = |own: &mut [f32], others: &[f32], of: fn(f32, f32) -> f32| {
+            own.iter_mut().zip(others).for_each(|(own, other)| *own = of(*own, *other));
+        };
+        each(&mut self.lowest, &before.lowest, f32::min);
+        each(&mut self.highest, &before.highest, f32::max);
+        each(&mut self.board_hit, &before.board_hit, f32::max);
+        for (fret, before) in self.frets.iter_mut().zip(&before.frets).take(self.fret_count) {
+            fret.hit = fret.hit.max(before.hit);
+        }
+        for (finger, before) in self.fingers.iter_mut().zip(&before.fingers) {
+            if let (Some(finger), Some(before)) = (finger, before) {
+                finger.force = finger.force.max(before.force);
+            }
+        }
+        self.pluck = self.pluck.or(before.pluck);
+    }
+
     /// The frets under it, fret 1 first.
     pub fn frets(&self) -> &[FretSeen] {
         &self.frets[..self.fret_count]

@@ -104,6 +104,51 @@ fn sixty_a_second_and_only_the_latest() {
     assert!(reader.fetch());
 }
 
+/// One more block.
+fn go_on(engine: &mut Engine, writer: &mut Writer, looked_at: bool) {
+    let (mut left, mut right) = ([0.0; BLOCK], [0.0; BLOCK]);
+    writer.look(looked_at, engine);
+    engine.process(&mut left, &mut right);
+    assert_no_alloc(|| writer.write(engine, BLOCK, Health::default()));
+}
+
+/// As where the editor draws less often than sixty times a second.
+#[test]
+fn what_happened_in_one_that_nobody_has_fetched_is_in_the_next() {
+    let fetched = |every: usize| {
+        let (mut writer, mut reader) = display();
+        let mut engine = engine("electric");
+        let (mut hit, mut highest, mut plucks) = (0.0_f32, 0.0_f32, 0);
+        engine.event(0, on(40, 1.0));
+        for block in 1..=60 {
+            go_on(&mut engine, &mut writer, true);
+            if block % every == 0 && reader.fetch() {
+                let string = &reader.latest().strings()[5];
+                hit = string.frets().iter().map(|fret| fret.hit).fold(hit, f32::max);
+                highest = string.highest.iter().copied().fold(highest, f32::max);
+                plucks += usize::from(string.pluck.is_some());
+            }
+        }
+        (hit, highest, plucks)
+    };
+    let all = fetched(1);
+    assert!(all.0 > 0.1 && all.1 > 1e-4 && all.2 == 1, "{all:?}");
+    assert_eq!(fetched(60), all);
+}
+
+/// What happened before a window was closed is not seen in the next one.
+#[test]
+fn what_happened_before_somebody_looked_again_is_over() {
+    let (mut writer, mut reader) = display();
+    let mut engine = engine("electric");
+    engine.event(0, on(40, 1.0));
+    for block in 0..60 {
+        go_on(&mut engine, &mut writer, !(50..59).contains(&block));
+    }
+    assert!(reader.fetch());
+    assert!(reader.latest().strings().iter().all(|string| string.pluck.is_none()));
+}
+
 #[test]
 fn still_strings_are_seen_less_often_and_at_once_when_they_move() {
     let (mut writer, mut reader) = display();
