@@ -136,6 +136,25 @@ fn a_swipe_to_the_side_sets_nothing() {
     assert_eq!(desk.host.take(), []);
 }
 
+/// Systems turn the wheel to the side then, as a swipe is.
+#[test]
+fn with_shift_the_wheel_moves_the_value_and_not_the_panel() {
+    let mut desk = Desk::sized(0.5, 1.0);
+    desk.open("Player");
+    let place = |desk: &Desk| desk.control("Pluck force").expect("it is there");
+    let (before, middle) = (place(&desk), desk.params.player.pluck_force.value());
+    desk.point(before);
+    for delta in [vec2(0.0, -3.0), vec2(-3.0, 0.0)] {
+        desk.harness.event_modifiers(wheel(MouseWheelUnit::Line, delta), Modifiers::SHIFT);
+        desk.wait(0.5);
+        assert_eq!(place(&desk), before, "{delta:?}");
+    }
+    assert!(desk.params.player.pluck_force.value() < middle);
+    desk.harness.event(wheel(MouseWheelUnit::Line, vec2(-3.0, 0.0)));
+    desk.wait(0.5);
+    assert_ne!(place(&desk), before, "without Shift it is scrolled");
+}
+
 #[test]
 fn the_wheel_moves_by_steps() {
     let mut desk = Desk::new();

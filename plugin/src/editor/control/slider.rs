@@ -11,6 +11,9 @@ use crate::editor::{Given, theme};
 /// Points of a wheel without notches that are as much as a notch.
 const NOTCH: f32 = 24.0;
 
+/// How long a window goes on scrolling after a notch, s.
+const SMOOTHED: f64 = 0.3;
+
 /// Shows it.
 pub fn slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect) -> Response {
     let id = ui.scope_id().with(param.name());
@@ -52,10 +55,32 @@ fn notches(ui: &Ui, id: Id, area: Rect) -> i32 {
         };
         input.events.iter().map(turn).sum()
     });
+    keep_from_scrolling(ui, id);
     let id = id.with("turned");
     let turned = ui.data(|data| data.get_temp::<f32>(id)).unwrap_or(0.0) + turned;
     ui.data_mut(|data| data.insert_temp(id, turned.fract()));
     turned.trunc() as i32
+}
+
+/// With Shift all that the wheel does over a slider is the slider's: a narrow window's panel stays where it is, also while the
+/// last notch would still move it.
+fn keep_from_scrolling(ui: &Ui, id: Id) {
+    let id = id.with("fine");
+    let (now, shift, is_turned) = ui.input(|input| {
+        let shift = input.modifiers.shift;
+        let turns = |event: &Event| match event {
+            Event::MouseWheel { modifiers, .. } => shift || modifiers.shift,
+            _ => false,
+        };
+        (input.time, shift, input.events.iter().any(turns))
+    });
+    if is_turned {
+        ui.data_mut(|data| data.insert_temp(id, now));
+    }
+    let turned = ui.data(|data| data.get_temp::<f64>(id));
+    if shift || turned.is_some_and(|turned| now - turned < SMOOTHED) {
+        ui.input_mut(|input| input.smooth_scroll_delta.x = 0.0);
+    }
 }
 
 /// The line, full from the usual value to the present one, and where a host's modulation has it.
