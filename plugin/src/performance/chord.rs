@@ -67,6 +67,7 @@ impl Performance {
                     own: OwnPluck::PLAIN,
                     articulation,
                     waited: false,
+                    caught: false,
                     on: None,
                 });
             }
@@ -175,7 +176,7 @@ impl Performance {
 
     /// What a string is told of the note of the chord that is placed there.
     fn start(&mut self, index: usize, placement: Placement, strum: Option<&Strum>) -> Start {
-        let Unplaced { wanted, velocity, asked, presses, manner, own, .. } = self.chord[index];
+        let Unplaced { wanted, velocity, asked, presses, manner, own, caught, .. } = self.chord[index];
         let mut articulation = self.articulation(index);
         if articulation.stroke == Stroke::Alternate {
             articulation.stroke = if self.goes_back() { Stroke::Up } else { Stroke::Down };
@@ -194,7 +195,7 @@ impl Performance {
             velocity,
             asked,
             presses,
-            caught: false,
+            caught,
             fret,
             strength: self.touching.strength(velocity),
             deviation: self.variation.next(),

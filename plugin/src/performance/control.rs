@@ -134,6 +134,7 @@ impl Performance {
             Request::Hand(fret) => return self.hand.set_home((fret > 0).then_some(fret)),
             Request::ReleaseKeys | Request::Silence => self.forget_keys(whose),
             Request::Press | Request::Swing => self.tell_keys_under(request, whose),
+            Request::Catch => self.catch_late(whose),
             Request::LetFall => self.let_fall_under(whose),
             Request::Reset => {
                 self.tell_keys_under(request, whose);
@@ -208,11 +209,19 @@ impl Performance {
         self.strings.iter_mut().for_each(|string| string.hear(request, said));
     }
 
-    /// What a sostenuto pedal no longer holds of them comes back held by its key alone.
+    /// A sostenuto pedal goes down: it catches keys that are down, also those of notes that wait for a string.
+    fn catch_late(&mut self, whose: Whose) {
+        let waiting = self.late.iter_mut().filter(|late| whose.is(late.note.wanted.channel));
+        waiting.for_each(|late| late.note.caught |= late.key_down());
+    }
+
+    /// What a sostenuto pedal no longer holds of them, or of notes that wait for a string, comes back held by its key alone.
     pub(super) fn let_fall_under(&mut self, whose: Whose) {
         let caught: [bool; CHANNELS] = std::array::from_fn(|channel| self.sostenuto(channel as u8));
         let fallen = |own: u8| whose.is(own) && !caught[usize::from(own)];
         self.strings.iter_mut().for_each(|string| string.let_fall_under(fallen));
+        let waiting = self.late.iter_mut().map(|late| &mut late.note);
+        waiting.filter(|note| fallen(note.wanted.channel)).for_each(|note| note.caught = false);
     }
 
     /// Does to a string what is asked, if its last note is one of those that are meant.

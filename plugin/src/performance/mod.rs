@@ -358,6 +358,7 @@ impl Performance {
         // A note that has yet to come is heard nevertheless.
         for late in self.late.iter_mut().filter(|late| late.is(channel, key)) {
             (late.releases, late.cut) = (late.note.presses, true);
+            late.note.caught = false;
         }
     }
 

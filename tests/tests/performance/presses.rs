@@ -202,3 +202,31 @@ fn the_sostenuto_pedal_lets_go_of_a_key_under_another() {
         assert_eq!(ends(&play_by(&mut player, &[release(20 * WHILE)])), [20 * WHILE], "{up:?}");
     }
 }
+
+/// Its key is down when the pedal falls, whether there is a string for it yet or not.
+#[test]
+fn the_sostenuto_pedal_catches_notes_that_wait_for_a_string() {
+    let keys = [40, 47, 52, 55, 59, 64, 67, 71];
+    let chord = keys.map(|key| (0, on(key, 90)));
+    // The pedal falls at 10 ms and the keys go up at 20; the last two come at 70 and 140.
+    let up = keys.map(|key| (960, off(key)));
+    let heard = |pedals: &[(u64, PlayerEvent)]| {
+        let mut player = GUITAR.player(EXACT);
+        let mut events = [&chord[..], &up, pedals].concat();
+        events.sort_by_key(|event| event.0);
+        play_by(&mut player, &events);
+        keys.iter().filter(|&&key| player.sounds(0, key)).count()
+    };
+    // Of six that are caught two give way to two that are, too.
+    let caught = (480, cc(66, 127));
+    assert_eq!(heard(&[caught]), 6);
+    // None is where it goes up again, or all is put back, before they come; or where it falls when their keys are up.
+    for pedals in [
+        &[caught, (1_440, cc(66, 0))][..],
+        &[caught, (1_440, cc(121, 0))],
+        &[(1_440, cc(66, 127))],
+        &[caught, (12_000, cc(66, 0))],
+    ] {
+        assert_eq!(heard(pedals), 0, "{pedals:?}");
+    }
+}

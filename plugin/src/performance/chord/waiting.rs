@@ -20,6 +20,8 @@ pub(in crate::performance) struct Unplaced {
     pub articulation: Articulation,
     /// Whether it has waited for a string.
     pub waited: bool,
+    /// Whether a sostenuto pedal has caught its key meanwhile.
+    pub caught: bool,
     /// Where it has just begun, if it has.
     pub on: Option<Placement>,
 }
@@ -83,8 +85,9 @@ impl Performance {
         for note in old.strings.iter().filter_map(|string| string.note_since(since)) {
             let count = self.chord.len();
             self.ask_for(note.channel, note.key, note.velocity, note.presses);
-            if let Some(Unplaced { manner, .. }) = self.chord.get_mut(count) {
+            if let Some(Unplaced { manner, caught, .. }) = self.chord.get_mut(count) {
                 (manner.tuning, manner.pressure, manner.vibrato) = (note.tuning, note.pressure, note.vibrato);
+                *caught = note.caught;
             }
         }
     }
