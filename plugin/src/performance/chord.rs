@@ -2,8 +2,9 @@
 //!
 //! **Chords** are placed as a whole (`hand`). Of a chord that does not fit on the strings, a note that found none
 //! is moved to the nearest octave that a free string gives, the string nearest to the hand. If no string is left
-//! it comes a moment later, one after another, and takes the string of a note that has been heard. As many wait
-//! as there are keys; what comes on top of that is left out, and counted.
+//! it comes a moment later, one after another, and takes the string of a note that has been heard, or if its own key is up
+//! by then, of one whose key is up, too. As many wait as there are keys; what comes on top of that is left out, and counted,
+//! and so is what finds none but strings of held notes when its key is up.
 //!
 //! **Strums**: the right hand goes over the strings at one speed, towards the high ones or back, and reaches
 //! the first at once. Notes that are told the same way and time are one strum, whatever their channels.
@@ -68,6 +69,7 @@ impl Performance {
                     articulation,
                     waited: false,
                     caught: false,
+                    let_go: false,
                     on: None,
                 });
             }
@@ -123,7 +125,11 @@ impl Performance {
         let time = self.now;
         self.uses.clear();
         self.uses.extend(self.strings.iter().map(|string| string.usage(time)));
-        self.join_just_begun();
+        if self.gives_way() {
+            self.spare_held();
+        } else {
+            self.join_just_begun();
+        }
         self.count_chord();
         let position = self.hand.position();
         self.find_places();
@@ -248,6 +254,7 @@ impl Performance {
                 self.placements[index] = Some(placement);
                 self.count_move(before, self.chord[index].wanted.is_moved());
             } else if self.late.len() < LARGEST_CHORD
+                && !note.let_go
                 && let Some(wanted) = self.to_come(&note.wanted)
             {
                 late += 1;
@@ -258,6 +265,7 @@ impl Performance {
                 self.late.push(Late { time, note, releases: 0, cut: false });
             } else {
                 self.count_move(before, false);
+                self.compromises.arpeggiated -= u64::from(note.waited);
                 self.compromises.left_out += 1;
             }
         }

@@ -1,5 +1,5 @@
-//! The promise: no note of a chord is lost. One that does not fit on the strings is moved by an octave or comes a
-//! moment later; a strum reaches the strings one after another at the speed asked for; and keyswitches say how
+//! The promise: no note of a chord is lost whose key stays down. One that does not fit on the strings is moved by an octave or comes
+//! a moment later, at no held note's cost if its own key is up by then; a strum reaches the strings one after another at the speed asked for; and keyswitches say how
 //! to play without sounding themselves.
 
 use std::sync::LazyLock;
@@ -77,6 +77,39 @@ fn what_finds_no_string_comes_later() {
     // Everything stopping stops them too.
     events.push((960, PlayerEvent::AllNotesOff));
     assert_eq!(plucks(&play(&mut player(), &events)).len(), 6);
+}
+
+#[test]
+fn what_comes_late_with_its_key_up_takes_no_string_from_a_held_note() {
+    let keys = [40, 45, 50, 55, 59, 64, 67, 71];
+    let held = [40, 47, 52, 56, 59, 64];
+    let first = [keys.map(|key| (0, on(key, 90))), keys.map(|key| (2400, off(key)))].concat();
+    // With strings to hammer on, too, and when it falls within the chord's first moments, as it is still being placed.
+    for (legato, time) in [0, 127].into_iter().flat_map(|legato| [2880, 3300].map(|time| (legato, time))) {
+        let chord = held.map(|key| (time, on(key, 90)));
+        let mut performance = player();
+        let events = [&[(0, cc(68, legato))][..], &first, &chord].concat();
+        let gestures = play(&mut performance, &events);
+        assert_eq!(plucks(&gestures).len(), 12, "{legato}, {time}");
+        assert!(held.iter().all(|&key| performance.sounds(0, key)), "{legato}, {time}");
+        let dampers = |g: &&TimedGesture| matches!(g.gesture, Gesture::Place { finger: 2, .. });
+        assert!(!gestures.iter().any(|g| g.time > time + 200 && dampers(&g)), "nothing is damped");
+        let compromises = performance.compromises();
+        assert_eq!((compromises.arpeggiated, compromises.left_out), (0, 2), "{legato}, {time}");
+    }
+    // Beside five of them the sixth string is for both.
+    let chord = held[..5].iter().map(|&key| (2880, on(key, 90)));
+    let mut performance = player();
+    let struck = plucks(&play(&mut performance, &first.iter().copied().chain(chord).collect::<Vec<_>>()));
+    assert_eq!((struck.len(), performance.compromises().left_out), (13, 0));
+    assert!(held[..5].iter().all(|&key| performance.sounds(0, key)));
+    // And those that only a pedal keeps make room.
+    let pedal = [(2880, cc(64, 127))];
+    let chord = held.map(|key| (2880, on(key, 90)));
+    let up = held.map(|key| (3000, off(key)));
+    let mut performance = player();
+    let struck = plucks(&play(&mut performance, &[&first[..], &pedal, &chord, &up].concat()));
+    assert_eq!((struck.len(), performance.compromises().left_out), (14, 0));
 }
 
 #[test]

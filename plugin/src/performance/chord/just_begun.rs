@@ -70,7 +70,8 @@ impl Performance {
         let Articulation { palm, tremolo, .. } = self.channels[usize::from(channel)].articulation;
         let articulation = Articulation { palm, tremolo, ..begun.articulation };
         let on = Some(Placement { string, fret: note.fret });
-        Some(Unplaced { presses: note.presses, caught: note.caught, manner, articulation, on, ..begun })
+        let (presses, caught) = (note.presses, note.caught);
+        Some(Unplaced { presses, caught, let_go: false, manner, articulation, on, ..begun })
     }
 
     /// The same of a moment ago.

@@ -42,7 +42,8 @@ impl Performance {
         let wanted = self.chord[index].wanted;
         let Articulation { legato, slide, stop, .. } = self.articulation(index);
         let connected = legato || self.touching.legato;
-        if !connected || stop == Stop::Harmonic || stop == Stop::Mute {
+        // One that comes late, when its key is up, would stay on the held one's string for no longer than it takes to be heard.
+        if !connected || self.gives_way() || stop == Stop::Harmonic || stop == Stop::Mute {
             return false;
         }
         let channel = self.melody_of(wanted.channel);

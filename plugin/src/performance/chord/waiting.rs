@@ -1,6 +1,6 @@
 //! Notes on their way to a string: struck and not placed yet, or waiting until one is free.
 
-use super::{Articulation, Manner, Placement, Wanted};
+use super::{Articulation, Manner, Placement, Use, Wanted};
 use crate::performance::{GestureSink, Performance};
 
 /// A note of a chord as it was asked for: it has no string yet, or waits for one, or has just begun and is placed once more with
@@ -22,6 +22,8 @@ pub(in crate::performance) struct Unplaced {
     pub waited: bool,
     /// Whether a sostenuto pedal has caught its key meanwhile.
     pub caught: bool,
+    /// Whether its key has gone up meanwhile.
+    pub let_go: bool,
     /// Where it has just begun, if it has.
     pub on: Option<Placement>,
 }
@@ -92,6 +94,18 @@ impl Performance {
         }
     }
 
+    /// Whether what is placed is a note that comes late and whose key is up: it gives way to all whose keys are down. No other is
+    /// placed with it.
+    pub(super) fn gives_way(&self) -> bool {
+        self.chord.iter().any(|note| note.let_go)
+    }
+
+    /// It takes no string from a note whose key is down, not even from the next of its own key.
+    pub(super) fn spare_held(&mut self) {
+        let held = |string: &&mut Use| matches!(string, Use::Taken { key_down: true, .. });
+        self.uses.iter_mut().filter(held).for_each(|string| *string = Use::Untouchable);
+    }
+
     /// Plays the notes that come late and are due before sample `until`.
     pub(in crate::performance) fn begin_late(&mut self, until: u64, out: &mut impl GestureSink) {
         loop {
@@ -102,8 +116,13 @@ impl Performance {
             let Wanted { channel, key, .. } = late.note.wanted;
             // A key that was struck again since is another note, which goes on.
             let alone = !self.sounds(channel, key) && !self.awaits(channel, key);
-            self.chord.push(late.note);
+            self.chord.push(Unplaced { let_go: !late.key_down(), ..late.note });
+            let left_out = self.compromises.left_out;
             self.begin_chord(out);
+            // What its key has done since is another note's then.
+            if self.compromises.left_out > left_out {
+                continue;
+            }
             if late.cut && alone {
                 self.cut(channel, key, out);
                 continue;
