@@ -185,6 +185,16 @@ fn a_note_has_its_pitch() {
         let checked = check_pitches(name, &documented(name, options), most);
         assert!(checked >= least, "{name}: {checked} notes last");
     }
+    // So does a capo press, at the second fret and the fourth.
+    let over = |capo: u8, from: u32| {
+        let open = [40, 45, 50, 55, 59, 64].map(|key| key + capo).into_iter().zip(0..);
+        let notes = open.flat_map(move |(key, n)| held(key, 60, from + 1500 * n, from + 1500 * n + 700));
+        [(from, [0xB0, 26, capo])].into_iter().chain(notes)
+    };
+    let messages: Vec<_> = over(2, 0).chain(over(4, 9_000)).collect();
+    let played = render(PROGRAM, &song(&messages), &["--instrument", "school-guitar"]);
+    assert!(played.notes().iter().all(|note| note["stop"] == "capo"));
+    assert_eq!(check_pitches("capo", &played, 3.0), 12);
 }
 
 #[test]

@@ -126,9 +126,9 @@ impl Course {
         let partial = note.partial.or(excitation.pinched);
         let order = f64::from(partial.unwrap_or(1));
         let plain = string.pitch + note.fret as f64;
-        // What a finger stops, the neck has its own say in.
+        // What a finger or a capo stops, the neck has its own say in.
         let stopped = string.fret_frequencies.get(note.fret.wrapping_sub(1)).copied();
-        let stopped = stopped.filter(|_| excitation.stop == Stopped::Finger);
+        let stopped = stopped.filter(|_| matches!(excitation.stop, Stopped::Finger | Stopped::Capo));
         let Stroke { position, force, speed, duration, release } = Stroke::of(excitation.gesture);
         Some(LabelledNote {
             string: string.string,
