@@ -30,7 +30,7 @@ impl Performance {
             Channel { reach: channel.announced_reach(), members: channel.members }
         };
         Announced {
-            capo: self.hand.capo(),
+            capo: self.hand.asked_capo(),
             switches: (self.switches != self.touching.keyswitches).then_some(self.switches),
             home: (self.hand.home() != self.touching.hand_position).then_some(self.hand.home()),
             channels: std::array::from_fn(channel),

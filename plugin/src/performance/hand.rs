@@ -98,6 +98,10 @@ pub(crate) struct Hand {
     highest_fret: usize,
     /// Fret of a capo, 0 for none: open strings sound from there.
     capo: usize,
+    /// The fret that it was asked for.
+    asked_capo: usize,
+    /// Whether there can be one: none presses down what no finger reaches.
+    takes_capo: bool,
     /// Fret under the first finger, 1 or more.
     position: usize,
     /// Fret that its first finger is to stay at, if anybody has said so.
@@ -118,12 +122,14 @@ pub(crate) struct Hand {
 
 impl Hand {
     /// A hand at the first fret of an instrument.
-    pub(crate) fn new(strings: Vec<Range>) -> Self {
+    pub(crate) fn new(strings: Vec<Range>, takes_capo: bool) -> Self {
         let count = strings.len();
         Self {
             highest_fret: strings.iter().map(|range| range.frets).max().unwrap_or(0),
             strings,
             capo: 0,
+            asked_capo: 0,
+            takes_capo,
             position: 1,
             home: None,
             order: Vec::with_capacity(LARGEST_CHORD),
@@ -139,7 +145,7 @@ impl Hand {
 
     /// Back to the first fret, with no capo there; where it has been told to play counts on.
     pub(crate) fn reset(&mut self) {
-        self.capo = 0;
+        (self.capo, self.asked_capo) = (0, 0);
         self.position = 1;
     }
 
@@ -154,15 +160,23 @@ impl Hand {
         self.home
     }
 
-    /// Puts a capo on a fret, 0 for none, but no farther up than leaves [`OVER_CAPO`] frets.
+    /// Puts a capo on a fret, 0 for none, but no farther up than leaves [`OVER_CAPO`] frets; on strings that no finger presses down,
+    /// nowhere.
     pub(crate) fn set_capo(&mut self, fret: usize) {
-        self.capo = fret.min(self.highest_fret.saturating_sub(OVER_CAPO));
+        self.asked_capo = fret;
+        let highest = if self.takes_capo { self.highest_fret.saturating_sub(OVER_CAPO) } else { 0 };
+        self.capo = fret.min(highest);
         self.position = self.position.max(self.capo + 1).min(self.highest_fret.max(1));
     }
 
     /// Fret of the capo, 0 for none.
     pub(crate) fn capo(&self) -> usize {
         self.capo
+    }
+
+    /// The fret that it was asked for, wherever it is on this instrument.
+    pub(crate) fn asked_capo(&self) -> usize {
+        self.asked_capo
     }
 
     /// Follows a finger that went to a fret without being told where.
@@ -193,7 +207,7 @@ impl Hand {
 
     /// Stays where another hand is, on the neck of another model of the instrument.
     pub(crate) fn take_over(&mut self, old: &Self) {
-        self.set_capo(old.capo);
+        self.set_capo(old.asked_capo);
         self.position = old.position.min(self.highest_fret.max(1));
     }
 

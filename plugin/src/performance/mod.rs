@@ -121,7 +121,7 @@ impl Performance {
         let lengths = strings.iter().map(|string| string.geometry.length);
         Self {
             scale: lengths.fold(f64::INFINITY, f64::min),
-            hand: Hand::new(ranges.collect()),
+            hand: Hand::new(ranges.collect(), !barred),
             usual_stop: if barred { Stop::Bar } else { Stop::Press },
             strings: strings
                 .into_iter()
@@ -262,12 +262,12 @@ impl Performance {
             for (string, old) in self.strings.iter_mut().zip(&old.strings) {
                 string.take_over(old);
             }
-            self.set_capo(self.hand.capo());
+            self.set_capo(self.hand.asked_capo());
         } else {
             // It may have played before.
             self.strings.iter_mut().for_each(StringPlayer::reset);
             self.hand.reset();
-            self.set_capo(old.hand.capo());
+            self.set_capo(old.hand.asked_capo());
             self.pick_up_hands();
         }
         self.taken_over = strings_go_on;

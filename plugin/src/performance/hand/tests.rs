@@ -5,7 +5,7 @@ use super::*;
 /// E4 B3 G3 D3 A2 E2 with 22 frets, string 0 the highest.
 fn guitar() -> Hand {
     let pitches = [64.0, 59.0, 55.0, 50.0, 45.0, 40.0];
-    Hand::new(pitches.map(|open_pitch| Range { open_pitch, frets: 22, coil: None }).to_vec())
+    Hand::new(pitches.map(|open_pitch| Range { open_pitch, frets: 22, coil: None }).to_vec(), true)
 }
 
 fn play(hand: &mut Hand, keys: &[u8], uses: &[Use]) -> Vec<Option<(usize, usize)>> {
