@@ -17,7 +17,9 @@ use low_action_dsp::setup::{MOST_STRINGS, SetupString};
 use low_action_dsp::{EngineSettings, Instrument, Setup};
 
 use crate::controls::Touching;
-use crate::performance::{Announced, Compromises, InputMode, Performance, PlayedString, PlayerEvent, Style};
+use crate::performance::{
+    Announced, Channels, Compromises, InputMode, Performance, PlayedString, PlayerEvent, Style,
+};
 pub use handover::Replacement;
 pub use record::Record;
 use sink::Sink;
@@ -168,9 +170,9 @@ impl Engine {
         self.performance.set_input(input);
     }
 
-    /// Whether channels are notes of MPE now.
-    pub(crate) fn is_mpe(&self) -> bool {
-        self.performance.is_mpe()
+    /// The channels that are notes of MPE now.
+    pub(crate) fn members(&self) -> Channels {
+        self.performance.members()
     }
 
     /// Has contacts solved so exactly from the next sample on: Newton iterations at most, and the change of

@@ -11,7 +11,7 @@ mod timing;
 
 use midly::{EventIter, MetaMessage, MidiMessage, TrackEventKind};
 
-use crate::performance::{Expression, PlayerEvent, announces_mpe};
+use crate::performance::{Expression, PlayerEvent, announced_members};
 use crate::pitch_wheel;
 use chunks::Chunks;
 pub use messages::{CutOff, MidiFileError, SongWarning};
@@ -36,7 +36,7 @@ pub struct Selection {
     /// Only this channel, counted from 1 to 16. Naming the drum channel plays it.
     pub channel: Option<u8>,
     /// Whether the drum channel is one like any other: a string's, or in MPE a note's. In a song that announces
-    /// MPE it always is.
+    /// it as one of MPE it always is.
     pub tenth: bool,
     /// Whether what is there of a last track that is cut off is played, with a warning; else such a file is refused.
     pub truncated: bool,
@@ -251,13 +251,13 @@ impl Reader {
     fn finish(self) -> Song {
         let Self { selection, no_tempos, mut found, song: Song { mut events, mut warnings }, .. } = self;
         warnings.extend((no_tempos > 0).then_some(SongWarning::NoTempo { changes: no_tempos }));
-        let mpe = announces_mpe(found.iter().map(|(event, _)| event.event));
+        let members = announced_members(found.iter().map(|(event, _)| event.event));
         // What is announced when all that is selected is over makes the song no longer.
         let end = found.iter().rposition(|&(_, selected)| selected).map_or(0, |last| last + 1);
         found.truncate(end);
         let counts = |&(event, selected): &(SongEvent, bool)| selected || is_parameter(event.event);
         events.extend(found.into_iter().filter(counts).map(|(event, _)| event));
-        if selection.channel.is_none() && !selection.tenth && !mpe {
+        if selection.channel.is_none() && !selection.tenth && !members.has(DRUM_CHANNEL) {
             let notes = count_notes(&events);
             events.retain(|event| event.event.channel() != Some(DRUM_CHANNEL));
             let notes = notes - count_notes(&events);
@@ -265,6 +265,7 @@ impl Reader {
         }
         warnings.extend(messages::not_followed(&events));
         warnings.extend(messages::tuning_not_followed(&events));
+        warnings.extend(messages::upper_zone(&events));
         warnings.extend((count_notes(&events) == 0).then_some(SongWarning::NoNotes));
         Song { events, warnings }
     }

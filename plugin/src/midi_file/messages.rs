@@ -127,6 +127,8 @@ pub enum SongWarning {
     },
     /// Channels are tuned by registered parameters 1 or 2, which does nothing.
     TuningNotFollowed,
+    /// An upper zone of MPE is announced, which does nothing of its own.
+    UpperZone,
     /// A track stops without saying so; perhaps something is missing.
     NoEndOfTrack {
         /// Track, counted from 1.
@@ -171,6 +173,11 @@ impl fmt::Display for SongWarning {
                 out,
                 "registered parameters 1 and 2 (tuning of a channel) are passed over: use the pitch wheel, or pitches in a \
                  set-up file"
+            ),
+            Self::UpperZone => write!(
+                out,
+                "an upper zone of MPE (announced on channel 16) is passed over: its members belong to channel 1 where that \
+                 announces its own, else to none"
             ),
             Self::NoEndOfTrack { track } => {
                 write!(out, "track {track} has no end-of-track event: it may be incomplete")
@@ -218,6 +225,18 @@ pub(super) fn tuning_not_followed(events: &[SongEvent]) -> Option<SongWarning> {
             };
     }
     asked.then_some(SongWarning::TuningNotFollowed)
+}
+
+/// An upper zone of MPE is announced on the last channel.
+pub(super) fn upper_zone(events: &[SongEvent]) -> Option<SongWarning> {
+    let mut parameter = ChosenParameter::NONE;
+    let mut announced = false;
+    for event in events {
+        let PlayerEvent::Controller { channel: 15, number, value } = event.event else { continue };
+        parameter.hear(number, (127.0 * value).round() as u8);
+        announced |= number == 6 && value > 0.0 && parameter.number() == Some(ChosenParameter::MEMBERS);
+    }
+    announced.then_some(SongWarning::UpperZone)
 }
 
 /// What volume and pan ask for in vain: on channels that have notes, anything but the values they begin with in General MIDI.

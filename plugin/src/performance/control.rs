@@ -2,7 +2,7 @@
 
 use super::channel::{Channel, Request};
 use super::string::Manner;
-use super::{CHANNELS, GestureSink, Performance, PlayerEvent, seven_bits};
+use super::{CHANNELS, Channels, GestureSink, Performance};
 
 /// What the channels of notes mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -19,7 +19,7 @@ pub enum InputMode {
         /// Whether it is the last string's, the lowest on guitars, instead of the first one's.
         from_last: bool,
     },
-    /// Each note has a channel of its own; channel 0 acts on all.
+    /// Each note has a channel of its own; channel 0 acts on all, or on as many as were announced.
     Mpe,
 }
 
@@ -44,72 +44,61 @@ impl InputMode {
 }
 
 /// Semitones of a full turn of the wheel in MPE, while no other range is announced: of a note's own
-/// channel, and of the one that bends all.
+/// channel, and of the one that bends them all.
 const MPE_RANGES: (f64, f64) = (48.0, 2.0);
-/// The channel that acts on all in MPE.
+/// The channel that acts on all in MPE, and the one that would on those of an upper zone.
 pub(crate) const MANAGER: u8 = 0;
-
-/// Whether MPE is announced by any of these events, which are in order of time.
-pub(crate) fn announces_mpe(mut events: impl Iterator<Item = PlayerEvent>) -> bool {
-    let mut manager = Channel::new(0.0);
-    events.any(|event| match event {
-        PlayerEvent::Controller { channel: MANAGER, number, value } => {
-            manager.set_controller(number, seven_bits(value));
-            manager.members.is_some_and(|members| members > 0)
-        }
-        _ => false,
-    })
-}
+pub(super) const UPPER: u8 = 15;
 
 /// Of whose notes something is asked.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Whose {
     /// Those of this channel,
     pub channel: u8,
-    /// or of all.
-    pub all: bool,
+    /// and of these.
+    pub others: Channels,
 }
 
 impl Whose {
+    /// Those of a channel alone.
+    pub fn one(channel: u8) -> Self {
+        Self { channel, others: Channels::NONE }
+    }
+
     /// Whether those of a channel are meant.
     pub fn is(self, channel: u8) -> bool {
-        self.all || channel == self.channel
+        channel == self.channel || self.others.has(channel)
     }
 }
 
 impl Performance {
-    /// Whether channel 0 acts on the notes of all.
-    pub(crate) fn is_mpe(&self) -> bool {
-        let announced = self.channels[usize::from(MANAGER)].members.is_some_and(|members| members > 0);
-        self.input == InputMode::Mpe || (self.input == InputMode::Auto && announced)
-    }
-
     /// Whether a pedal keeps the notes of a channel.
     pub(super) fn pedal(&self, channel: u8) -> bool {
         self.channels[usize::from(channel)].pedal
-            || (self.is_mpe() && self.channels[usize::from(MANAGER)].pedal)
+            || (self.is_member(channel) && self.channels[usize::from(MANAGER)].pedal)
     }
 
     /// Whether a sostenuto pedal keeps what it has caught of a channel.
     fn sostenuto(&self, channel: u8) -> bool {
         self.channels[usize::from(channel)].sostenuto
-            || (self.is_mpe() && self.channels[usize::from(MANAGER)].sostenuto)
+            || (self.is_member(channel) && self.channels[usize::from(MANAGER)].sostenuto)
     }
 
     /// Bend by the wheels that act on a channel, semitones.
     pub(super) fn bend(&self, channel: u8) -> f64 {
         let own = &self.channels[usize::from(channel)];
-        if !self.is_mpe() {
-            return own.bend(None);
+        let all = || self.channels[usize::from(MANAGER)].bend(Some(MPE_RANGES.1));
+        match channel {
+            MANAGER if self.is_mpe() => all(),
+            _ if self.is_member(channel) => own.bend(Some(MPE_RANGES.0)) + all(),
+            _ => own.bend(None),
         }
-        let all = self.channels[usize::from(MANAGER)].bend(Some(MPE_RANGES.1));
-        if channel == MANAGER { all } else { own.bend(Some(MPE_RANGES.0)) + all }
     }
 
     /// How notes of a channel are played, as its controllers have it, and in MPE those that act on all.
     pub(super) fn manner(&self, channel: u8) -> Manner {
         let own = self.channels[usize::from(channel)].manner;
-        if channel == MANAGER || !self.is_mpe() {
+        if !self.is_member(channel) {
             return own;
         }
         own.under(&self.channels[usize::from(MANAGER)].manner)
@@ -122,13 +111,16 @@ impl Performance {
         change: impl Fn(&mut Channel) -> Request,
         out: &mut impl GestureSink,
     ) {
-        let was_mpe = self.is_mpe();
+        let members = self.members();
         let Some((request, whose)) = self.change_channels(sender, change) else { return };
         self.tell_chord(request, |channel| whose.is(channel));
         match request {
-            // Others may announce an upper zone, which there is none of here.
-            Request::Members if sender != MANAGER => return,
-            Request::Members => return self.take_members(was_mpe, out),
+            Request::Members if sender == MANAGER => return self.take_members(members, out),
+            // Others there may be of an upper zone, which are the first channel's, too; what it has said of its own stays.
+            Request::Members => {
+                self.follow_members(members);
+                return self.follow_meaning(out);
+            }
             Request::Capo(fret) => return self.set_capo(usize::from(fret)),
             Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),
             Request::Hand(fret) => return self.hand.set_home((fret > 0).then_some(fret)),
@@ -150,7 +142,7 @@ impl Performance {
         }
         self.ask(request, whose, out);
         if request == Request::Touch {
-            self.lay_palms(Whose { channel: sender, all: false }, out);
+            self.lay_palms(Whose::one(sender), out);
         }
     }
 
@@ -172,22 +164,22 @@ impl Performance {
         let before = channel.announced_reach();
         let request = change(channel);
         let reach = channel.announced_reach();
-        let mpe = self.is_mpe();
-        let announces = mpe && sender != MANAGER && reach != before;
-        let all = (mpe && sender == MANAGER) || announces;
+        let members = self.members();
+        let announces = members.has(sender) && reach != before;
         if announces {
             // The reach of the wheel that one member announces is that of all.
-            self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.take_reach(reach));
-        } else if all {
+            self.each_of(members).for_each(|member| member.take_reach(reach));
+        } else if sender == MANAGER {
             // Most messages say nothing of hands: what other channels have been told stays.
-            self.channels[usize::from(MANAGER) + 1..].iter_mut().for_each(|member| member.hear(&change));
+            self.each_of(members).for_each(|member| member.hear(&change));
         }
-        Some((request, Whose { channel: sender, all }))
+        let others = if announces || sender == MANAGER { members } else { Channels::NONE };
+        Some((request, Whose { channel: sender, others }))
     }
 
     /// All keys of a channel go up, in MPE of the first one its own alone.
     pub(super) fn release_keys(&mut self, channel: u8, out: &mut impl GestureSink) {
-        let whose = Whose { channel, all: false };
+        let whose = Whose::one(channel);
         self.forget_keys(whose);
         self.ask(Request::ReleaseKeys, whose, out);
     }
@@ -198,8 +190,7 @@ impl Performance {
             own.forced = own.forced.filter(|&(_, by)| !whose.is(by));
         }
         self.late.retain(|late| !whose.is(late.note.wanted.channel));
-        let channel = (!whose.all).then_some(whose.channel);
-        self.strings.iter_mut().for_each(|string| string.forget_under(channel));
+        self.strings.iter_mut().for_each(|string| string.forget_under(|own| whose.is(own)));
     }
 
     /// Notes whose keys are down under the ones that sound hear how they are to be played when they come back.

@@ -2,7 +2,7 @@
 
 use super::channel::{Channel, Request};
 use super::control::{MANAGER, Whose};
-use super::{CHANNELS, GestureSink, InputMode, Performance};
+use super::{CHANNELS, Channels, GestureSink, InputMode, Performance};
 
 impl Performance {
     /// Channels mean something else from now on.
@@ -10,64 +10,62 @@ impl Performance {
         if input == self.input {
             return;
         }
-        let was_mpe = self.is_mpe();
+        let before = self.members();
         self.input = input;
-        let mpe = self.is_mpe();
-        if mpe && !was_mpe {
-            self.begin_mpe();
-        }
-        self.follow_wheels();
         // What hands do then has to wait until there is somebody to do it.
-        self.means_otherwise |= mpe != was_mpe;
+        self.follow_members(before);
     }
 
-    /// A keyboard has announced how many members there are.
-    pub(super) fn take_members(&mut self, was_mpe: bool, out: &mut impl GestureSink) {
-        let mpe = self.is_mpe();
-        if !mpe && !was_mpe {
-            return;
-        }
-        if mpe {
+    /// A keyboard has announced how many members there are, where there were these before.
+    pub(super) fn take_members(&mut self, before: Channels, out: &mut impl GestureSink) {
+        if self.is_mpe() {
             // So the specification of MPE has it: whatever reach was announced before is past.
-            self.channels.iter_mut().for_each(Channel::forget_reach);
+            let zone = before.and(self.members()).and(Channels::one(MANAGER));
+            self.each_of(zone).for_each(Channel::forget_reach);
         }
-        if mpe && !was_mpe {
-            self.begin_mpe();
-        }
-        self.follow_wheels();
-        self.means_otherwise |= mpe != was_mpe;
+        self.follow_members(before);
         self.follow_meaning(out);
     }
 
-    /// From now on the first channel speaks for all, with what it has said before.
-    fn begin_mpe(&mut self) {
-        let all = self.channels[usize::from(MANAGER)].articulation;
-        for member in &mut self.channels[usize::from(MANAGER) + 1..] {
-            member.articulation = member.articulation.under(&all);
+    /// There may be other members than before.
+    pub(super) fn follow_members(&mut self, before: Channels) {
+        let members = self.members();
+        let (come, gone) = (members.without(before), before.without(members));
+        if come != Channels::NONE {
+            self.begin_mpe(come);
         }
+        self.follow_wheels();
+        self.means_otherwise = self.means_otherwise.and(come).and(gone);
+    }
+
+    /// From now on the first channel speaks for these, with what it has said before.
+    fn begin_mpe(&mut self, members: Channels) {
+        let all = self.channels[usize::from(MANAGER)].articulation;
+        self.each_of(members).for_each(|member| member.articulation = member.articulation.under(&all));
         self.agree_on_reach();
     }
 
     /// What has been announced of one member counts for all, if it was announced when they were none yet.
     pub(super) fn agree_on_reach(&mut self) {
-        let members = &mut self.channels[usize::from(MANAGER) + 1..];
-        let announced = members.iter().find_map(Channel::announced_reach);
-        members.iter_mut().for_each(|member| member.take_reach(announced));
+        let members = self.members();
+        let announced = self.each_of(members).find_map(|member| member.announced_reach());
+        self.each_of(members).for_each(|member| member.take_reach(announced));
     }
 
-    /// If channels have come to mean something else: notes end that no pedal keeps any more, and those that the first channel's
-    /// pressure and vibrato act on from now on, or no longer, have what is theirs.
+    /// If channels have come to mean something else: notes of theirs end that no pedal keeps any more, and those that the first
+    /// channel's pressure and vibrato act on from now on, or no longer, have what is theirs.
     pub(super) fn follow_meaning(&mut self, out: &mut impl GestureSink) {
-        if !std::mem::take(&mut self.means_otherwise) {
+        let others = std::mem::replace(&mut self.means_otherwise, Channels::NONE);
+        if others == Channels::NONE {
             return;
         }
-        let every = Whose { channel: MANAGER, all: true };
-        self.let_fall_under(every);
-        self.ask(Request::LetFall, every, out);
-        self.ask(Request::PedalUp, every, out);
+        let whose = Whose { channel: MANAGER, others };
+        self.let_fall_under(whose);
+        self.ask(Request::LetFall, whose, out);
+        self.ask(Request::PedalUp, whose, out);
         let all = self.channels[usize::from(MANAGER)].manner;
-        for channel in MANAGER + 1..CHANNELS as u8 {
-            let (whose, own) = (Whose { channel, all: false }, self.channels[usize::from(channel)].manner);
+        for channel in (0..CHANNELS as u8).filter(|&channel| others.has(channel)) {
+            let (whose, own) = (Whose::one(channel), self.channels[usize::from(channel)].manner);
             let under = own.under(&all);
             // What it says nothing of stays: a note may have its own.
             for request in [

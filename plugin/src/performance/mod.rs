@@ -4,7 +4,7 @@
 //! [`low_action_dsp::TimedGesture`]s: which string and fret (`hand`), notes that begin together or take over
 //! from one another (`chord`), what fingers and plucks a note takes from its start to its silence (`string`),
 //! how hands are told to play (`articulation`, `switches`), what pedals and wheels say (`channel`) and do to
-//! it (`control`, `meaning`, `expressions`, `bend`), and how one pluck differs from the next (`variation`). Beside the gestures it
+//! it (`control`, `channels`, `meaning`, `expressions`, `bend`), and how one pluck differs from the next (`variation`). Beside the gestures it
 //! tells what becomes of the notes ([`Annotation`]), for labels. There are no host types here, nothing is allocated after
 //! construction, and the result depends only on the events and their times, not on how the time between them is cut
 //! into blocks.
@@ -14,6 +14,7 @@ mod announced;
 mod articulation;
 mod bend;
 mod channel;
+mod channels;
 mod chord;
 mod compromises;
 mod control;
@@ -38,10 +39,11 @@ pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedA
 pub use announced::Announced;
 use articulation::Stop;
 use channel::Channel;
+pub(crate) use channels::{Channels, announced_members};
 use chord::{JustBegun, Late, Unplaced};
 pub use compromises::Compromises;
 pub use control::InputMode;
-pub(crate) use control::{MANAGER, announces_mpe};
+pub(crate) use control::MANAGER;
 pub use event::{Expression, PlayerEvent, StringDeed};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
 pub use moment::GestureSink;
@@ -79,8 +81,8 @@ pub struct Performance {
     usual_stop: Stop,
     variation: Variation,
     input: InputMode,
-    /// Whether channels have begun to be notes of MPE, or ceased to be, and the strings have yet to hear of it.
-    means_otherwise: bool,
+    /// The channels that have begun to be notes of MPE, or ceased to be, of which the strings have yet to hear.
+    means_otherwise: Channels,
     /// The hands as the set-up has them.
     hands: Player,
     /// Length of the strings, m; of the shortest.
@@ -132,7 +134,7 @@ impl Performance {
             channels: std::array::from_fn(|_| Channel::new(style.bend_range)),
             variation: Variation::new(style.variation, style.seed),
             input: InputMode::default(),
-            means_otherwise: false,
+            means_otherwise: Channels::NONE,
             hands: hands.clone(),
             touching: Touching::new(style.variation, style.bend_range),
             taken_over: false,
@@ -332,7 +334,7 @@ impl Performance {
         self.just_begun.reset();
         self.releases.clear();
         self.late.clear();
-        (self.upward, self.means_otherwise) = (false, false);
+        (self.upward, self.means_otherwise) = (false, Channels::NONE);
         self.switches = self.touching.keyswitches;
         self.hand.set_home(self.touching.hand_position);
         self.now = 0;

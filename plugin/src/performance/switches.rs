@@ -1,8 +1,8 @@
 //! Keyswitches: keys that tell the hands how to play instead of being played.
 
-use super::Performance;
 use super::articulation::SWITCHES;
 use super::control::Whose;
+use super::{Channels, Performance};
 
 /// Strings that have a keyswitch.
 const STRINGS: u8 = 8;
@@ -55,9 +55,10 @@ impl Performance {
         string.is_some_and(asks)
     }
 
-    /// Of whose notes a keyswitch of a channel speaks: of all where each note or each string has its own channel.
+    /// Of whose notes a keyswitch of a channel speaks: of all where each string has its own channel, or each note its own in MPE.
     pub(super) fn switched_by(&self, channel: u8) -> Whose {
-        Whose { channel, all: self.is_mpe() || self.is_by_strings() }
+        let others = if self.is_by_strings() { Channels::ALL } else { self.of_one_hand(channel) };
+        Whose { channel, others }
     }
 
     /// The number of a keyswitch.

@@ -149,8 +149,10 @@ impl Playing {
     /// Takes an event of the host's.
     pub fn event(&mut self, event: NoteEvent<()>, params: &LowActionParams) {
         let engine = &mut self.engine;
-        let mpe = engine.is_mpe();
-        events::translate(event, params, mpe, &mut self.voices, |offset, event| engine.event(offset, event));
+        let members = engine.members();
+        events::translate(event, params, members, &mut self.voices, |offset, event| {
+            engine.event(offset, event)
+        });
     }
 
     /// Plays what was done with the editor's strings. A rendering has only what the host plays, and is the same every time:

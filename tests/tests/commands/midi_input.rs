@@ -170,6 +170,38 @@ fn drums_are_left_out_with_one_warning() {
         [(0, &[0xB0, 101, 0][..]), (0, &[0xB0, 100, 6]), (0, &[0xB0, 6, 15]), (5, &[0x99, 38, 100])];
     let mpe = read(&file(0, 96, &[track(&announced)]));
     assert_eq!((note_ons(&mpe).len(), mpe.warnings.len()), (1, 0));
+    // Nine members are channels 2 to 10, and eight end before it; those before it that were announced first count.
+    for (announced, left) in [(&[8][..], 0), (&[9], 1), (&[5], 0), (&[15, 5], 1)] {
+        let mut events = vec![(0, &[0xB0, 101, 0][..]), (0, &[0xB0, 100, 6])];
+        let counts: Vec<[u8; 3]> = announced.iter().map(|&count| [0xB0, 6, count]).collect();
+        events.extend(counts.iter().map(|count| (0, &count[..])));
+        events.push((5, &[0x99, 38, 100]));
+        events.push((0, &[0x91, 60, 100]));
+        let song = read(&file(0, 96, &[track(&events)]));
+        assert_eq!(note_ons(&song).len(), 1 + left, "{announced:?} members");
+        let skipped = (left == 0).then_some(SongWarning::DrumsSkipped { notes: 1 });
+        assert_eq!(song.warnings, skipped.into_iter().collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn an_upper_zone_of_mpe_is_told_once() {
+    let zone = |channel: u8, count: u8| {
+        let status = 0xB0 | channel;
+        [[status, 101, 0], [status, 100, 6], [status, 6, count]]
+    };
+    for (zones, is_told) in [
+        (vec![zone(0, 7)], false),
+        (vec![zone(15, 0)], false),
+        (vec![zone(15, 7), zone(0, 7), zone(15, 7)], true),
+        (vec![zone(15, 7)], true),
+    ] {
+        let messages = zones.concat();
+        let mut events: Vec<(u32, &[u8])> = messages.iter().map(|message| (0, &message[..])).collect();
+        events.push((0, &[0x91, 60, 100]));
+        let told = if is_told { vec![SongWarning::UpperZone] } else { vec![] };
+        assert_eq!(read(&file(0, 96, &[track(&events)])).warnings, told, "{zones:?}");
+    }
 }
 
 #[test]

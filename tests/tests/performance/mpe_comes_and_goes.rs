@@ -181,3 +181,65 @@ fn the_first_channels_hand_swings_for_others_only_while_it_speaks_for_them() {
         assert_eq!(swings(&gestures), 0);
     }
 }
+
+#[test]
+fn only_as_many_are_members_as_were_announced() {
+    // Channels 2 to 6 are; the seventh has its own wheel, and no other channel's pedal, wheel or hands.
+    let told =
+        [members(0, 5), vec![(0, control(0, 64, 127)), (0, wheel(0, 0.5)), (0, control(0, 22, 3))]].concat();
+    for (channel, is_member) in [(1, true), (5, true), (6, false), (15, false)] {
+        let mut player = GUITAR.player(EXACT);
+        let played =
+            [(4800, note(channel, 40)), (9600, wheel(channel, 1.0 / 48.0)), (14_400, up(channel, 40))];
+        let gestures = play(&mut player, &[&told[..], &played].concat());
+        assert_near(bent(&gestures), if is_member { 2.0 } else { 2.0 / 48.0 });
+        assert_eq!(player.sounds(channel, 40), is_member, "channel {channel}");
+        let rests = |g: &&TimedGesture| matches!(g.gesture, Gesture::Pluck { force, .. } if force < 0.0);
+        assert_eq!(gestures.iter().any(|g| rests(&g)), is_member, "channel {channel}: a rest stroke");
+    }
+    // Where the player has chosen MPE, and where another number is announced.
+    let mut player = GUITAR.player(EXACT);
+    player.set_input(InputMode::Mpe);
+    let bent_so = |player: &mut Performance, at: u64| {
+        bent(&play(player, &[(at, note(9, 40)), (at + 10, wheel(9, 0.0)), (at + 4800, wheel(9, 1.0 / 48.0))]))
+    };
+    assert_near(bent_so(&mut player, 0), 1.0);
+    tell(&mut player, &members(400_000, 5));
+    assert_near(bent_so(&mut player, 400_000), 2.0 / 48.0);
+    tell(&mut player, &members(800_000, 9));
+    assert_near(bent_so(&mut player, 800_000), 1.0);
+    // Those of an upper zone belong to the first channel, too, and take nothing away from what it has announced.
+    let upper = registered(0, 15, 6, 7);
+    for told in [[members(0, 5), upper.clone()].concat(), [upper.clone(), members(0, 5)].concat()] {
+        for (channel, semitones) in [(5, 1.0), (6, 2.0 / 48.0), (8, 1.0), (14, 1.0), (15, 2.0 / 48.0)] {
+            let mut player = GUITAR.player(EXACT);
+            let played = [(4800, note(channel, 40)), (9600, wheel(channel, 1.0 / 48.0))];
+            assert_near(bent(&play(&mut player, &[&told[..], &played].concat())), semitones);
+        }
+    }
+    assert_near(bent_after(&[&members(0, 5), &reach(0, 3, 24), &upper], 1.0 / 48.0), 0.5);
+}
+
+#[test]
+fn notes_of_channels_that_are_members_no_more_are_their_own_while_others_stay() {
+    let mut player = announced();
+    tell(&mut player, &[(0, note(1, 52)), (0, note(9, 64)), (2400, control(0, 64, 127))]);
+    tell(&mut player, &[(4800, up(1, 52)), (4800, up(9, 64))]);
+    player.advance(9600, &mut Vec::new());
+    assert!(player.sounds(1, 52) && player.sounds(9, 64));
+    tell(&mut player, &members(9600, 5));
+    player.advance(19_200, &mut Vec::new());
+    assert!(player.sounds(1, 52) && !player.sounds(9, 64));
+}
+
+/// A melody goes on over channels of MPE, and not to one that is none.
+#[test]
+fn an_ordinary_channel_takes_over_from_no_member() {
+    let plucks = |channel: u8| {
+        let told = [members(0, 5), vec![(0, control(0, 68, 127)), (0, control(channel, 68, 127))]].concat();
+        let melody = [(0, note(1, 57)), (24_000, note(channel, 59))];
+        let gestures = play(&mut GUITAR.player(EXACT), &[&told[..], &melody].concat());
+        gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).count()
+    };
+    assert_eq!([2, 5, 6].map(plucks), [1, 1, 2]);
+}

@@ -3,9 +3,9 @@
 //! are unless another needs their string; then they are struck once more on one of their own. None is lost to it.
 
 use super::{Articulation, Manner, Placement, Stroke, Unplaced, Use};
-use crate::performance::Performance;
 use crate::performance::hand::LARGEST_CHORD;
 use crate::performance::technique::{LONGEST_CHORD, TOGETHER};
+use crate::performance::{Channels, Performance};
 
 /// The last chord, as it has begun.
 #[derive(Debug)]
@@ -87,10 +87,10 @@ impl Performance {
         self.just_begun.went_on = self.now;
     }
 
-    /// Whether a note that begins now is of a chord some of whose notes, of such a channel (`None`: of any), have just begun.
-    pub(super) fn follows_just_begun(&self, channel: Option<u8>) -> bool {
+    /// Whether a note that begins now is of a chord some of whose notes, of such channels, have just begun.
+    pub(super) fn follows_just_begun(&self, channels: Channels) -> bool {
         let mut begun = (0..self.strings.len()).filter_map(|string| self.begun_a_moment_ago(string));
-        begun.any(|note| channel.is_none_or(|own| own == note.wanted.channel))
+        begun.any(|note| channels.has(note.wanted.channel))
     }
 
     /// Notes that have just begun are placed with the chord, and so are those before them that each came in time for the next, as

@@ -1,5 +1,5 @@
 //! **Legato**: a note that begins alone while the latest one of its channel is held is played on that note's
-//! string, if it is there and near enough. It is alone that begins alone of its channel; in MPE, where each note has one, alone of all.
+//! string, if it is there and near enough. It is alone that begins alone of its channel; in MPE, where each note has one, alone of all of its channels.
 //! So where each string has a channel, several are hammered, pulled or slid at once as one is.
 
 use super::{Articulation, HAMMER_REACH, Placement, SLIDE_REACH, Stop, Unplaced, Use};
@@ -26,14 +26,9 @@ impl Performance {
 
     /// Whether no other note of its channel begins with one of the chord.
     fn begins_alone(&self, index: usize) -> bool {
-        let channel = self.melody_of(self.chord[index].wanted.channel);
-        let beside = |other: &&Unplaced| channel.is_none_or(|own| own == other.wanted.channel);
+        let melody = self.of_one_hand(self.chord[index].wanted.channel);
+        let beside = |other: &&Unplaced| melody.has(other.wanted.channel);
         self.chord.iter().filter(beside).count() == 1
-    }
-
-    /// The channel whose notes a note of one can take over from; `None` for those of any, where each has its own.
-    fn melody_of(&self, channel: u8) -> Option<u8> {
-        (!self.is_mpe()).then_some(channel)
     }
 
     /// A note that begins alone takes over from the latest one of its channel, if that is held, notes are
@@ -46,17 +41,16 @@ impl Performance {
         if !connected || self.gives_way() || stop == Stop::Harmonic || stop == Stop::Mute {
             return false;
         }
-        let channel = self.melody_of(wanted.channel);
+        let melody = self.of_one_hand(wanted.channel);
         // What has been placed at this very sample begins with it.
         let begun = |string: &StringPlayer| {
-            let of_channel = channel.is_none_or(|own| string.channel() == Some(own));
-            of_channel && string.usage(self.now) == Use::Untouchable
+            string.channel().is_some_and(|own| melody.has(own)) && string.usage(self.now) == Use::Untouchable
         };
-        if self.strings.iter().any(begun) || self.follows_just_begun(channel) {
+        if self.strings.iter().any(begun) || self.follows_just_begun(melody) {
             return false;
         }
         let held = self.strings.iter().enumerate().filter_map(|(index, string)| {
-            let note = string.held(channel)?;
+            let note = string.held().filter(|note| melody.has(note.channel))?;
             Some(((note.began, note.since), index, note.fret))
         });
         let Some((_, string, from)) = held.max_by_key(|&(latest, ..)| latest) else { return false };

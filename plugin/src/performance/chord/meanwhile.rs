@@ -4,7 +4,7 @@
 
 use super::{Articulation, CHANNELS, LARGEST_CHORD, MANAGER, Manner, Unplaced, controller};
 use crate::performance::channel::Request;
-use crate::performance::{GestureSink, Performance};
+use crate::performance::{Channels, GestureSink, Performance};
 
 impl Performance {
     /// A key goes up, once the chord has been placed that it is of or that may take over from it.
@@ -64,8 +64,13 @@ impl Performance {
         if controller::is_of_all(number, self.is_mpe()) {
             return true;
         }
-        let all = channel == MANAGER && (self.is_mpe() || number == controller::DATA_ENTRY);
-        let is_meant = |own: u8| all || own == channel;
+        let meant = match channel {
+            // It may be about to say how many channels there are of MPE.
+            MANAGER if number == controller::DATA_ENTRY => Channels::ALL,
+            MANAGER => self.of_one_hand(channel),
+            _ => Channels::one(channel),
+        };
+        let is_meant = |own: u8| meant.has(own);
         let notes = self.chord.iter().any(|note| is_meant(note.wanted.channel));
         let released = self.releases.iter().any(|&(own, _)| is_meant(own));
         // A pedal keeps what goes up after it, and what has gone up before it ends.

@@ -106,10 +106,9 @@ impl StringPlayer {
         }
     }
 
-    /// Keys of a channel under the one that sounds (`None`: of any) are no more.
-    pub(crate) fn forget_under(&mut self, channel: Option<u8>) {
-        let kept =
-            self.under.into_iter().flatten().filter(|note| channel.is_some_and(|own| own != note.channel));
+    /// Keys under the one that sounds are no more, those of such channels.
+    pub(crate) fn forget_under(&mut self, is_meant: impl Fn(u8) -> bool) {
+        let kept = self.under.into_iter().flatten().filter(|note| !is_meant(note.channel));
         let mut under = [None; UNDER];
         under.iter_mut().zip(kept).for_each(|(place, note)| *place = Some(note));
         self.under = under;

@@ -4,10 +4,9 @@ use super::{Note, Start, StringPlayer};
 use crate::performance::GestureSink;
 
 impl StringPlayer {
-    /// The note that sounds while its key is down, if it is of that channel (`None`: of any).
-    pub(crate) fn held(&self, channel: Option<u8>) -> Option<Note> {
-        let note = self.note.filter(|note| note.key_down() && self.ending.is_none())?;
-        channel.is_none_or(|channel| channel == note.channel).then_some(note)
+    /// The note that sounds while its key is down.
+    pub(crate) fn held(&self) -> Option<Note> {
+        self.note.filter(|note| note.key_down() && self.ending.is_none())
     }
 
     /// A note takes over from the one that sounds, whose key stays down under it: by a hammer, a pull or a
