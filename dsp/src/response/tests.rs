@@ -1,9 +1,32 @@
 //! What the answer of the contacts must be, whatever they are.
 
 use super::*;
+use crate::field::Field;
 use crate::grid::{Grid, Reading};
 
 struct Point(Reading);
+
+/// One that the tension pulls, of a pad that moves by itself, or of a fret that does not.
+struct Pulled {
+    reading: Reading,
+    pull: f64,
+    own: f64,
+}
+
+impl Row for Pulled {
+    fn span(&self) -> (usize, usize) {
+        self.reading.span()
+    }
+    fn coupling(&self, other: &Self) -> f64 {
+        self.reading.overlap(&other.reading)
+    }
+    fn own_mobility(&self) -> f64 {
+        self.own
+    }
+    fn pull(&self) -> f64 {
+        self.pull
+    }
+}
 
 impl Row for Point {
     fn span(&self) -> (usize, usize) {
@@ -86,6 +109,79 @@ fn springs_answer_what_they_are_asked() {
             check::<8>(slope, apart, &mut state);
             check::<9>(slope, apart, &mut state);
             check::<10>(slope, apart, &mut state);
+        }
+    }
+}
+
+/// G |v|², how much stiffer its stretching makes a string along its curvature.
+const STRETCH: f64 = 9.0;
+
+/// x/D + M x = g where the tension pulls all contacts together, for a few and for many, in one block and in several. M = S + own −
+/// ω z zᵀ stands here in full, each of its numbers by itself. As of strings, z reads one field v,
+/// and ω |v|² = 9/10: of the mobility along v the pull leaves a tenth.
+#[test]
+fn springs_answer_what_they_are_asked_where_the_tension_pulls() {
+    fn check<const N: usize>(slope: f64, places: [f64; N], blocks: usize, state: &mut u64) {
+        let grid = Grid::new(1.0, 40, 1e-5);
+        let mut curvature = Field::new(&grid);
+        for node in 1..grid.intervals {
+            curvature[grid.cell(node)] = random(state) - 0.5;
+        }
+        let norm: f64 = curvature.iter().map(|v| v * v).sum();
+        let factor = STRETCH / norm / (1.0 + STRETCH);
+        let readings = places.map(|place| grid.reading(place));
+        let rows: [Pulled; N] = std::array::from_fn(|i| {
+            let own = if i % 3 == 1 { random(state) } else { 0.0 };
+            Pulled { reading: readings[i], pull: readings[i].of(&curvature), own }
+        });
+        let matrix: [[f64; N]; N] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let own = if i == j { rows[i].own } else { 0.0 };
+                rows[i].coupling(&rows[j]) + own - factor * rows[i].pull * rows[j].pull
+            })
+        });
+        let slopes = [(); N].map(|()| slope * (0.1 + 0.9 * random(state)));
+        let asked = [(); N].map(|()| random(state) - 0.5);
+        let mut response = Response::with_capacity(&readings.map(|reading| reading.span()), 0);
+        response.gather(&rows, factor);
+        assert_eq!(response.blocks.len(), blocks, "{N} contacts");
+        let mut few = Few::gather(&rows, factor);
+        for (name, answer) in [("many", &mut response as &mut dyn Answer), ("few", &mut few)] {
+            let (mut forces, mut moved) = (asked, [0.0; N]);
+            answer.springs(&slopes, &mut forces);
+            answer.product(&forces, &mut moved);
+            // Elimination rounds as if its numbers were each off by the number of contacts times 2⁻⁵², 1e-14 of 40, and
+            // the pull makes ten times that of it.
+            let sizes = forces.iter().zip(slopes).map(|(force, slope)| force.abs() * (1.0 / slope + 3.0));
+            let bound = 1e-13 * sizes.fold(0.1, |sum, size| sum + size);
+            for i in 0..N {
+                let answered = dot(&matrix[i], &forces);
+                let off = forces[i] / slopes[i] + answered - asked[i];
+                // NaN is refused too.
+                assert!(off.abs() < bound, "{N} springs of {slope:e}, {name}: {off:e}, not {bound:e}");
+                let off = moved[i] - answered;
+                assert!(off.abs() < bound, "product of {N}, {name}: {off:e}, not {bound:e}");
+            }
+        }
+    }
+    /// All within two spacings, and in so many groups as wide that share no points.
+    fn check_both<const N: usize>(blocks: usize, slope: f64, state: &mut u64) {
+        let mut place = |i: usize, blocks: usize| 0.1 + 0.3 * (i * blocks / N) as f64 + 0.05 * random(state);
+        let [together, apart] = [1, blocks].map(|blocks| {
+            let mut places: [f64; N] = std::array::from_fn(|i| place(i, blocks));
+            places.sort_by(f64::total_cmp);
+            places
+        });
+        check(slope, together, 1, state);
+        check(slope, apart, blocks, state);
+    }
+    let mut state = 1;
+    for _ in 0..100 {
+        for slope in [1e-3, 1.0, 1e4] {
+            check_both::<1>(1, slope, &mut state);
+            check_both::<6>(3, slope, &mut state);
+            check_both::<7>(3, slope, &mut state);
+            check_both::<40>(3, slope, &mut state);
         }
     }
 }
