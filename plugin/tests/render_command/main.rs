@@ -12,3 +12,4 @@ mod open_already;
 mod refusals;
 mod room;
 mod sounds;
+mod threads;

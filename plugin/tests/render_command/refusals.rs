@@ -50,6 +50,16 @@ fn wrong_usage_is_code_2() {
             &["render", "song.mid", "--input", "mpe", "--bend-range", "12"],
             "--bend-range is not for --input mpe: there wheels reach 48 semitones",
         ),
+        (
+            &["render", "song.mid", "--threads", "0"],
+            "'0' for '--threads <N>': must be a whole number from 1 to 64",
+        ),
+        (
+            &["render", "song.mid", "--threads", "65"],
+            "'65' for '--threads <N>': must be a whole number from 1 to 64",
+        ),
+        (&["render", "song.mid", "--threads", "-1"], "'-1' for '--threads <N>': must be a whole number"),
+        (&["render", "song.mid", "--threads", "x"], "'x' for '--threads <N>': must be a whole number"),
         (&["render", "song.mid", "more.mid"], "more.mid"),
         (
             &["render", "song.mid", "--seed", "-1"],
