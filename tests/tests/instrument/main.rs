@@ -1,6 +1,7 @@
 //! Instruments, and the set-ups they are built from: each file is a promise.
 
 mod display;
+mod effort;
 mod full_queues;
 mod handover;
 mod handover_any;
