@@ -70,6 +70,25 @@ fn what_cannot_be_computed_is_refused() {
     }
 }
 
+/// So are grids too fine to be made, by name; none is too wide.
+#[test]
+fn the_widest_spacing_has_a_range() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let build = |widest_spacing| {
+        Instrument::new(&setup, &EngineSettings { widest_spacing, ..Quality::Live.settings(RATE) })
+    };
+    for wrong in [0.0, -1.0, 9.9e-5, f64::NAN, f64::NEG_INFINITY] {
+        let error = build(wrong).expect_err("it is refused").to_string();
+        assert!(
+            error.starts_with("widest_spacing = ") && error.contains("1e-4 m or more"),
+            "{wrong}: {error}"
+        );
+    }
+    for right in [1e-4, f64::INFINITY] {
+        assert!(build(right).is_ok(), "{right} m");
+    }
+}
+
 #[test]
 fn light_strings_get_more_and_higher_host_rates_need_less() {
     let setup = Setup::builtin("electric").expect("it is built in");
