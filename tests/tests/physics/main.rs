@@ -1,5 +1,6 @@
 //! Strings, boards, fingers and the solver: each file is a promise.
 
+mod any_instructions;
 mod beginnings;
 mod bridge_force;
 mod dense_by_hand;
