@@ -10,6 +10,7 @@ mod exact_solutions;
 mod extremes;
 mod fret_loss;
 mod fret_placement;
+mod hands_rest;
 mod kinked_frets;
 mod ledger;
 mod measures;
