@@ -201,6 +201,8 @@ fn two_seconds_after_its_note_a_string_is_at_rest() {
 #[test]
 fn no_hand_lies_along_a_new_note() {
     for stroke in [0, 7] {
+        // How often a hand is laid that would lie past the beginning of the new note.
+        let mut in_the_way = 0;
         for wait in [0.95, 1.12, 1.2, 1.35, 1.45] {
             let again = UP + (wait * RATE) as u64;
             let events =
@@ -210,6 +212,11 @@ fn no_hand_lies_along_a_new_note() {
                 match timed.gesture {
                     Gesture::Still { loss, duration } => {
                         laid = timed.time + if loss > 0.0 { (duration * RATE) as u64 } else { 0 };
+                        println!(
+                            "{stroke} {wait} again {again} still {} {loss} {duration} laid {laid}",
+                            timed.time
+                        );
+                        in_the_way += u32::from(timed.time < again && laid > again);
                     }
                     // What the stroke asks for lies under its push.
                     Gesture::Pluck { duration, .. } if timed.time >= again => {
@@ -222,5 +229,6 @@ fn no_hand_lies_along_a_new_note() {
                 }
             }
         }
+        assert!(in_the_way > 0, "no hand is in the way of stroke {stroke}");
     }
 }
