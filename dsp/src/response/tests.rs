@@ -116,9 +116,9 @@ fn springs_answer_what_they_are_asked() {
 /// G |v|², how much stiffer its stretching makes a string along its curvature.
 const STRETCH: f64 = 9.0;
 
-/// x/D + M x = g where the tension pulls all contacts together, for a few and for many, in one block and in several. M = S + own −
-/// ω z zᵀ stands here in full, each of its numbers by itself. As of strings, z reads one field v,
-/// and ω |v|² = 9/10: of the mobility along v the pull leaves a tenth.
+/// x/D + M x = g where the tension pulls all contacts together, for a few and for many, in one block and in several. M = S +
+/// own − ω z zᵀ stands here in full, each of its numbers by itself. As of strings, z reads one field v, and ω |v|² = 9/10: of
+/// the mobility along v the pull leaves a tenth.
 #[test]
 fn springs_answer_what_they_are_asked_where_the_tension_pulls() {
     fn check<const N: usize>(slope: f64, places: [f64; N], blocks: usize, state: &mut u64) {
