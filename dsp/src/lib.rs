@@ -106,7 +106,7 @@
 //! | m | `mobility` | m/N | k²/(ρhs), how far one newton at a grid point moves it in a step |
 //! | q, q̄ | `stretched`, `stretching` | m² | (δuⁿ)ᵀδuⁿ⁺¹, and the mean of that before and after n |
 //! | G | `stretch` | 1/m² | k²EA/(4ρLh³s), strength of tension modulation |
-//! | h g | `Reading::weights` | – | weights that read a point, and spread a force on it; section 7 and `docs/solver.md` call them g |
+//! | h g | `Reading::weights` | – | weights that read a point, and spread a force on it; from section 7 on, and in `docs/solver.md`, they are called g |
 //! | b | `height` | m | height of board or crown |
 //! | η | `penetration` | m | overlap of two bodies, positive when they touch |
 //! | r, c | `change`; −c is `centre` when a solution begins | m | ηⁿ⁺¹ − ηⁿ⁻¹, which without force would be −c |

@@ -32,8 +32,8 @@ Examples:
                                                with ground truth of every note
 
 Notes go to the string and fret nearest to the hand; those no string can give move by octaves. \
-Channel 10 is percussion and left out unless asked for with --channel 10. Where channels are strings, or notes \
-of MPE, it is one like the others.
+Channel 10 is percussion and left out unless asked for with --channel 10 or announced as one of MPE. With --input \
+strings or mpe it is one like the others.
 
 Exit codes: 0 done, 1 could not be done, 2 wrong usage, 3 the sound is not finite (file kept). \
 Told to stop, it leaves nothing half written and ends by the very signal (130 for Ctrl+C, 143 for SIGTERM, as \

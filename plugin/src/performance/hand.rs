@@ -9,8 +9,8 @@
 //! to play moves from there for each of them, and not from where it went for the one before.
 //!
 //! **Who gives way** when no free string can give the note: a note kept only by the pedal, or else
-//! one whose key is down; among several the one nearest to the hand, where each string with a
-//! younger note counts half a fret farther. A note is never taken away at the very instant it
+//! one whose key is down; among several the one nearest to the hand, the older first: each older note
+//! on the other strings makes one half a fret farther. A note is never taken away at the very instant it
 //! begins: of more simultaneous notes than can have a string each, the outer ones stay (the highest,
 //! the lowest, the second highest, and so on, each unless it would need a string of those before)
 //! and the rest find none.
