@@ -35,8 +35,9 @@ pub(crate) struct Bend {
     sent: f64,
     /// The tension for it, as a multiple of the string's own: what stops the string counts, too.
     ratio: f64,
-    /// All of the bend as last told, semitones, and how much of it is where the finger has gone.
+    /// All of the bend as last told, semitones.
     told: f64,
+    /// How much of that is where the finger has gone, semitones.
     moved: f64,
     /// Frets the finger has been slid by.
     slid: i32,
@@ -82,7 +83,7 @@ impl Bend {
     /// The fret at which a finger comes down for a note on another, 0 for the open string, which wheel and tuning bend by so much
     /// from the beginning, semitones: past the reach of pulling it is where it would have to slide.
     pub(crate) fn begin_slid(&mut self, fret: usize, asked: f64, fingers: &Fingers) -> usize {
-        if !fingers.glides_on_its_way() {
+        if !fingers.is_fretless() {
             self.slid = fingers.reach(fret, self.frets_to_slide(asked, reach_of_pulling(fingers)));
         }
         (fret as i32 + self.slid) as usize

@@ -94,7 +94,7 @@ impl Fingers {
     /// far as the neck goes. On an open string none comes down for less.
     pub(crate) fn reach(&self, fret: usize, frets: i32) -> i32 {
         let capo = self.capo[0];
-        if fret <= capo && fret as i32 + frets <= capo as i32 {
+        if fret <= capo && (fret as i32).saturating_add(frets) <= capo as i32 {
             return 0;
         }
         self.within_neck(fret, capo, frets)
@@ -131,8 +131,8 @@ impl Fingers {
         self.fretting.map_or(0.0, |finger| finger.stands() - self.home as f64)
     }
 
-    /// Whether nothing keeps a finger on frets that comes down.
-    pub(crate) fn glides_on_its_way(&self) -> bool {
+    /// Whether nothing keeps fingers on frets.
+    pub(crate) fn is_fretless(&self) -> bool {
         self.string.fretless
     }
 

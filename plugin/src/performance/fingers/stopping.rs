@@ -26,9 +26,9 @@ impl Fingers {
         self.lay_capo(at);
         self.home = fret;
         let bar = stop == Stop::Bar;
-        // One that eases off hangs over the string for longer than its note waits, and a bar is not caught as it goes.
+        // A bar that eases off is too heavy to press again in time: it is laid anew.
         let stays_down = |finger: &Finger| match bar {
-            true => finger.grip == Grip::Presses || finger.grip == Grip::Holds,
+            true => finger.grip == Grip::Presses,
             false => self.down(Some(finger), at).part > STILL_DOWN,
         };
         let stays = |finger: &Finger| {
@@ -84,11 +84,9 @@ impl Fingers {
 
     /// A finger that has eased off presses again.
     fn press_again(&mut self, at: &mut Moment<impl GestureSink>) {
-        let (usual, landing) = (self.force(), self.hands.fretting.landing);
-        let bar = self.fretting.map_or(0.0, |finger| self.bar_force(finger.nearest_fret()));
+        let (force, landing) = (self.force(), self.hands.fretting.landing);
         let Some(finger) = &mut self.fretting else { return };
         if std::mem::replace(&mut finger.grip, Grip::Presses) != Grip::Presses {
-            let force = if finger.bar { bar } else { usual };
             at.does(Gesture::Press { finger: finger.slot, force, duration: landing });
         }
     }
