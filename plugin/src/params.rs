@@ -12,7 +12,7 @@ pub mod words;
 use nice_plug::prelude::*;
 
 pub use choices::{InputChoice, InstrumentChoice, LegatoChoice, QualityChoice, RenderChoice, StringOrder};
-pub use ranges::{exact, poly};
+pub use ranges::{exact, exact_without_modulation, poly};
 pub(crate) use start::start;
 pub use start::{Start, begin_with};
 

@@ -55,6 +55,8 @@ impl Given<'_> {
 #[derive(Debug)]
 struct Made {
     order: Order,
+    /// Whether another instrument takes the place of the file that is asked for.
+    is_replaced: bool,
     /// As it comes.
     own: Setup,
     /// With all that a luthier has done to it.
@@ -73,15 +75,18 @@ impl Plan {
     pub fn follow(&mut self, params: &LowActionParams) {
         // Neither the rate nor how a host renders changes what is seen.
         let order = Order::of(params, 0.0, false);
+        let is_replaced = order.is_replaced(&params.shelf);
         let hands = |setup: &Setup| order::touching(params).hands(&setup.player, setup.neck.scale_length);
         match &mut self.made {
-            Some(made) if made.order == order => made.player = hands(&made.setup),
+            Some(made) if made.order == order && made.is_replaced == is_replaced => {
+                made.player = hands(&made.setup);
+            }
             made => {
                 if let Some(own) = order.planned(&params.shelf) {
                     let mut setup = own.clone();
                     order.luthier.work_on(&mut setup);
                     let player = hands(&setup);
-                    *made = Some(Made { order, own, setup, player });
+                    *made = Some(Made { order, is_replaced, own, setup, player });
                 }
             }
         }

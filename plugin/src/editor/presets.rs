@@ -12,6 +12,7 @@ use super::compare::{Values, change};
 use super::control::line;
 use super::theme::{self, NEAR};
 use crate::params::{InstrumentChoice, LowActionParams};
+use crate::plugin::order::settled;
 use crate::setups::{self, SHIPPED};
 
 /// Width of the name, where there is room and where there is little, and of the list, points.
@@ -187,11 +188,9 @@ fn is_taken(given: &Given, name: &str) -> bool {
 
 /// Writes what is played, with all that was changed, to the user's folder, and plays that.
 fn save(given: &Given, name: &str) -> Result<(), String> {
-    let (Some(setup), Some(player)) = (given.plan.setup(), given.plan.player()) else {
-        return Err("there is nothing to save yet".into());
-    };
+    let own = given.plan.own().ok_or("there is nothing to save yet")?;
     let folder = setups::folder().ok_or("this system has no folder for a user's data")?;
-    let setup = Setup { name: name.into(), player: player.clone(), ..setup.clone() };
+    let setup = Setup { name: name.into(), ..settled(given.params, own) };
     let file = setups::save(&setup, &folder).map_err(|error| format!("{error:#}"))?;
     let text = setups::read(&file.path).map_err(|error| format!("{error:#}"))?;
     let kept = given.params.shelf.add(file, text)?;

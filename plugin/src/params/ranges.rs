@@ -216,7 +216,15 @@ fn whole(text: &str) -> Option<i32> {
 /// 0.3 given on the command line are the same bits. No parameter has steps under a hundredth. Should a host send what is no
 /// number, the usual value takes its place: nothing that is built from it would ever be what was asked for.
 pub fn exact(param: &FloatParam) -> f64 {
-    let value = param.value();
+    exactly(param, param.value())
+}
+
+/// The same without what a host adds to it for the moment.
+pub fn exact_without_modulation(param: &FloatParam) -> f64 {
+    exactly(param, param.unmodulated_plain_value())
+}
+
+fn exactly(param: &FloatParam, value: f32) -> f64 {
     let value = if value.is_nan() { param.default_plain_value() } else { value };
     (f64::from(value) * 1e3).round() / 1e3
 }

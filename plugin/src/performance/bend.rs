@@ -80,17 +80,28 @@ impl Bend {
         self.due = self.due.map(|_| time.max(self.ready));
     }
 
-    /// The fret at which a finger comes down for a note on another, 0 for the open string, which wheel and tuning bend by so much
-    /// from the beginning, semitones: past the reach of pulling it is where it would have to slide.
-    pub(crate) fn begin_slid(&mut self, fret: usize, asked: f64, fingers: &Fingers) -> usize {
-        if !fingers.is_fretless() {
+    /// The fret at which a finger, or a bar, comes down for a note on another, 0 for the open string, which wheel and tuning bend by
+    /// so much from the beginning, semitones: past the reach of pulling it is where it would have to slide. Where nothing keeps it
+    /// on frets it comes down beside that of the note.
+    pub(crate) fn begin_slid(&mut self, fret: usize, asked: f64, bar: bool, fingers: &mut Fingers) -> usize {
+        if bar || fingers.is_fretless() {
+            fingers.expect_beside(asked);
+        } else {
             self.slid = fingers.reach(fret, self.frets_to_slide(asked, reach_of_pulling(fingers)));
         }
         (fret as i32 + self.slid) as usize
     }
 
+    /// What wheel and tuning ask of a note that comes back, semitones, if its channel's wheel is known.
+    pub(crate) fn asked_by(&self, channel: u8, tuning: f64) -> f64 {
+        tuning + if self.channel == Some(channel) { self.wheel } else { 0.0 }
+    }
+
     /// Whatever the finger before had slid or glided is over with it, within a sample: another one has come down.
     pub(crate) fn tell_landing(&mut self, fingers: &Fingers, at: &mut Moment<impl GestureSink>) {
+        if fingers.glides() {
+            self.glided = fingers.away();
+        }
         self.tell_moved(fingers.away(), at);
     }
 
@@ -221,6 +232,7 @@ impl Bend {
         if ratio != self.ratio {
             self.ratio = ratio;
             at.does(Gesture::Bend { tension_ratio: ratio, duration: pulling(change) });
+            fingers.hold_pulled(ratio, pulling(change), at);
         }
         self.moved = moved;
         let semitones = moved + semitones;

@@ -117,8 +117,12 @@ pub(crate) struct Fingers {
     right: RightHand,
     /// Fret of the present note, from which slides are counted.
     home: usize,
+    /// Semitones from its fret at which the next finger comes down, where nothing keeps it on frets.
+    beside: f64,
     /// Factor of the fretting finger's force: what a key is pressed down with.
     pressure: f64,
+    /// How tight the string is pulled, as a multiple of its own tension, no less than 1.
+    tightened: f64,
     /// Fret of the capo on notes to come, 0 for none, and of the one on the string.
     capo: [usize; 2],
     /// What kind of finger that on the string is.
@@ -142,7 +146,9 @@ impl Fingers {
             resting: [false; FINGERS_PER_STRING],
             right: RightHand::default(),
             home: 0,
+            beside: 0.0,
             pressure: 1.0,
+            tightened: 1.0,
             capo: [0, 0],
             capo_touch,
         }
@@ -155,8 +161,8 @@ impl Fingers {
         self.next_slot = 0;
         self.resting = [false; FINGERS_PER_STRING];
         self.right.reset();
-        self.home = 0;
-        self.pressure = 1.0;
+        (self.home, self.beside) = (0, 0.0);
+        (self.pressure, self.tightened) = (1.0, 1.0);
         self.capo = [0, 0];
     }
 
@@ -167,7 +173,7 @@ impl Fingers {
         self.touched = old.touched;
         (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
         self.right.take_over(&old.right);
-        (self.home, self.pressure) = (old.home, old.pressure);
+        (self.home, self.pressure, self.tightened) = (old.home, old.pressure, old.tightened);
         (self.capo, self.capo_touch) = (old.capo, old.capo_touch);
     }
 
@@ -181,7 +187,7 @@ impl Fingers {
         let pressed = self.hands.fretting.force;
         self.hands = hands.clone();
         if self.hands.fretting.force != pressed {
-            self.press_on(at);
+            self.press_on(PRESSURE_RAMP, at);
         }
     }
 
@@ -189,20 +195,20 @@ impl Fingers {
     pub(crate) fn press(&mut self, pressure: f64, at: &mut Moment<impl GestureSink>) {
         if pressure != self.pressure {
             self.pressure = pressure;
-            self.press_on(at);
+            self.press_on(PRESSURE_RAMP, at);
         }
     }
 
-    fn press_on(&mut self, at: &mut Moment<impl GestureSink>) {
+    fn press_on(&mut self, duration: f64, at: &mut Moment<impl GestureSink>) {
         if let Some(finger) = self.fretting.filter(|finger| finger.grip == Grip::Presses && !finger.bar) {
-            let force = self.force();
-            at.does(Gesture::Press { finger: finger.slot, force, duration: PRESSURE_RAMP });
+            at.does(Gesture::Press { finger: finger.slot, force: self.force(), duration });
         }
     }
 
     /// What a finger stops the string with, N.
     fn force(&self) -> f64 {
-        self.hands.fretting.force * self.pressure
+        let fret = self.fretting.map_or(0, |finger| finger.nearest_fret());
+        self.held_pulled(self.hands.fretting.force * self.pressure, fret)
     }
 
     /// A capo at this fret on notes to come, 0 for none.
@@ -357,8 +363,13 @@ impl Fingers {
 
     /// Length that sounds: from the fretting finger, or the capo, or the nut, to the saddle, m.
     fn sounding_length(&self) -> f64 {
+        self.string.geometry.length - self.sounding_from()
+    }
+
+    /// Where that begins, m from the nut.
+    fn sounding_from(&self) -> f64 {
         let capo = self.string.geometry.finger_position(self.capo[1]);
-        self.string.geometry.length - self.fretting.map_or(capo, |finger| self.pressed(&finger))
+        self.fretting.map_or(capo, |finger| self.pressed(&finger))
     }
 
     /// Where a finger presses, m from the nut.

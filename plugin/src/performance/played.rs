@@ -12,6 +12,8 @@ pub struct PlayedString {
     pub tension: f64,
     /// How far a finger has to press it down until it touches the fret, m, fret 1 first.
     pub depths: Vec<f64>,
+    /// Force of a fretting finger from which on the string lies on a fret, N, fret 1 first.
+    pub stopping_forces: Vec<f64>,
     /// Whether fingers stop it on a bare board.
     pub fretless: bool,
     /// Whether it is so high that it is stopped by a bar unless something else is asked for.
@@ -32,21 +34,39 @@ impl PlayedString {
             let beyond = geometry.length - geometry.finger_position(fret + 1);
             -setup.neck.crown_height(crown) * beyond / (geometry.length - crown)
         };
-        let depths = geometry.frets.iter().enumerate().map(depth).collect();
+        let depths: Vec<f64> = geometry.frets.iter().enumerate().map(depth).collect();
+        // Beyond the finger it goes straight to the saddle. In front of it, straight to what it hangs from there: the nut, or a
+        // fret, mostly the one behind the finger, over which it is bent the more the nearer that is. (Not on a bare board, where the
+        // finger itself ends it.)
+        let stopping = |(fret, &depth): (usize, &f64)| {
+            let place = geometry.finger_position(fret + 1);
+            let before = |&crown: &f64| (depth + setup.neck.crown_height(crown)) / (place - crown);
+            let behind = &geometry.frets[..if setup.neck.fretless { 0 } else { fret }];
+            let steepest = behind.iter().map(before).fold(depth / place, f64::max);
+            tension * (steepest + depth / (geometry.length - place)).max(0.0)
+        };
+        let stopping_forces = depths.iter().enumerate().map(stopping).collect();
         let coil = match setup.pickup {
             Pickup::Magnetic { position, .. } if setup.blend < 0.5 => Some(position),
             _ => None,
         };
         let (fretless, barred) = (setup.neck.fretless, setup.wants_bar());
-        Self { geometry, tension, depths, fretless, barred, coil }
+        Self { geometry, tension, depths, stopping_forces, fretless, barred, coil }
     }
 
     /// How far a finger has to press the string down until it touches a fret, m; 0 for the open string.
     pub fn depth(&self, fret: usize) -> f64 {
-        fret.checked_sub(1).and_then(|index| self.depths.get(index)).copied().unwrap_or(0.0)
+        of_fret(&self.depths, fret)
     }
 
-    /// Force of a fretting finger under which the string leaves a fret, N; 0 for the open string.
+    /// Force of a fretting finger from which on the string lies on a fret, N, while other frets carry it behind the finger; 0 for
+    /// the open string.
+    pub fn stopping_force(&self, fret: usize) -> f64 {
+        of_fret(&self.stopping_forces, fret)
+    }
+
+    /// Force of a fretting finger under which the string leaves a fret, N, if it hangs from nothing but nut and saddle; 0 for the
+    /// open string.
     pub fn leaving_force(&self, fret: usize) -> f64 {
         let depth = self.depth(fret);
         if depth > 0.0 { self.pull(depth, 0, fret) } else { 0.0 }
@@ -64,4 +84,9 @@ impl PlayedString {
     pub(crate) fn stiffness(&self, near: f64, beyond: f64) -> f64 {
         self.tension * (1.0 / near + 1.0 / beyond)
     }
+}
+
+/// What is known of a fret, fret 1 first; 0 for the open string.
+fn of_fret(values: &[f64], fret: usize) -> f64 {
+    fret.checked_sub(1).and_then(|index| values.get(index)).copied().unwrap_or(0.0)
 }

@@ -6,7 +6,9 @@ use nice_plug::prelude::*;
 use super::shelf::{self, Shelf};
 use crate::controls::{Luthier, Touching};
 use crate::engine::EngineOptions;
-use crate::params::{ControlParams, InstrumentChoice, LegatoChoice, LowActionParams, exact};
+use crate::params::{
+    ControlParams, InstrumentChoice, LegatoChoice, LowActionParams, exact, exact_without_modulation,
+};
 use crate::performance::InputMode;
 
 /// What an engine is built from.
@@ -23,6 +25,10 @@ pub(crate) struct Order {
 impl Order {
     /// What the parameters ask for, in real time or offline.
     pub fn of(params: &LowActionParams, sample_rate: f32, offline: bool) -> Self {
+        Self::read(params, sample_rate, offline, exact)
+    }
+
+    fn read(params: &LowActionParams, sample_rate: f32, offline: bool, exact: Exact) -> Self {
         let LowActionParams { instrument, setup, strings, .. } = params;
         let live = instrument.quality.value().0;
         let quality = if offline { instrument.render_quality.value().quality(live) } else { live };
@@ -64,6 +70,7 @@ impl Order {
                 let setup = shelf.setup(number);
                 match setup.clone().and_then(|setup| make_by(&self.luthier, setup)) {
                     Ok(made) => {
+                        shelf.replace(None);
                         shelf.tell(None);
                         return Ok(made);
                     }
@@ -75,6 +82,7 @@ impl Order {
                             shelf.tell(None);
                             return Err(problem);
                         }
+                        shelf.replace(Some(self.file));
                         Some(format!("{problem}; {name} is played instead"))
                     }
                 }
@@ -84,12 +92,19 @@ impl Order {
         make_by(&self.luthier, Setup::shipped(name).ok_or_else(|| format!("there is no set-up {name}"))?)
     }
 
+    /// Whether the instrument that comes with the program is known to be played in the place of the file.
+    #[cfg(feature = "editor")]
+    pub fn is_replaced(&self, shelf: &Shelf) -> bool {
+        shelf.replaced() == Some(self.file)
+    }
+
     /// The set-up that is asked for, as it comes, for pictures: nothing is built, and nobody is told what is wrong with a
     /// file.
     #[cfg(feature = "editor")]
     pub fn planned(&self, shelf: &Shelf) -> Option<Setup> {
         let file = match self.file {
             (shelf::NONE, _) => None,
+            _ if self.is_replaced(shelf) => None,
             (number, _) => shelf.setup(number).ok(),
         };
         file.or_else(|| Setup::shipped(self.instrument.id()))
@@ -107,8 +122,25 @@ impl Order {
     }
 }
 
+/// How a parameter's value is read.
+type Exact = fn(&FloatParam) -> f64;
+
+/// A set-up with what luthier and hands do to it by the parameters' own values, whatever a host adds to them for the moment.
+#[cfg(feature = "editor")]
+pub(crate) fn settled(params: &LowActionParams, own: &Setup) -> Setup {
+    let mut setup = own.clone();
+    Order::read(params, 0.0, false, exact_without_modulation).luthier.work_on(&mut setup);
+    let touching = touching_by(params, exact_without_modulation);
+    setup.player = touching.hands(&setup.player, setup.neck.scale_length);
+    setup
+}
+
 /// How the parameters have the hands act.
 pub(crate) fn touching(params: &LowActionParams) -> Touching {
+    touching_by(params, exact)
+}
+
+fn touching_by(params: &LowActionParams, exact: Exact) -> Touching {
     let LowActionParams { player, control, .. } = params;
     Touching {
         pluck_position: 1e-3 * exact(&player.pluck_position),
@@ -259,6 +291,43 @@ mod tests {
             assert_eq!(built(order, false).as_deref(), Ok("electric"));
             assert!(told().ends_with("; electric is played instead"), "{}", told());
         }
+    }
+
+    /// As it is heard: not the file that another instrument takes the place of.
+    #[cfg(feature = "editor")]
+    #[test]
+    fn what_is_drawn_is_what_is_played() {
+        let shelf = Shelf::new(Vec::new());
+        let number = shelf.keep("mine", "name = \"mine\"\nbased_on = \"bass\"\n");
+        let params = LowActionParams::new(shelf.clone(), &Start::default());
+        let order = Order { file: (number, shelf.edition()), ..Order::of(&params, 48_000.0, false) };
+        let build = |fails: bool| {
+            order.build(&shelf, |EngineOptions { setup, .. }| match setup.name.as_str() {
+                "mine" if fails => Err(Error::range("pitch", 0.0, "more")),
+                name => Ok(name.to_owned()),
+            })
+        };
+        let drawn = || order.planned(&shelf).expect("there is something").name;
+        assert_eq!(drawn(), "mine", "nobody knows better yet");
+        for fails in [true, false, true] {
+            assert_eq!(build(fails), Ok(drawn()));
+        }
+    }
+
+    #[cfg(feature = "editor")]
+    #[test]
+    fn what_a_host_adds_for_the_moment_is_not_saved() {
+        let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
+        let own = Setup::builtin("electric").expect("it is built in");
+        let as_it_was = settled(&params, &own);
+        let (action, force) = (Order::of(&params, 0.0, false).luthier.action, touching(&params).pluck_force);
+        for (_, param, _) in params.param_map() {
+            // SAFETY: the pointers lead into `params`.
+            unsafe { param._internal_modulate_value(0.1) };
+        }
+        assert_ne!(Order::of(&params, 0.0, false).luthier.action, action);
+        assert_ne!(touching(&params).pluck_force, force);
+        assert_eq!(settled(&params, &own), as_it_was);
     }
 
     #[test]

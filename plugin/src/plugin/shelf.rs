@@ -48,6 +48,8 @@ struct Inside {
     /// How many sessions have been loaded.
     loads: AtomicU32,
     message: Mutex<Option<String>>,
+    /// The file, and its edition, that cannot be played whatever is done to it, as was last found.
+    replaced: Mutex<Option<(u32, u32)>>,
 }
 
 /// A shelf; clones are the same one.
@@ -77,6 +79,7 @@ impl Shelf {
             edition: AtomicU32::new(0),
             loads: AtomicU32::new(0),
             message: Mutex::new(None),
+            replaced: Mutex::new(None),
         }))
     }
 
@@ -281,6 +284,17 @@ impl Shelf {
             }
             *present = message;
         }
+    }
+
+    /// Remembers in whose place, by its number and edition, another instrument is played.
+    pub(super) fn replace(&self, file: Option<(u32, u32)>) {
+        *lock(&self.0.replaced) = file;
+    }
+
+    /// In whose place that is.
+    #[cfg(feature = "editor")]
+    pub(super) fn replaced(&self) -> Option<(u32, u32)> {
+        *lock(&self.0.replaced)
     }
 
     /// Remembers something else, beside what has been told of the chosen file.

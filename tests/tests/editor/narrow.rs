@@ -122,3 +122,49 @@ fn nothing_overlaps_at_any_width() {
         assert!(width < 880 || !is_seen(&desk, "More"), "{width}");
     }
 }
+
+/// What has no room in a low panel is scrolled to.
+#[test]
+fn no_control_lies_over_another_however_low_the_panel_is() {
+    let mut desk = desk();
+    for height in [380.0, 300.0, 240.0, 190.0, 130.0] {
+        desk.harness.set_size(vec2(1120.0, height));
+        for tab in ["Player", "Luthier", "Sound", "Engine"] {
+            desk.open(tab);
+            let tabs = desk.harness.get_by_role_and_label(Role::Tab, tab).rect();
+            let mut places: Vec<(String, Rect)> = Vec::new();
+            for name in desk.names() {
+                let found = desk.harness.query_all_by_label(&name).map(|node| node.rect());
+                places.extend(
+                    found.filter(|place| place.top() >= tabs.bottom()).map(|place| (name.clone(), place)),
+                );
+            }
+            for (index, (name, place)) in places.iter().enumerate() {
+                for (other, beside) in &places[..index] {
+                    assert!(
+                        !place.shrink(0.5).intersects(*beside),
+                        "{tab} in {height} points: {name}, {other}"
+                    );
+                }
+            }
+            // Closed again, for the next to open.
+            desk.open(tab);
+        }
+    }
+}
+
+/// What was typed and not entered before the window became too low for the panel is forgotten with it.
+#[test]
+fn a_number_that_went_out_of_sight_is_not_typed_in_any_more() {
+    let mut desk = Desk::new();
+    desk.open("Player");
+    let field = |desk: &Desk| desk.control("Type Pluck force");
+    desk.click(field(&desk).expect("it has a number"));
+    desk.wait(0.05);
+    assert_eq!(field(&desk), None, "it is being typed");
+    for size in [vec2(560.0, 380.0), vec2(1120.0, 760.0)] {
+        desk.harness.set_size(size);
+        desk.wait(0.1);
+    }
+    assert!(field(&desk).is_some());
+}

@@ -2,6 +2,7 @@
 //! it should be, from the first moment on.
 
 use low_action::performance::PlayerEvent;
+use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::pitch::off_key;
 use low_action_tests::stage::{Stage, at, cc, off, on};
 
@@ -134,4 +135,41 @@ fn a_note_under_a_wheel_begins_in_tune_however_far_that_stands() {
         let off = off_keys((setup, string), &events, &heard);
         are_in_tune(setup, &off, 8.0);
     }
+}
+
+/// So does a finger that taps or hammers, and one that is left when another is pulled off.
+#[test]
+fn fingers_that_strike_come_down_there_too() {
+    let taps = [(0.0, cc(22, 7)), (0.0, wheel(5.0)), (0.01, on(57, 90)), (0.3, off(57)), (0.4, on(58, 90))];
+    let heard = [(0.03, 0.1, 62.0), (0.1, 0.3, 62.0), (0.45, 0.6, 63.0)];
+    are_in_tune("tapped", &off_keys(("electric", 2), &taps, &heard), 8.0);
+    let legato = [
+        (0.0, cc(68, 127)),
+        (0.0, wheel(5.0)),
+        (0.01, on(57, 90)),
+        (0.3, on(60, 90)),
+        (0.6, off(60)),
+        (0.9, off(57)),
+    ];
+    let heard = [(0.1, 0.3, 62.0), (0.33, 0.4, 65.0), (0.4, 0.6, 65.0), (0.63, 0.7, 62.0), (0.7, 0.9, 62.0)];
+    are_in_tune("hammered and pulled off", &off_keys(("electric", 2), &legato, &heard), 10.0);
+}
+
+/// Where nothing keeps fingers on frets they come down beside them, a bar too, and not at the fret to glide from there.
+#[test]
+fn fingers_that_glide_come_down_where_the_wheel_has_them() {
+    for (setup, key) in [(FRETLESS, 43), (("lap-steel", 2), 64)] {
+        let to = f64::from(key) + 1.5;
+        let begun = [(0.0, wheel(1.5)), (0.01, on(key, 90))];
+        let glides = |gesture: &TimedGesture| matches!(gesture.gesture, Gesture::Slide { .. });
+        let octave = [(0.0, cc(101, 0)), (0.0, cc(100, 0)), (0.0, cc(6, 12))];
+        let played = Stage::alone(setup.0, setup.1).play(&[&octave[..], &begun].concat(), 0.3);
+        assert!(!played.gestures.iter().any(glides), "{setup:?}: {:?}", played.gestures);
+        let off = off_key(&played.strings[0][at(0.05)..at(0.3)], to);
+        are_in_tune(setup.0, &[off], 8.0);
+    }
+    let legato =
+        [(0.0, cc(68, 127)), (0.0, wheel(1.5)), (0.01, on(43, 90)), (0.3, on(45, 90)), (0.6, off(45))];
+    let heard = [(0.05, 0.3, 44.5), (0.33, 0.6, 46.5), (0.65, 0.9, 44.5)];
+    are_in_tune("fretless, hammered and pulled off", &off_keys(FRETLESS, &legato, &heard), 10.0);
 }

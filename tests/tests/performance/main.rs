@@ -3,6 +3,7 @@
 mod afterwards;
 mod anything;
 mod bar;
+mod bends;
 mod by_strings;
 mod channels;
 mod chords;

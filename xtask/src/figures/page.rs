@@ -182,14 +182,14 @@ are marked as ours.
 ```sh
 cargo xtask figures                     # everything: pictures, this page, and sounds in target/figures
 cargo xtask figures paper_figure_3      # one figure and its section
-cargo xtask figures --quick             # computes it again and compares, as .ci/run does
+cargo xtask figures --quick             # computes all but the minute again and compares, as .ci/run does
 ```
 
 Each figure starts from a scene file in [`scenes/paper`](../scenes/paper). Copy one, change one number,
 and look:
 
 ```sh
-low-action scene my.toml --figure my.svg --wav my.wav --trace my.npz --every 8
+low-action scene my.toml --figure my.svg --trace my.npz --every 8
 ```
 
 ```python
@@ -198,9 +198,9 @@ trace = np.load(\"my.npz\")
 print(trace[\"t\"][trace[\"force_fret_1_5\"].argmax()], \"s: the hardest blow on fret 5\")
 ```
 
-(`low-action` is `target/release/low-action`, or `cargo run --release --`.) What scenes and traces hold
-is in [formats.md](formats.md), the derivation in [physics.md](physics.md), the contact solver in
-[solver.md](solver.md).
+(`low-action` is `target/release/low-action`, or `cargo run --release --`; `--wav my.wav` adds the sound where the rate is a
+whole number of hertz.) What scenes and traces hold is in [formats.md](formats.md), the derivation in [physics.md](physics.md),
+the contact solver in [solver.md](solver.md).
 
 **What the paper leaves open.** It gives string, contact law, rate and finger, but not the heights of
 board and frets, the duration and direction of the pluck, or the finger's height, force and way. Those

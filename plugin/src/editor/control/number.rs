@@ -72,7 +72,9 @@ fn edit<P: Param>(ui: &mut Ui, given: &Given, param: &P, field: Field) {
         state.cursor.set_char_range(Some(all));
         TextEdit::store_state(ui.ctx(), own, state);
     }
-    if !response.lost_focus() {
+    // One that was out of sight, behind another panel, is not typed in any more when it comes back.
+    let is_left = known && !response.has_focus() && !response.lost_focus();
+    if !response.lost_focus() && !is_left {
         ui.data_mut(|data| data.insert_temp(id, text));
         return;
     }
@@ -80,6 +82,9 @@ fn edit<P: Param>(ui: &mut Ui, given: &Given, param: &P, field: Field) {
         data.remove::<String>(id);
         data.remove::<egui::text_edit::TextEditState>(own);
     });
+    if is_left {
+        return;
+    }
     let (left, entered) = ui.input(|input| (input.key_pressed(Key::Escape), input.key_pressed(Key::Enter)));
     if let Some(value) = value.filter(|_| !left) {
         set(given, param, value.clamp(0.0, 1.0));

@@ -32,8 +32,12 @@ pub(super) fn paint(ui: &Ui, area: Rect, part: f32, number: &str, colour: Color3
 /// Room for the name of a row, left of its bars, points.
 pub(super) const LEFT: f32 = 40.0;
 
-/// The name of a row.
-pub(super) fn paint_name(ui: &Ui, at: Pos2, name: &str) {
+/// The name of a row so high, one of many: where rows are lower than letters some go without, so that no name lies over another.
+pub(super) fn paint_name(ui: &Ui, at: Pos2, (row, index): (f32, usize), name: &str) {
+    let every = (theme::SMALL.size / row.max(1.0)).ceil() as usize;
+    if !index.is_multiple_of(every) {
+        return;
+    }
     let look = (theme::SMALL, theme::SOFT_TEXT);
     fit_text(ui.painter(), (at, Align2::LEFT_CENTER), name, look, LEFT - theme::TIGHT);
 }

@@ -8,6 +8,11 @@ use crate::editor::theme::{self, GAP, TIGHT};
 /// Height of a title, points.
 const TITLE: f32 = 16.0;
 
+/// Height of a panel with so many rows, points.
+pub(super) fn height(rows: usize) -> f32 {
+    TITLE + rows as f32 * (HEIGHT + TIGHT) - TIGHT
+}
+
 /// Where the next control of a panel goes.
 pub(super) struct Cells {
     area: Rect,

@@ -96,7 +96,7 @@ impl Engine {
         }
         for (index, string) in setup.string.iter().enumerate() {
             let middle = area.top() + (index as f32 + 0.5) * row;
-            bar::paint_name(ui, pos2(area.left(), middle), &string.name);
+            bar::paint_name(ui, pos2(area.left(), middle), (row, index), &string.name);
             let Some((shown, seen)) = self.strings.get(index).zip(strings.get(index)) else { continue };
             for (column, (part, number, colour)) in bars(shown, seen.rest_tension).into_iter().enumerate() {
                 let from = pos2(left + column as f32 * (width + GAP), middle - 0.5 * row);

@@ -67,6 +67,8 @@ pub(super) const TABS: f32 = 32.0;
 const TAB: f32 = 80.0;
 /// What is narrower than this is scrolled, points.
 const NARROWEST: f32 = 1072.0;
+/// Rows of controls that panels are made for. What is lower is scrolled.
+const ROWS: usize = 4;
 
 impl Panels {
     /// Draws the tabs and the panel that is seen.
@@ -80,8 +82,9 @@ impl Panels {
         }
         let inside = Rect::from_min_max(pos2(area.left(), tabs.bottom()), area.max).shrink2(vec2(NEAR, NEAR));
         ui.scope_builder(UiBuilder::new().id_salt(self.tab.name()).max_rect(inside), |ui| {
-            egui::ScrollArea::horizontal().show(ui, |ui| {
-                let size = vec2(inside.width().max(NARROWEST), inside.height());
+            let is_low = inside.height() < cells::height(ROWS);
+            egui::ScrollArea::new([true, is_low]).show(ui, |ui| {
+                let size = vec2(inside.width().max(NARROWEST), inside.height().max(cells::height(ROWS)));
                 let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
                 // Room for the rings around controls that have the focus.
                 let whole = whole.shrink2(vec2(NEAR, 0.0));

@@ -51,7 +51,7 @@ fn show_times(ui: &mut Ui, area: Rect, setup: &Setup) {
     let width = (0.5 * (area.width() - bar::LEFT - GAP)).max(8.0);
     for (index, string) in setup.string.iter().enumerate() {
         let middle = area.top() + (index as f32 + 0.5) * row;
-        bar::paint_name(ui, pos2(area.left(), middle), &string.name);
+        bar::paint_name(ui, pos2(area.left(), middle), (row, index), &string.name);
         for (column, partial) in PARTIALS.into_iter().enumerate() {
             let time = ringing_time(setup, index, partial);
             let left = area.left() + bar::LEFT + column as f32 * (width + GAP);

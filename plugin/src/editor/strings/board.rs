@@ -34,7 +34,7 @@ pub(super) fn paint(painter: &Painter, sight: &Sight, setup: &Setup) {
         // Between strings, where that can be: on both sides of the middle ones.
         let count = setup.string.len();
         let half = if count.is_multiple_of(2) { 0.0 } else { 0.5 };
-        let away = ((count / 4).max(1) as f32 - half) * sight.spacing;
+        let away = (((count / 4).max(1) as f32 - half) * sight.spacing).min(0.25 * board.height());
         let middle = board.center().y;
         if DOUBLE.contains(&fret) {
             dot(between(fret), middle - away);

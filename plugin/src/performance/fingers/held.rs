@@ -49,7 +49,7 @@ impl Fingers {
     /// what the string pulls with there. The mass counts for nothing in so slow a motion.
     fn held_down(&self, finger: &Finger, time: u64, sample_rate: f64) -> Down {
         let fret = finger.nearest_fret();
-        let pull = self.string.leaving_force(fret);
+        let pull = self.leaving_force(fret);
         let Grip::Eases { since, manner } = finger.grip else { return Down::on(fret) };
         if pull <= 0.0 {
             return Down::on(fret);

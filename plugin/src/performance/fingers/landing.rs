@@ -41,7 +41,7 @@ impl Fingers {
     ) {
         let (touch, rise) = self.set_down(fret, stopped, coming, self.force());
         let slot = self.take_slot(fret, touch, false);
-        let position = self.string.geometry.finger_position(fret);
+        let position = self.sounding_from();
         at.does(Gesture::Place { finger: slot, touch, position, clearance: self.hands.fretting.hover });
         at.does(Gesture::Press { finger: slot, force: self.force(), duration: rise });
     }

@@ -24,9 +24,8 @@ impl Fingers {
         } else if self.light.is_none() && self.waits_behind(at.time).is_none() {
             self.damp_behind(at);
         }
-        let holding =
-            HOLDING * self.fretting.map_or(0.0, |finger| self.string.leaving_force(finger.nearest_fret()));
-        if holding < self.hands.fretting.force && self.fretting.is_some_and(|finger| !finger.bar) {
+        if let Some(finger) = self.fretting.filter(|finger| !finger.bar) {
+            let holding = self.holding_force(finger.nearest_fret());
             self.ease(Grip::Holds, holding, parting.relaxing, at);
         }
         self.relax_capo(parting.relaxing, at);

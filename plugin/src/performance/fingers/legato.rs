@@ -146,11 +146,13 @@ impl Fingers {
             return;
         };
         let finger = anchor.slot;
-        if anchor.stands() != fret as f64 || anchor.free.is_some() {
-            let position = self.string.geometry.finger_position(fret);
+        let moved =
+            Finger { fret, glided: self.comes_beside(fret), free: None, grip: Grip::Presses, ..anchor };
+        if anchor.stands() != moved.stands() || anchor.free.is_some() {
+            let position = self.pressed(&moved);
             at.does(Gesture::Slide { finger, position, duration: BEHIND_SLIDE });
         }
-        self.fretting = Some(Finger { fret, glided: 0.0, free: None, grip: Grip::Presses, ..anchor });
+        self.fretting = Some(moved);
         self.next_slot = leaving;
         let force = self.force();
         at.does(Gesture::Press { finger, force, duration: ANCHOR_RAMP.1 });
@@ -159,7 +161,7 @@ impl Fingers {
     /// A finger that stopped the string stays down behind the one that does, just hard enough.
     pub(super) fn hold_behind(&mut self, anchor: Finger, at: &mut Moment<impl GestureSink>) {
         self.anchor = Some(Finger { grip: Grip::Presses, ..anchor });
-        let force = (HOLDING * self.string.leaving_force(anchor.nearest_fret())).min(self.force());
+        let force = self.holding_force(anchor.nearest_fret());
         at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.0 });
     }
 
@@ -171,7 +173,8 @@ impl Fingers {
         speed: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> Gesture {
-        self.come_down_at(fret, stopped, self.string.geometry.finger_position(fret), speed, at)
+        let position = self.glided_place(fret as f64 + self.comes_beside(fret), false);
+        self.come_down_at(fret, stopped, position, speed, at)
     }
 
     /// Throws a finger at a string that is held down somewhere, at a place, m from the nut, where it stops a fret.

@@ -32,6 +32,7 @@ impl Fingers {
         for old in [self.anchor.take(), self.fretting.take()].into_iter().flatten() {
             at.does(old.gives_way());
         }
+        self.expect_beside(0.0);
         let speed = self.hammer_speed(fret, POINTED);
         self.come_down_at(fret, Down::on(self.capo[1]), position, speed, at);
         if let Some(finger) = &mut self.fretting {

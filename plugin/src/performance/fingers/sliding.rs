@@ -22,7 +22,11 @@ impl Fingers {
         if let Some(finger) = &mut self.fretting {
             finger.arrives = at.after(duration);
         }
-        self.slide(0, duration, at).1
+        let slide = self.slide(0, duration, at).1;
+        if self.tightened > 1.0 {
+            self.press_on(duration, at);
+        }
+        slide
     }
 
     /// How long a finger takes that is to be elsewhere after so many seconds: no wheel and no vibrato hurries one that is on
@@ -107,14 +111,27 @@ impl Fingers {
 
     /// Slides count from this fret, that of the note, though its finger may have come down elsewhere.
     pub(crate) fn count_from(&mut self, fret: usize) {
-        self.home = fret;
+        (self.home, self.beside) = (fret, 0.0);
     }
 
     /// So many semitones, or as many of them as the neck has for a finger that glides.
     pub(crate) fn can_glide(&self, semitones: f64) -> f64 {
-        let Some(finger) = self.slidable() else { return semitones };
-        let (fret, last) = (finger.fret as f64, self.string.geometry.frets.len() as f64);
+        self.slidable().map_or(semitones, |finger| self.within_board(finger.fret, semitones))
+    }
+
+    pub(super) fn within_board(&self, fret: usize, semitones: f64) -> f64 {
+        let (fret, last) = (fret as f64, self.string.geometry.frets.len() as f64);
         semitones.max(0.3 - fret).min(last - fret)
+    }
+
+    /// Where nothing keeps it on frets, the finger of a note to come is to come down so many semitones from its fret.
+    pub(crate) fn expect_beside(&mut self, semitones: f64) {
+        self.beside = semitones;
+    }
+
+    /// How far from a fret a finger comes down, semitones.
+    pub(super) fn comes_beside(&self, fret: usize) -> f64 {
+        if self.beside == 0.0 { 0.0 } else { self.within_board(fret, self.beside) }
     }
 
     pub(super) fn slidable(&self) -> Option<Finger> {

@@ -96,7 +96,8 @@ impl Fingers {
         let slot = self.next_slot;
         self.next_slot = (slot + 1) % FRETTING_SLOTS;
         let grip = Grip::Presses;
-        self.fretting = Some(Finger { slot, fret, touch, grip, bar, arrives: 0, glided: 0.0, free: None });
+        let glided = self.comes_beside(fret);
+        self.fretting = Some(Finger { slot, fret, touch, grip, bar, arrives: 0, glided, free: None });
         slot
     }
 }

@@ -1,9 +1,10 @@
-//! What tension raises a string that is stopped.
+//! What tension raises a string that is stopped, and what holds it down then.
 
 use low_action_dsp::setup::tension_ratio;
 
 use super::Fingers;
-use crate::performance::PlayedString;
+use crate::performance::technique::*;
+use crate::performance::{GestureSink, Moment, PlayedString};
 
 /// What pulling does to a string.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +30,36 @@ impl Fingers {
         // The same backwards, where each turn leaves a hundredth of what is off.
         let reached = (0..3).fold(most, |alone, _| (most + added / alone.sqrt()) / (1.0 + added));
         Pulled { ratio: most, semitones: 6.0 * libm::log2(reached) }
+    }
+
+    /// The string is pulled to so many times its own tension within so many seconds, and whatever stops it holds it down.
+    pub(crate) fn hold_pulled(&mut self, ratio: f64, duration: f64, at: &mut Moment<impl GestureSink>) {
+        let before = [self.force(), self.capo_force()];
+        self.tightened = ratio.max(1.0);
+        if self.force() != before[0] {
+            self.press_on(duration, at);
+        }
+        // Under a hand that damps it has eased off.
+        if self.capo_force() != before[1] && self.resting_slots().next().is_none() {
+            self.press_capo(duration, at);
+        }
+    }
+
+    /// Force of a finger at a fret under which the string leaves it as it is pulled, N; 0 for the open string.
+    pub(super) fn leaving_force(&self, fret: usize) -> f64 {
+        self.tightened * self.string.leaving_force(fret)
+    }
+
+    /// What a finger holds the string down with that does no more than that, N: no more than it presses with.
+    pub(super) fn holding_force(&self, fret: usize) -> f64 {
+        (HOLDING * self.leaving_force(fret)).min(self.force())
+    }
+
+    /// What a force, N, becomes at a fret of a string that is pulled: more if that would leave the fret, but no more than keeps up
+    /// with its tension, so that a string too lightly held still is.
+    pub(super) fn held_pulled(&self, force: f64, fret: usize) -> f64 {
+        let holding = HOLDING * self.tightened * self.string.stopping_force(fret);
+        holding.clamp(force, force * self.tightened)
     }
 
     /// What stopping the string has added to its tension, as a part of it.

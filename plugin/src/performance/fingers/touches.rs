@@ -68,7 +68,7 @@ impl Fingers {
     pub(super) fn lay_bar(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
         let force = self.bar_force(fret);
         let finger = self.take_slot(fret, BAR, true);
-        let position = self.place(fret, true);
+        let position = self.sounding_from();
         at.does(Gesture::Throw { finger, touch: BAR, position, clearance: 0.0, speed: BAR_SPEED });
         at.does(Gesture::Press { finger, force, duration: 0.0 });
     }
@@ -89,20 +89,32 @@ impl Fingers {
             }
             return;
         }
-        let Fretting { force, hover, mut landing, .. } = self.hands.fretting;
+        let Fretting { hover, mut landing, .. } = self.hands.fretting;
+        let force = self.capo_force();
         if wanted != there {
             (self.capo_touch, landing) = self.set_down(wanted, Down::on(0), AT_ONCE, force);
             let position = self.string.geometry.finger_position(wanted);
             at.does(Gesture::Place { finger: CAPO, touch: self.capo_touch, position, clearance: hover });
         }
-        at.does(Gesture::Press { finger: CAPO, force, duration: landing });
+        self.press_capo(landing, at);
+    }
+
+    /// What it stops the string with, N.
+    pub(super) fn capo_force(&self) -> f64 {
+        self.held_pulled(self.hands.fretting.force, self.capo[1])
+    }
+
+    pub(super) fn press_capo(&self, duration: f64, at: &mut Moment<impl GestureSink>) {
+        if self.capo[1] > 0 {
+            at.does(Gesture::Press { finger: CAPO, force: self.capo_force(), duration });
+        }
     }
 
     /// The capo of a string that is being damped holds it just so. (It goes with the fingers when the string has come to rest:
     /// nothing is computed for a string that nobody plays.)
     pub(super) fn relax_capo(&mut self, duration: f64, at: &mut Moment<impl GestureSink>) {
-        let force = HOLDING * self.string.leaving_force(self.capo[1]);
-        if self.capo[1] > 0 && force < self.hands.fretting.force {
+        if self.capo[1] > 0 {
+            let force = (HOLDING * self.leaving_force(self.capo[1])).min(self.capo_force());
             at.does(Gesture::Press { finger: CAPO, force, duration });
         }
     }

@@ -46,7 +46,8 @@ impl StringPlayer {
 
     /// A finger comes down on the fret, how hard, 0 to 1: once the string is up there.
     fn begin_tap(&mut self, start: &Start, strength: f64, at: &mut Moment<impl GestureSink>) {
-        let fret = start.fret;
+        let asked = start.wheel + start.manner.tuning;
+        let fret = self.bend.begin_slid(start.fret, asked, false, &mut self.fingers);
         let rising = self.fingers.let_up(fret, strength, at);
         if let Some(rising) = rising {
             self.deeds.plan(at.after(rising), Deed::Tap { fret, strength });
@@ -73,9 +74,12 @@ impl StringPlayer {
         let haste = start.haste();
         let coming = Coming { strength: strength * haste, haste };
         // The little by which a string comes up to a lower fret is not heard under the hand that stills it; more is.
+        let asked = start.wheel + start.manner.tuning;
         let fret = match stop {
-            Stop::Press => self.bend.begin_slid(start.fret, start.wheel + start.manner.tuning, &self.fingers),
-            _ => start.fret,
+            Stop::Press | Stop::Bar => {
+                self.bend.begin_slid(start.fret, asked, stop == Stop::Bar, &mut self.fingers)
+            }
+            Stop::Mute | Stop::Harmonic => start.fret,
         };
         let by_little = fret > self.fingers.capo();
         let leaves = match stilling {
@@ -137,6 +141,7 @@ impl StringPlayer {
             bent_short: false,
         });
         self.bend.begin(start.channel);
+        self.fingers.expect_beside(0.0);
         self.plucked_at = Some(time);
         self.touched = None;
         self.set_tremolo(tremolo)

@@ -215,6 +215,9 @@ impl StringPlayer {
     /// A finger strikes the string behind a fret, how hard, 0 to 1.
     pub(super) fn tap(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
         let thrown = self.fingers.hammer(fret, strength, at);
+        if let Some(note) = self.note {
+            self.fingers.count_from(note.fret);
+        }
         self.bend.tell_landing(&self.fingers, at);
         self.bend.renew(at.time);
         self.tells_sound(0.0, self.fingers.excitation(Technique::Tap, Some(thrown), None), at);

@@ -35,11 +35,14 @@ impl StringPlayer {
         }
         self.deeds.forget_tap();
         let (slide, bar) = self.note.map_or((None, false), |note| (note.slide, note.bar));
+        let fret =
+            self.bend.begin_slid(start.fret, start.wheel + start.manner.tuning, bar, &mut self.fingers);
         let mut at = self.moment(time, out);
         self.fingers.press(start.manner.pressure, &mut at);
         at.tells(self.new_note(&start));
         let stood = self.fingers.stands();
-        let (technique, gesture) = self.fingers.change(start.fret, slide, bar, strength, &mut at);
+        let (technique, gesture) = self.fingers.change(fret, slide, bar, strength, &mut at);
+        self.fingers.count_from(start.fret);
         self.bend.tell_change(technique, stood - start.fret as f64, &self.fingers, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         self.begin_tremolo(tremolo, &at);
@@ -91,13 +94,16 @@ impl StringPlayer {
         let (Some(back), Some(from)) = (self.under[latest].take(), self.note) else { return false };
         self.note =
             Some(Note { began: time, since: time, struck: back.struck.in_turn_with(from.struck), ..back });
+        let asked = self.bend.asked_by(back.channel, back.tuning);
         self.bend.begin(back.channel);
+        let fret = self.bend.begin_slid(back.fret, asked, from.bar, &mut self.fingers);
         self.deeds.forget_tap();
         let mut at = self.moment(time, out);
         at.tells(self.returning_note(&back, time));
         let stood = self.fingers.stands();
         let (technique, gesture) =
-            self.fingers.change(back.fret, from.slide, from.bar, from.struck.strength, &mut at);
+            self.fingers.change(fret, from.slide, from.bar, from.struck.strength, &mut at);
+        self.fingers.count_from(back.fret);
         self.bend.tell_change(technique, stood - back.fret as f64, &self.fingers, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         self.fingers.press(back.pressure, &mut at);

@@ -21,6 +21,9 @@ impl Playing {
         if self.asked.is_none() {
             // What is finished now comes too late.
             while let Some(late) = self.ready.take().or_else(|| self.workshop.collect()) {
+                if late.result.is_err() && wanted == self.order {
+                    self.say_that_all_is_well();
+                }
                 self.workshop.give_back(late);
             }
             return None;
@@ -75,14 +78,18 @@ impl Playing {
         self.awaits_since.is_some_and(|since| self.engine.now().saturating_sub(since) < patience)
     }
 
+    /// What is wanted plays already. But only who builds it takes back what was told of something else.
+    fn say_that_all_is_well(&self) {
+        self.workshop.order(self.order);
+    }
+
     /// Orders what is wanted, unless it is played, on its way, or was refused; or something else is awaited.
     fn ask(&mut self, wanted: Order) {
         if self.awaits() {
             return;
         }
         if self.refused.take_if(|refused| *refused != wanted).is_some() && wanted == self.order {
-            // It plays already. But only who builds it tells that all is well again.
-            self.workshop.order(wanted);
+            self.say_that_all_is_well();
         }
         if wanted != self.asked.or(self.refused).unwrap_or(self.order) {
             // What follows of the same instrument is meant by the notes that began since it was first asked for.
@@ -259,6 +266,27 @@ mod tests {
             sleep(Duration::from_millis(1));
         }
         assert_eq!(meters.exchanges(), 1);
+    }
+
+    /// Who asks for something impossible and at once for what plays hears of it when it has been tried, and no longer.
+    #[test]
+    fn what_is_told_too_late_is_taken_back() {
+        let (meters, shelf) = (Arc::new(Meters::default()), Shelf::new(Vec::new()));
+        let mut playing = Playing::new(order(), false, shelf.clone(), meters).expect("it can be built");
+        playing.exchange(impossible());
+        playing.exchange(order());
+        let begun = Instant::now();
+        let wait = || {
+            assert!(begun.elapsed() < Duration::from_secs(60), "waited in vain: {:?}", shelf.message());
+            sleep(Duration::from_millis(1));
+        };
+        while shelf.message().is_none() {
+            wait();
+        }
+        while shelf.message().is_some() {
+            playing.exchange(order());
+            wait();
+        }
     }
 
     #[test]
