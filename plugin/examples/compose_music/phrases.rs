@@ -16,7 +16,7 @@ pub fn all() -> Vec<(&'static str, Score)> {
         ("slap-bass", slapped()),
         ("fretless-bass", sung()),
         ("low-action-funk", funk()),
-        ("worn-fret", line(100, &[48, 50, 52, 50, 49, 50, 47, 50], 96, QUARTER, 0)),
+        ("worn-fret", worn()),
         ("light-fingers", line(110, &[45, 48, 52, 55, 57, 55, 52, 48], 90, EIGHTH, 0)),
         ("school-guitar", line(90, &[48, 52, 55, 60, 64, 67, 72, 76], 80, EIGHTH, 4 * EIGHTH)),
         ("flatwound-jazz", line(150, &[57, 60, 64, 67, 66, 62, 59, 55, 60, 64, 67, 71], 76, EIGHTH, 0)),
@@ -72,21 +72,31 @@ fn funk() -> Score {
     })
 }
 
+/// Up to the fifth fret and beside it, again and again.
+fn worn() -> Score {
+    Score::solo(100, |track| {
+        track.set(0, HAND, 5);
+        let now = track.line(&[48, 50, 52, 50, 49, 50, 51, 50], 96, 0, QUARTER, 0);
+        track.note(50, 96, now, 4 * QUARTER);
+    })
+}
+
 fn drone() -> Score {
-    Score::solo(60, |track| {
-        for turn in 0..3 {
-            let now = turn * 4 * QUARTER;
-            for (place, key) in (0..).zip([43, 48, 48, 36]) {
-                // The third stroke is the string tuned two cents beside the second.
-                track.note(
-                    key,
-                    80,
-                    now + place * QUARTER,
-                    4 * QUARTER - 10 - if key == 48 { 3 * QUARTER } else { 0 },
-                );
+    // First string first. The third stroke is on the string tuned two cents beside the second; that one sounds yet, and so the
+    // key of another channel has the other string.
+    const STROKES: [[&[u8]; 4]; 2] = [[&[43], &[48], &[], &[36]], [&[], &[], &[48], &[]]];
+    let mut score = Score::new(60);
+    for (name, strokes, channel) in [("first", STROKES[0], 1), ("second", STROKES[1], 2)] {
+        let track = score.track(name, channel);
+        for turn in 0..4 {
+            for (place, keys) in (0..).zip(strokes) {
+                // Each rings until its own next stroke, and the last ones ring out.
+                let length = if turn < 3 { 4 * QUARTER } else { 6 * QUARTER };
+                track.chord(keys, 80, (turn * 4 + place) * QUARTER, length);
             }
         }
-    })
+    }
+    score
 }
 
 fn glided() -> Score {

@@ -72,10 +72,22 @@ pub(crate) const RISE: f64 = 0.001;
 pub(crate) const HASTE: f64 = 9.0;
 /// Time in which a finger that is in no hurry has set its string down, s: over the 1 mm of most frets at 0.04 m/s.
 pub(crate) const SETTLING: f64 = 0.03;
-/// How hard a note must be for its finger to land as fast as it can (velocity 45): that of a softer one goes down more slowly, by
-/// the square, for its landing would drown the pluck. How slowly at most, as a multiple of what the hand's own damping gives.
-pub(crate) const SOFT_LANDING: f64 = 0.21;
-pub(crate) const SOFTEST_LANDING: f64 = 2.0;
+/// How much more slowly a finger lands for a soft note, whose pluck its landing would drown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SoftLanding {
+    /// For notes as hard as this it lands as fast as it can (velocity 45), for softer ones more slowly by the square.
+    pub from: f64,
+    /// How many times more slowly at most: in more time most of what was plucked would leak past it at fret 12.
+    pub most: f64,
+    /// Notes softer than this (velocity 23) would be drowned even so, and have a finger that is slower, whatever leaks.
+    pub drowned: f64,
+    /// The slowest of all, as a multiple of what the hand's own damping gives.
+    pub slowest: f64,
+}
+
+/// The usual. (Fitted to landings on seven frets of sixteen strings of nine instruments.)
+pub(crate) const SOFT_LANDING: SoftLanding =
+    SoftLanding { from: 0.21, most: 1.6, drowned: 0.077, slowest: 2.0 };
 /// How a finger comes down.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Coming {

@@ -157,7 +157,7 @@ fn no_control_lies_over_another_however_low_the_panel_is() {
 #[test]
 fn a_number_that_went_out_of_sight_is_not_typed_in_any_more() {
     let mut desk = Desk::new();
-    desk.open("Player");
+    desk.wait(0.05);
     let field = |desk: &Desk| desk.control("Type Pluck force");
     desk.click(field(&desk).expect("it has a number"));
     desk.wait(0.05);

@@ -55,8 +55,10 @@ impl Fingers {
         force: f64,
     ) -> (Touch, f64) {
         let Fretting { mut touch, landing, .. } = self.hands.fretting;
-        let softness = (SOFT_LANDING / strength.max(f64::MIN_POSITIVE)).max(1.0);
-        touch.hand_damping *= (softness * softness / (1.0 + HASTE * haste)).min(SOFTEST_LANDING);
+        let SoftLanding { from, most, drowned, slowest } = SOFT_LANDING;
+        let softness = (from / strength.max(f64::MIN_POSITIVE)).max(1.0);
+        let slower = (softness * softness).min(if strength < drowned { f64::INFINITY } else { most });
+        touch.hand_damping *= (slower / (1.0 + HASTE * haste)).min(slowest);
         let (way, pull) = self.way_down(fret, stopped);
         let period = self.stopped_period(fret);
         // The hand's damping is what makes the speed constant.
