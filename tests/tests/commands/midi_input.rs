@@ -339,6 +339,33 @@ fn damaged_events_are_refused_with_their_place() {
     assert_eq!((note_ons(&song).len(), song.warnings), (1, vec![SongWarning::NoEndOfTrack { track: 1 }]));
 }
 
+/// What nothing is played by may say anything, as long as it ends where it says.
+#[test]
+fn meta_events_that_say_what_cannot_be_are_passed_over() {
+    for odd in [
+        // Hour 25, and drop-frame television's thirty-first frame: where a song begins on a tape.
+        &[0xFF, 0x54, 5, 0x19, 0, 0, 0, 0][..],
+        &[0xFF, 0x54, 5, 0, 0, 0, 25, 0],
+        &[0xFF, 0x54, 5, 0x1F, 0, 0, 0, 0],
+        // Keys that say too little.
+        &[0xFF, 0x59, 0],
+        &[0xFF, 0x59, 1, 2],
+        &[0xFF, 0x54, 0],
+        &[0xFF, 0x51, 2, 1, 2],
+    ] {
+        // They take their time, and running status goes on across them.
+        let notes = track(&[(0, &[0x90, 60, 100]), (96, odd), (0, odd), (96, &[62, 100]), (0, &[60, 0])]);
+        let song = read(&file(0, 96, std::slice::from_ref(&notes)));
+        assert_eq!(note_ons(&song), [(0, 60), (48_000, 62)], "{odd:?}");
+        assert_eq!((song.events.len(), song.warnings), (3, vec![]), "{odd:?}");
+        // One that reaches beyond its track is damage.
+        let mut cut = odd.to_vec();
+        cut[2] += 1;
+        let message = refused(&file(0, 96, &[[&[0, 0x90, 60, 100, 0][..], &cut].concat()]));
+        assert!(message.contains("byte 4 of track 1"), "{odd:?}: {message}");
+    }
+}
+
 #[test]
 fn the_longest_times_neither_overflow_nor_hang() {
     let slowest = tempo(0xFF_FFFF);
