@@ -7,6 +7,7 @@
 
 mod chunks;
 mod messages;
+mod sequences;
 mod sized;
 mod timing;
 
@@ -55,7 +56,9 @@ pub struct SongEvent {
 /// A song ready to play: events in order of time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Song {
-    /// The events, in order of time; those at equal times in the order of the file.
+    /// The events, in order of time; those at equal times in the order of the file. Before each sequence of format 2 but the
+    /// first that has any stands what lets go of the one before, and of that [`PlayerEvent::AllNotesOff`] last: how far wheels
+    /// reach is then whoever plays it to put back.
     pub events: Vec<SongEvent>,
     /// What the user should know.
     pub warnings: Vec<SongWarning>,
@@ -63,7 +66,7 @@ pub struct Song {
 
 impl Song {
     /// Reads a whole MIDI file of any of the three formats; the sequences of format 2 follow one
-    /// another.
+    /// another, and leave nothing to each other.
     ///
     /// # Errors
     /// One line that says what is wrong with the file.
@@ -76,7 +79,7 @@ impl Song {
         }
         let (division, song) = (chunks.division, Song::empty());
         let mut reader =
-            Reader { selection, division, cut: chunks.cut, no_tempos: 0, found: Vec::new(), song };
+            Reader { selection, division, cut: chunks.cut, no_tempos: 0, drums: 0, found: Vec::new(), song };
         // Of a sequence that is not played nothing is missed.
         let missed = chunks.cut.filter(|cut| !chunks.sequential || reader.selects(cut.track - 1));
         reader.song.warnings.extend(missed.map(SongWarning::CutOff));
@@ -90,7 +93,9 @@ impl Song {
                 // Only the chosen sequence takes time: it does not wait for those before it.
                 if reader.selects(index) {
                     let track = reader.track(index, data)?;
-                    start = reader.perform(start, vec![track]);
+                    let end = reader.perform(start, vec![track]);
+                    reader.take(start);
+                    start = end;
                 }
             }
         } else {
@@ -99,6 +104,7 @@ impl Song {
                 tracks.push(reader.track(index, data)?);
             }
             reader.perform(start, tracks);
+            reader.take(start);
         }
         Ok(reader.finish())
     }
@@ -141,7 +147,9 @@ struct Reader {
     cut: Option<CutOff>,
     /// Changes to a tempo that is none, passed over.
     no_tempos: usize,
-    /// Everything that is for a player, in order of time, and whether it is selected.
+    /// Notes of the drum channel, left out.
+    drums: usize,
+    /// Everything that is for a player in what plays together, in order of time, and whether it is selected.
     found: Vec<(SongEvent, bool)>,
     song: Song,
 }
@@ -241,21 +249,31 @@ impl Reader {
         clock.now()
     }
 
-    fn finish(self) -> Song {
-        let Self { selection, no_tempos, mut found, song: Song { mut events, mut warnings }, .. } = self;
-        warnings.extend((no_tempos > 0).then_some(SongWarning::NoTempo { changes: no_tempos }));
+    /// Takes over into the song what plays together, from `start` on.
+    fn take(&mut self, start: SongTime) {
+        let Self { selection, found, song: Song { events, .. }, .. } = self;
+        let mut found = std::mem::take(found);
         let members = announced_members(found.iter().map(|(event, _)| event.event));
         // What is announced when all that is selected is over makes the song no longer.
         let end = found.iter().rposition(|&(_, selected)| selected).map_or(0, |last| last + 1);
         found.truncate(end);
         let counts = |&(event, selected): &(SongEvent, bool)| selected || is_parameter(event.event);
-        events.extend(found.into_iter().filter(counts).map(|(event, _)| event));
+        let mut found: Vec<_> = found.into_iter().filter(counts).map(|(event, _)| event).collect();
         if selection.channel.is_none() && !selection.tenth && !members.has(DRUM_CHANNEL) {
-            let notes = count_notes(&events);
-            events.retain(|event| event.event.channel() != Some(DRUM_CHANNEL));
-            let notes = notes - count_notes(&events);
-            warnings.extend((notes > 0).then_some(SongWarning::DrumsSkipped { notes }));
+            let notes = count_notes(&found);
+            found.retain(|event| event.event.channel() != Some(DRUM_CHANNEL));
+            self.drums += notes - count_notes(&found);
         }
+        if !events.is_empty() && !found.is_empty() {
+            events.extend(sequences::let_go(start));
+        }
+        events.append(&mut found);
+    }
+
+    fn finish(self) -> Song {
+        let Self { no_tempos, drums: notes, song: Song { events, mut warnings }, .. } = self;
+        warnings.extend((no_tempos > 0).then_some(SongWarning::NoTempo { changes: no_tempos }));
+        warnings.extend((notes > 0).then_some(SongWarning::DrumsSkipped { notes }));
         warnings.extend(messages::not_followed(&events));
         warnings.extend(messages::tuning_not_followed(&events));
         warnings.extend(messages::upper_zone(&events));

@@ -4,6 +4,7 @@ mod files;
 mod labels;
 mod options;
 mod rendering;
+mod timeline;
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -54,7 +55,8 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     engine.set_input(input);
     let touching = Touching::new(arguments.variation, bend_range);
     let RenderArgs { ignore_rpn, hand_position, .. } = *arguments;
-    engine.touch(&Touching { ignore_rpn, hand_position, ..touching });
+    let touching = Touching { ignore_rpn, hand_position, ..touching };
+    engine.touch(&touching);
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
     let output = output_path(arguments)?;
     check_paths(arguments, setup_file, &output, &names)?;
@@ -62,7 +64,8 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
 
     let source = Source { arguments, setup: &options.setup };
     let started = Instant::now();
-    let rendered = Rendering { engine, song: &song, source, files }.play()?;
+    let rendering = Rendering { engine, touching, begins_anew: false, song: &song, source, files };
+    let rendered = rendering.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
 }
 

@@ -5,6 +5,7 @@ mod labels_notes;
 mod labels_sound;
 mod midi_input;
 mod midi_selection;
+mod midi_sequences;
 mod same_everywhere;
 mod scene_command;
 mod scene_errors;

@@ -8,8 +8,10 @@ use super::files::Files;
 use super::labels::{Labelled, Source};
 use super::options::Tail;
 use super::song_name;
+use super::timeline::timeline;
 use crate::cli::progress::Progress;
 use crate::cli::wav::Findings;
+use crate::controls::Touching;
 use crate::engine::{Engine, INAUDIBLE, QUIET};
 use crate::midi_file::Song;
 use crate::performance::{Compromises, PlayerEvent};
@@ -35,6 +37,10 @@ pub(super) struct Rendered {
 /// A song on its way through the engine.
 pub(super) struct Rendering<'a> {
     pub engine: Engine,
+    /// How hands act, as the engine has been told.
+    pub touching: Touching,
+    /// Whether a sequence of the song is over, and the next one begins at this sample.
+    pub begins_anew: bool,
     pub song: &'a Song,
     pub source: Source<'a>,
     pub files: Files,
@@ -55,8 +61,7 @@ impl Rendering<'_> {
         let mut progress = Progress::new(song_name(self.source.arguments), last + longest);
         let mut buffers = Buffers::new(self.files.stems.len(), Engine::LATENCY as usize);
         let mut peak = 0.0_f64;
-        let mut events =
-            self.song.events.iter().map(|event| (event.time.sample(rate), event.event)).peekable();
+        let mut events = timeline(self.song, rate).into_iter().peekable();
         loop {
             let left = last - self.engine.now();
             let frames = self.hand_over(&mut events, left.min(BLOCK as u64));
@@ -91,12 +96,15 @@ impl Rendering<'_> {
     }
 
     /// Gives the engine the events of the next `frames` samples. Returns how many samples those are that it has all events of:
-    /// fewer where more come than can wait. (Those of the present sample need not.)
+    /// fewer where more come than can wait, or a sequence ends. (Those of the present sample need not.)
     fn hand_over(
         &mut self,
         events: &mut Peekable<impl Iterator<Item = (u64, PlayerEvent)>>,
         frames: u64,
     ) -> u64 {
+        if std::mem::take(&mut self.begins_anew) {
+            self.forget_reach();
+        }
         let now = self.engine.now();
         while let Some(&(time, event)) = events.peek() {
             let offset = time.saturating_sub(now);
@@ -105,8 +113,20 @@ impl Rendering<'_> {
             }
             self.engine.event(offset as u32, event);
             events.next();
+            if event == PlayerEvent::AllNotesOff {
+                self.begins_anew = true;
+                return (offset + 1).min(frames);
+            }
         }
         frames
+    }
+
+    /// Has wheels reach as far as before any reach was announced: it is forgotten where it is to be passed over.
+    fn forget_reach(&mut self) {
+        let Touching { ignore_rpn, .. } = self.touching;
+        for ignore_rpn in [!ignore_rpn, ignore_rpn] {
+            self.engine.touch(&Touching { ignore_rpn, ..self.touching });
+        }
     }
 
     /// Computes so many samples and writes them, but for the first, which hold what was before the song. Returns the largest

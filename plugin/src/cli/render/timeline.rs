@@ -1,0 +1,62 @@
+//! A song's events at their samples.
+
+use crate::midi_file::Song;
+use crate::performance::PlayerEvent;
+
+/// All events in order. A sequence of format 2 is over, and let go of, a sample before the next one begins: between them there is
+/// time to put back what no event puts back. One that has no sample is not heard.
+pub(super) fn timeline(song: &Song, sample_rate: u32) -> Vec<(u64, PlayerEvent)> {
+    let mut events: Vec<(u64, PlayerEvent)> = Vec::with_capacity(song.events.len());
+    // The first sample of the present sequence, and the place of its first event.
+    let (mut begins, mut first) = (0, 0);
+    for event in &song.events {
+        let sample = event.time.sample(sample_rate);
+        events.push((sample, event.event));
+        if event.event != PlayerEvent::AllNotesOff {
+            continue;
+        }
+        if sample == begins {
+            events.truncate(first);
+            continue;
+        }
+        for (own, _) in &mut events[first..] {
+            *own = (*own).min(sample - 1);
+        }
+        (begins, first) = (sample, events.len());
+    }
+    events
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::midi_file::Selection;
+
+    /// A file of format 2 whose sequences are a note each, that end so many ticks after it; a tick is a millisecond.
+    fn sequences(lengths: &[u8]) -> Song {
+        let mut bytes = [&b"MThd\0\0\0\x06\0\x02\0"[..], &[lengths.len() as u8, 0xe7, 40]].concat();
+        for (key, &length) in (60..).zip(lengths) {
+            bytes.extend(b"MTrk\0\0\0\x08");
+            bytes.extend([0, 0x90, key, 100, length, 0xff, 0x2f, 0]);
+        }
+        Song::from_midi(&bytes, Selection::default()).unwrap()
+    }
+
+    #[test]
+    fn sequences_begin_where_they_do_and_are_over_before() {
+        let note = |key| PlayerEvent::NoteOn { channel: 0, key, velocity: 100.0 / 127.0 };
+        let notes = |lengths: &[u8], rate| -> Vec<_> {
+            let events = timeline(&sequences(lengths), rate);
+            assert!(events.is_sorted_by_key(|&(sample, _)| sample));
+            let kept = |event| matches!(event, PlayerEvent::NoteOn { .. } | PlayerEvent::AllNotesOff);
+            events.into_iter().filter(|&(_, event)| kept(event)).collect()
+        };
+        let end = PlayerEvent::AllNotesOff;
+        let two = [(0, note(60)), (4_799, end), (4_800, note(61))];
+        assert_eq!(notes(&[100, 0], 48_000), two);
+        // Those without a sample, the last one excepted, after which nothing comes.
+        let others = [(0, note(61)), (4_799, end), (4_800, note(64))];
+        assert_eq!(notes(&[0, 100, 0, 0, 0], 48_000), others);
+        assert_eq!(notes(&[1, 0], 1_000), [(0, note(60)), (0, end), (1, note(61))]);
+    }
+}

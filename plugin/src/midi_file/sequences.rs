@@ -1,0 +1,24 @@
+//! Between the sequences of format 2: each is played as if there were no other.
+
+use super::{SongEvent, SongTime};
+use crate::performance::PlayerEvent;
+
+/// First and last channel, on which zones of MPE are announced.
+const MANAGERS: [u8; 2] = [0, 15];
+
+/// What a player is told between two sequences: no channel is a note of MPE any more, controllers, pedals, wheels and the capo go
+/// back, and hands let go of everything. The last of it is [`PlayerEvent::AllNotesOff`], which no file has in it. (There is no
+/// message by which wheels reach as far as they did before any was announced.)
+pub(super) fn let_go(time: SongTime) -> impl Iterator<Item = SongEvent> {
+    let controller = |channel, number, value: u8| PlayerEvent::Controller {
+        channel,
+        number,
+        value: f32::from(value) / 127.0,
+    };
+    let zones = MANAGERS.into_iter().flat_map(move |channel| {
+        [(101, 0), (100, 6), (6, 0)].map(|(number, value)| controller(channel, number, value))
+    });
+    let resets = (0..16).map(move |channel| controller(channel, 121, 0));
+    let events = zones.chain(resets).chain([PlayerEvent::AllNotesOff]);
+    events.map(move |event| SongEvent { time, event })
+}
