@@ -8,6 +8,7 @@ use anyhow::{Context, Result, ensure};
 use etcetera::BaseStrategy;
 use low_action_dsp::Setup;
 
+use crate::engine::{Engine, EngineOptions};
 use crate::files;
 
 /// Names of the set-ups that come with the program, the usual one first. Hosts number them in this order.
@@ -103,6 +104,17 @@ pub fn read(path: &Path) -> Result<String> {
     Ok(text)
 }
 
+/// The set-up of a file's text, if it can be played: many a one whose values are all in their range has strings that cannot be
+/// tuned. It is built as for most hosts, at 48 kHz and the usual quality; others may be refused where they are asked for.
+///
+/// # Errors
+/// When it is no set-up, or cannot be built.
+pub fn playable(text: &str) -> Result<Setup, low_action_dsp::Error> {
+    let options = EngineOptions::new(Setup::from_toml(text)?, 48_000.0);
+    Engine::new(&options)?;
+    Ok(options.setup)
+}
+
 /// The name and the text of a set-up file that can be installed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Checked {
@@ -145,10 +157,10 @@ fn appear(drafts: Vec<(files::TextDraft, SetupFile)>) -> Result<Vec<SetupFile>> 
 /// Reads a set-up file that is to be installed.
 ///
 /// # Errors
-/// When it is no set-up or has the name of one that comes with the program.
+/// When it is no set-up, cannot be [played](playable) or has the name of one that comes with the program.
 pub fn check(path: &Path) -> Result<Checked> {
     let text = read(path)?;
-    Setup::from_toml(&text).with_context(|| path.display().to_string())?;
+    playable(&text).with_context(|| path.display().to_string())?;
     let name = path.file_stem().and_then(|name| name.to_str());
     let name = name.with_context(|| format!("{} has no name that could be shown", path.display()))?;
     ensure!(!SHIPPED.contains(&name), "{name} comes with the program: give {} another name", path.display());

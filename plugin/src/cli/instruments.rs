@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &InstrumentsArgs) -> Outcome {
     }
     for (index, file) in files.iter().enumerate() {
         let number = if index < MOST_FILES { format!("{}", index + 1) } else { "-".into() };
-        let what = setups::read(&file.path).and_then(|text| Ok(Setup::from_toml(&text)?));
+        let what = setups::read(&file.path).and_then(|text| Ok(setups::playable(&text)?));
         let what = what.map_or_else(|problem| format!("not usable: {problem:#}"), |setup| setup.description);
         text += &format!("  {number:>2} {:<15}{}\n", escaped(&file.name), super::one_line(&what));
     }

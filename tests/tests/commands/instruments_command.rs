@@ -61,8 +61,10 @@ fn the_plugin_has_numbers_for_the_first_64() {
     let place = workplace();
     let folder = place.path("instruments");
     std::fs::create_dir(&folder).expect("there is room");
+    // (All are built to be listed. Frets that nobody places take no time.)
+    let quick = LOWER.to_owned() + "intonation = \"physical\"\n";
     let put = |number: usize| {
-        std::fs::write(folder.join(format!("own{number:02}.toml")), LOWER).expect("there is room");
+        std::fs::write(folder.join(format!("own{number:02}.toml")), &quick).expect("there is room");
     };
     (1..=64).for_each(put);
     let list = place.run(&["instruments"]).text();
@@ -166,8 +168,16 @@ fn what_is_no_set_up_is_refused_in_one_line() {
     let place = workplace();
     place.write("broken.toml", "name = \"broken\"\nbased_on = \"electric\"\n[neck]\naction = 9.0\n");
     place.write("bass.toml", LOWER);
+    // What is in all ranges, and cannot be built: a string too stiff to sound so low, a bridge no grid is fine enough for.
+    place.write("stiff.toml", LOWER.to_owned() + "[[string]]\npitch = 20.0\ncore_radius = 0.005\n");
+    place.write(
+        "short.toml",
+        LOWER.replace("electric", "classical") + "[bridge]\nlength = 1e-4\nradius = 1.0\n",
+    );
     for (file, words) in [
         ("broken.toml", ["broken.toml", "neck.action"]),
+        ("stiff.toml", ["stiff.toml", "string[1]"]),
+        ("short.toml", ["short.toml", "bridge.length"]),
         ("bass.toml", ["bass comes with the program", "another name"]),
         ("nowhere.toml", ["nowhere.toml", "cannot read"]),
     ] {
@@ -193,9 +203,12 @@ fn what_is_no_set_up_is_refused_in_one_line() {
     assert!(installed(&place).is_empty());
     // One that was put there by hand is listed with what is wrong with it.
     std::fs::create_dir_all(place.path("instruments")).expect("there is room");
-    std::fs::copy(place.path("broken.toml"), place.path("instruments/broken.toml")).expect("it is there");
+    for file in ["broken.toml", "stiff.toml"] {
+        std::fs::copy(place.path(file), place.path("instruments").join(file)).expect("it is there");
+    }
     let list = place.run(&["instruments"]).text();
     assert!(list.contains("broken         not usable: neck.action = 9"), "{list}");
+    assert!(list.contains("stiff          not usable: string[1]"), "{list}");
     let done = place.run(&["render", "--instrument", "fiddle"]);
     assert_eq!(done.code, 2);
     assert!(
