@@ -20,6 +20,11 @@ use crate::plugin::LowAction;
 pub use way::Way;
 use way::{JACK, NOTHING};
 
+/// Hz, where nobody says otherwise.
+const SAMPLE_RATE: u32 = 48_000;
+/// Samples computed at a time, where nobody says otherwise.
+const PERIOD: u32 = 256;
+
 /// Which devices are to be used.
 #[derive(Debug, Clone, Default)]
 pub struct Devices {
@@ -29,10 +34,10 @@ pub struct Devices {
     pub output: Option<String>,
     /// Which keyboard plays; nothing is the first there is.
     pub keyboard: Option<String>,
-    /// Hz, but for JACK, which has its own.
-    pub sample_rate: u32,
-    /// Samples computed at a time, but for JACK.
-    pub period: u32,
+    /// Hz, but for JACK, which has its own; nothing is the usual 48,000.
+    pub sample_rate: Option<u32>,
+    /// Samples computed at a time, but for JACK; nothing is the usual 256.
+    pub period: Option<u32>,
     /// More of the framework's options.
     pub others: Vec<String>,
 }
@@ -65,22 +70,28 @@ pub fn open(mut start: Start, devices: &Devices, way: &Way) -> Result<()> {
         format!("--backend={name}"),
         format!("--sample-rate={}", way.sample_rate),
     ];
-    if name != JACK {
-        arguments.push(format!("--period-size={}", devices.period));
+    if name != JACK && !given(&devices.others, "--period-size") {
+        arguments.push(format!("--period-size={}", devices.period.unwrap_or(PERIOD)));
     }
     if name == NOTHING {
         say("low-action", &format!("plays to nobody, {until}"));
     } else {
-        let (known, option) = match &way.server {
-            Some(server) => (server.keyboards.clone(), "--connect-jack-midi-input"),
+        let (known, sources, option) = match &way.server {
+            Some(server) => (server.keyboards.clone(), server.sources.clone(), "--connect-jack-midi-input"),
             None => {
                 let output = devices.output.as_deref();
                 let output = output.map(|name| names::find("output", &outputs(), name)).transpose()?;
+                let output = output.filter(|_| !given(&devices.others, "--output-device"));
                 arguments.extend(output.map(|name| format!("--output-device={name}")));
-                (keyboards::of_system(), "--midi-input")
+                let inputs = keyboards::of_system();
+                (inputs.clone(), inputs, "--midi-input")
             }
         };
-        match keyboards::choose(&known, devices.keyboard.as_deref())? {
+        match keyboards::choose(&known, &sources, devices.keyboard.as_deref())? {
+            // (Named to the framework itself, which takes no option twice.)
+            _ if given(&devices.others, option) => {
+                say("low-action", &format!("plays what is named after --, {until}"));
+            }
             Some(name) => {
                 say("low-action", &format!("plays what {name} sends, {until}"));
                 arguments.push(format!("{option}={name}"));
@@ -98,6 +109,13 @@ pub fn open(mut start: Start, devices: &Devices, way: &Way) -> Result<()> {
         return Ok(());
     }
     bail!("no sound can be played by {name}: `low-action --list-devices` shows what there is")
+}
+
+/// Whether an option is among those for the framework, with its value or before it.
+fn given(others: &[String], option: &str) -> bool {
+    others
+        .iter()
+        .any(|other| other.strip_prefix(option).is_some_and(|rest| rest.is_empty() || rest.starts_with('=')))
 }
 
 /// The names of all outputs of the system.
@@ -127,9 +145,29 @@ pub fn list() -> String {
     match server::running() {
         Some(server) => {
             text += "A JACK server runs, which --backend auto takes. Its MIDI inputs (--midi-input NAME):\n";
-            text += &keyboards::listed(&server.keyboards);
+            text += &keyboards::listed(&server.sources);
         }
         None => text += "With a JACK server running, outputs and inputs are its own: --backend jack.\n",
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_for_the_framework_are_known_in_both_forms() {
+        let option = "--connect-jack-midi-input";
+        for (others, expected) in [
+            (&["--connect-jack-midi-input=vmpk:out"][..], true),
+            (&["--tempo", "90", "--connect-jack-midi-input", "vmpk:out"], true),
+            (&["--connect-jack-midi-inputs=x"], false),
+            (&["--connect-jack-inputs=system:capture_1"], false),
+            (&[], false),
+        ] {
+            let others: Vec<String> = others.iter().map(|&other| other.to_owned()).collect();
+            assert_eq!(given(&others, option), expected, "{others:?}");
+        }
+    }
 }

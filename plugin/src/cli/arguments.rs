@@ -225,15 +225,15 @@ pub struct StandAloneArgs {
     #[arg(long, value_name = "NAME")]
     pub output_device: Option<String>,
     /// Way to the devices: jack, alsa (Linux), core-audio (macOS) or wasapi (Windows), or none for no sound [default:
-    /// jack if its server runs].
+    /// jack if its server runs and no output device is named].
     #[arg(long, value_name = "NAME", value_parser = ["auto", "jack", "alsa", "core-audio", "wasapi", "none"])]
     pub backend: Option<String>,
-    /// Samples per second, 8000 to 384000; JACK has its own.
-    #[arg(short = 'r', long, value_name = "HZ", default_value_t = 48_000, value_parser = render::parse_rate, allow_hyphen_values = true)]
-    pub sample_rate: u32,
-    /// Samples computed at a time, 1 to 65536: fewer answer sooner, more are safer. JACK has its own.
-    #[arg(short, long, value_name = "SAMPLES", default_value_t = 256, value_parser = whole::<u32>(1..=65_536), allow_hyphen_values = true)]
-    pub period_size: u32,
+    /// Samples per second, 8000 to 384000; JACK has its own [default: 48000].
+    #[arg(short = 'r', long, value_name = "HZ", value_parser = render::parse_rate, allow_hyphen_values = true)]
+    pub sample_rate: Option<u32>,
+    /// Samples computed at a time, 1 to 65536: fewer answer sooner, more are safer. JACK has its own [default: 256].
+    #[arg(short, long, value_name = "SAMPLES", value_parser = whole::<u32>(1..=65_536), allow_hyphen_values = true)]
+    pub period_size: Option<u32>,
     /// Lists outputs and MIDI inputs, and plays nothing.
     #[arg(long)]
     pub list_devices: bool,

@@ -10,6 +10,8 @@ use crate::plugin::LowAction;
 pub(super) struct Server {
     /// Names of the ports at which keyboards arrive.
     pub keyboards: Vec<String>,
+    /// Names of all ports at which anything does: those and other programs'.
+    pub sources: Vec<String>,
     /// Hz. The framework computes at the one that it is told.
     pub sample_rate: u32,
     /// Whether another instrument plays through it already, whose name the framework would take.
@@ -21,8 +23,10 @@ pub(super) fn running() -> Option<Server> {
     // The framework's name for the plugin. It plays under no other, and gives up without saying why.
     let name = LowAction::NAME.to_lowercase().replace(' ', "_");
     let (client, status) = Client::new(&name, ClientOptions::NO_START_SERVER).ok()?;
+    let sources = |flags| client.ports(None, Some("midi"), flags | PortFlags::IS_OUTPUT);
     Some(Server {
-        keyboards: client.ports(None, Some("midi"), PortFlags::IS_PHYSICAL | PortFlags::IS_OUTPUT),
+        keyboards: sources(PortFlags::IS_PHYSICAL),
+        sources: sources(PortFlags::empty()),
         sample_rate: client.sample_rate(),
         is_taken: status.contains(ClientStatus::NAME_NOT_UNIQUE),
     })

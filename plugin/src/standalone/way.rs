@@ -4,6 +4,7 @@ use anyhow::{Result, ensure};
 
 use super::Devices;
 use super::server::Server;
+use super::{SAMPLE_RATE, given};
 use crate::cli::say;
 
 /// The system's own way to its devices, by the framework's name for it.
@@ -34,12 +35,12 @@ pub struct Way {
 }
 
 impl Way {
-    /// The one that is asked for, where this server runs, or none.
+    /// The one that is asked for, where this server runs, or none. An output has a name only by the system's own way.
     ///
     /// # Errors
     /// When it has to go through a server that does not run, or that another one of these plays through.
     pub(super) fn to(devices: &Devices, server: Option<Server>) -> Result<Self> {
-        let asked = devices.backend.as_deref().unwrap_or(AUTO);
+        let asked = asked(devices);
         let is_taken = server.as_ref().is_some_and(|server| server.is_taken);
         let taken = "another Low Action plays through it, and it has room for one";
         ensure!(asked != JACK || server.is_some(), "no sound can be played by jack: no JACK server runs");
@@ -54,21 +55,25 @@ impl Way {
             NONE => NOTHING,
             named => named,
         };
-        let sample_rate = server.as_ref().map_or(devices.sample_rate, |server| server.sample_rate);
+        let asked_for = devices.sample_rate.unwrap_or(SAMPLE_RATE);
+        let sample_rate = server.as_ref().map_or(asked_for, |server| server.sample_rate);
         Ok(Self { name: name.to_owned(), server, sample_rate })
     }
 
-    /// That devices were named where the way to them takes no names, if so.
+    /// That devices were named where the way to them takes no names, or numbers given where it has its own, if so.
     pub(super) fn given_in_vain(&self, devices: &Devices) -> Option<String> {
-        let output = ("--output-device", &devices.output);
-        let (backend, options) = match self.name.as_str() {
-            JACK => (JACK, vec![output]),
-            NOTHING => (NONE, vec![output, ("--midi-input", &devices.keyboard)]),
+        let named = |option: &str, name: &Option<String>| Some(format!("{option} {:?}", name.as_ref()?));
+        let counted = |option: &str, number: Option<u32>| Some(format!("{option} {}", number?));
+        let output = named("--output-device", &devices.output);
+        let (backend, given) = match self.name.as_str() {
+            JACK => {
+                let rate = counted("--sample-rate", devices.sample_rate);
+                (JACK, vec![output, rate, counted("--period-size", devices.period)])
+            }
+            NOTHING => (NONE, vec![output, named("--midi-input", &devices.keyboard)]),
             _ => return None,
         };
-        let given =
-            options.into_iter().filter_map(|(option, name)| Some(format!("{option} {:?}", name.as_ref()?)));
-        let given: Vec<String> = given.collect();
+        let given: Vec<String> = given.into_iter().flatten().collect();
         (!given.is_empty()).then(|| {
             format!("--backend {backend} does not take {}: --backend {NATIVE} does", given.join(" or "))
         })
@@ -76,7 +81,16 @@ impl Way {
 
     /// Whether one that is asked for may go through a server.
     pub(super) fn may_need_server(devices: &Devices) -> bool {
-        matches!(devices.backend.as_deref(), None | Some(AUTO | JACK))
+        matches!(asked(devices), AUTO | JACK)
+    }
+}
+
+/// The way that is asked for, if only by the name of an output.
+fn asked(devices: &Devices) -> &str {
+    let is_named = devices.output.is_some() || given(&devices.others, "--output-device");
+    match devices.backend.as_deref().unwrap_or(AUTO) {
+        AUTO if is_named => NATIVE,
+        asked => asked,
     }
 }
 
@@ -85,11 +99,11 @@ mod tests {
     use super::*;
 
     fn asked(backend: &str) -> Devices {
-        Devices { backend: Some(backend.into()), sample_rate: 48_000, ..Devices::default() }
+        Devices { backend: Some(backend.into()), ..Devices::default() }
     }
 
     fn server(is_taken: bool) -> Option<Server> {
-        Some(Server { keyboards: Vec::new(), sample_rate: 44_100, is_taken })
+        Some(Server { keyboards: Vec::new(), sources: Vec::new(), sample_rate: 44_100, is_taken })
     }
 
     /// Name and rate of the way.
@@ -106,6 +120,25 @@ mod tests {
         assert_eq!(found(AUTO, None), Ok((NATIVE.into(), 48_000)));
         for (backend, name) in [(NATIVE, NATIVE), (NONE, NOTHING)] {
             assert_eq!(found(backend, server(false)), Ok((name.into(), 48_000)));
+        }
+    }
+
+    #[test]
+    fn an_output_that_is_named_is_gone_to_by_the_way_that_knows_it() {
+        let output = Devices { output: Some("USB".into()), sample_rate: Some(96_000), ..Devices::default() };
+        let other = Devices { output: None, others: vec!["--output-device=USB".into()], ..output.clone() };
+        for named in [output, other] {
+            for backend in [None, Some(AUTO.to_owned())] {
+                let named = Devices { backend, ..named.clone() };
+                assert!(!Way::may_need_server(&named));
+                let way = Way::to(&named, server(false)).expect("it is there");
+                assert_eq!(
+                    (way.name.as_str(), way.sample_rate, way.server.is_none()),
+                    (NATIVE, 96_000, true)
+                );
+            }
+            let jack = Devices { backend: Some(JACK.into()), ..named };
+            assert_eq!(Way::to(&jack, server(false)).expect("it runs").name, JACK);
         }
     }
 
@@ -133,6 +166,14 @@ mod tests {
         let begins = "--backend none does not take --midi-input \"Keys\":";
         assert!(keyboard.is_some_and(|told| told.starts_with(begins)));
         assert_eq!(told(NATIVE, &named), None);
+        let numbers = Devices { sample_rate: Some(44_100), period: Some(128), ..Devices::default() };
+        let two = format!(
+            "--backend jack does not take --sample-rate 44100 or --period-size 128: --backend {NATIVE} does"
+        );
+        for jack in [JACK, AUTO] {
+            assert_eq!(told(jack, &numbers), Some(two.clone()));
+        }
+        assert_eq!((told(NATIVE, &numbers), told(NONE, &numbers)), (None, None));
         assert_eq!(told(JACK, &Devices::default()), None);
     }
 }
