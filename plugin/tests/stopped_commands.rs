@@ -355,3 +355,29 @@ fn where_nothing_is_to_be_cleaned_up_the_signal_itself_ends_the_program() {
     send("TERM", &mut child);
     assert_eq!(child.wait().unwrap().signal(), Some(15));
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn where_no_thread_finds_room_it_does_its_work_all_the_same() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let room = room();
+    let program = room.path().join("program");
+    fs::copy(env!("CARGO_BIN_EXE_low-action"), &program).unwrap();
+    fs::set_permissions(room.path(), fs::Permissions::from_mode(0o777)).unwrap();
+    // The limit is none to root.
+    // SAFETY: it only asks who this is.
+    let is_root = unsafe { libc::geteuid() } == 0;
+    let nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"];
+    let limited =
+        ["prlimit", "--nproc=1:1", "./program", "render", "-q", "draft", "-r", "8000", "--tail", "none"];
+    let arguments = [if is_root { &nobody[..] } else { &[] }, &limited].concat();
+    let mut command = Command::new(arguments[0]);
+    command.args(&arguments[1..]).current_dir(room.path()).stdin(Stdio::null());
+    let Ok(output) = command.output() else {
+        return println!("passed over: there is no setpriv or prlimit here");
+    };
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success() && !said.contains("panicked"), "{said}");
+    assert!(room.path().join("demo.wav").exists());
+}

@@ -2,6 +2,8 @@
 //! else that ends programs which do not mind it.
 
 use std::process;
+#[cfg(unix)]
+use std::{sync::mpsc, thread};
 
 /// The exit code of programs that were told to stop where no signal tells it: 128 and the number of Ctrl+C's, as shells
 /// have it.
@@ -33,7 +35,7 @@ const FIRST_PROCESS: u32 = 1;
 /// Has all of them call `stop`, once. That a file may not get longer is no such thing: who writes it is told, and can say so.
 ///
 /// Each is left as it is if the program was started with something else for it than the usual: nohup has one ignored,
-/// and shells have Ctrl+C ignored in the background.
+/// and shells have Ctrl+C ignored in the background. All are left where the system has no room for the thread that waits for them.
 #[cfg(unix)]
 pub(super) fn when_asked(stop: impl FnOnce(Stop) + Send + 'static) {
     use signal_hook::consts::{
@@ -42,11 +44,17 @@ pub(super) fn when_asked(stop: impl FnOnce(Stop) + Send + 'static) {
     use signal_hook::iterator::Signals;
 
     let all = [SIGHUP, SIGINT, SIGTERM, SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ];
-    if let Ok(mut signals) = Signals::new(all.into_iter().filter(|&signal| is_usual(signal))) {
-        std::thread::spawn(move || {
-            let first = signals.forever().find(|&signal| signal != SIGXFSZ);
-            first.map(|signal| stop(Stop { signal }))
-        });
+    // The thread comes first: signals that nobody waits for would do nothing any more.
+    let (sender, receiver) = mpsc::channel::<Signals>();
+    let wait = move || {
+        let signals = receiver.recv().ok();
+        let first = signals.and_then(|mut signals| signals.forever().find(|&signal| signal != SIGXFSZ));
+        first.map(|signal| stop(Stop { signal }))
+    };
+    if thread::Builder::new().spawn(wait).is_ok()
+        && let Ok(signals) = Signals::new(all.into_iter().filter(|&signal| is_usual(signal)))
+    {
+        sender.send(signals).ok();
     }
 }
 
