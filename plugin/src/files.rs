@@ -118,7 +118,8 @@ pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
 }
 
 /// A file in the same folder as another, so that renaming it is one step; gone when dropped. It has the permissions of the
-/// file whose place it is to take, so that what was private stays so.
+/// file whose place it is to take, so that what was private stays so. Where nothing new may be in that folder and a file is there
+/// that may be written, it is among the system's temporary files instead, and can only be copied.
 ///
 /// # Errors
 /// When none can be made there, or the file that is there is not to be written.
@@ -135,9 +136,15 @@ pub(crate) fn beside(path: &Path) -> io::Result<NamedTempFile> {
         builder.permissions(permissions);
     }
     // (The error would name the file beside it, which nobody has asked for.)
-    let file = builder.tempfile_in(folder).map_err(|error| match error.raw_os_error() {
+    let plain = |error: io::Error| match error.raw_os_error() {
         Some(code) => io::Error::from_raw_os_error(code),
         None => error.kind().into(),
+    };
+    let file = builder.tempfile_in(folder).map_err(plain).or_else(|refused| match refused.kind() {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem if kept.is_some() => {
+            builder.tempfile().map_err(|_| refused)
+        }
+        _ => Err(refused),
     })?;
     if let Some(kept) = kept {
         // (Not where they are so already: there are file systems that know no others.)

@@ -45,6 +45,36 @@ fn what_cannot_be_renamed_over_is_written_into() {
 }
 
 #[test]
+fn what_may_be_written_where_nothing_new_may_be_is_written_into() {
+    let room = Room::new();
+    fs::create_dir(room.path("fixed")).unwrap();
+    for name in ["real.wav", "fixed/own.wav"] {
+        fs::write(room.path(name), vec![1; 1_000_000]).unwrap();
+    }
+    let temporary = room.path("temporary");
+    fs::create_dir(&temporary).unwrap();
+    let mount = format!(
+        "export TMPDIR={}; mount --bind fixed fixed && mount --bind real.wav fixed/own.wav && \
+         mount -o remount,bind,ro fixed",
+        temporary.display()
+    );
+    let render = ["render", "song.mid", "-q", "draft", "--tail", "none", "-o"];
+    let Some(output) = where_is_mounted(&room, &mount, &[&render[..], &["fixed/own.wav"]].concat()) else {
+        return;
+    };
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    room.renders(&[&render[1..], &["plain.wav"]].concat());
+    assert!(fs::read(room.path("real.wav")).unwrap() == fs::read(room.path("plain.wav")).unwrap());
+    // Nothing of it is left, and what is not there yet cannot be.
+    assert_eq!(fs::read_dir(&temporary).unwrap().count(), 0);
+    let output = where_is_mounted(&room, &mount, &[&render[..], &["fixed/new.wav"]].concat()).unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.starts_with("error: cannot write fixed/new.wav: read-only"), "{said}");
+}
+
+#[test]
 fn what_it_has_no_room_for_is_kept_beside_it_and_named() {
     let room = Room::new();
     fs::write(room.path("mounted.wav"), "").unwrap();
