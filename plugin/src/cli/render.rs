@@ -5,6 +5,7 @@ mod labels;
 mod options;
 mod rendering;
 mod timeline;
+mod tuning;
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -52,6 +53,12 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     };
     let mut engine =
         Engine::new(&options).with_context(|| escaped(&arguments.instrument.to_string_lossy()))?;
+    // (Of those that come with the program it is known, and what they are for.)
+    if setup_file.is_some()
+        && let Some(warning) = tuning::out_of_tune(&options.setup, engine.instrument(), options.quality)?
+    {
+        warn(arguments, &warning);
+    }
     engine.set_input(input);
     let touching = Touching::new(arguments.variation, bend_range);
     let RenderArgs { ignore_rpn, hand_position, .. } = *arguments;

@@ -324,3 +324,18 @@ fn clipping_is_said_and_saturates() {
     assert!(!said.contains("warning"), "{said}");
     assert!(peak(&room.path("loud.wav")) > 1.0);
 }
+
+#[test]
+fn frets_of_ones_own_that_cannot_be_in_tune_are_told_of() {
+    let room = Room::new();
+    let own = "name = \"own\"\nbased_on = \"electric\"\n[neck]\nfrets = ";
+    let brief = ["song.mid", "-q", "live", "--tail", "none", "-i"];
+    for (frets, is_told) in [(30, true), (22, false)] {
+        fs::write(room.path("own.toml"), format!("{own}{frets}\n")).unwrap();
+        let said = room.renders(&[&brief[..], &["own.toml"]].concat());
+        let told = "warning: song.mid: fret 30 of string 5 cannot be brought in tune: it is off by +69 cents";
+        assert_eq!(said.matches(told).count(), usize::from(is_told), "{said}");
+        assert_eq!(said.contains("warning"), is_told, "{said}");
+    }
+    assert!(!room.renders(&[&brief[..], &["sitar"]].concat()).contains("warning"));
+}

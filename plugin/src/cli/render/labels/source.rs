@@ -1,12 +1,12 @@
 //! What a sound was made from.
 
-use low_action_dsp::intonation::{Intonated, stopped_frequencies};
 use low_action_dsp::setup::{SetupString, frequency};
 use low_action_dsp::{Error, Instrument, Setup};
 use nice_plug::prelude::Enum;
 use serde::Serialize;
 
 use crate::cli::RenderArgs;
+use crate::cli::render::tuning::stopped;
 use crate::params::{InputChoice, StringOrder};
 
 /// What a sound is made from.
@@ -97,19 +97,15 @@ impl Source<'_> {
 
     /// The strings of the instrument as it sounds.
     pub(super) fn strings(&self, instrument: &Instrument) -> Result<Vec<LabelledString>, Error> {
-        let settings = self.arguments.quality.settings(instrument.sample_rate());
         let describe = |(index, string): (usize, &SetupString)| {
-            let geometry = instrument.geometry(index);
             let pitch = string.pitch + self.setup.tuning;
-            let placed = Intonated { string: instrument.model(index).string, frets: geometry.frets.clone() };
-            let rate = instrument.ratio(index).value() * instrument.sample_rate();
-            let stopped = stopped_frequencies(self.setup, string, &placed, settings.stencil, rate)?;
+            let (placed, stopped) = stopped(self.setup, instrument, self.arguments.quality, index)?;
             Ok(LabelledString {
                 string: index + 1,
                 name: string.name.clone(),
                 pitch,
                 frequency: frequency(pitch),
-                length: geometry.length,
+                length: placed.string.length,
                 tension: placed.string.tension,
                 frets: placed.frets,
                 fret_frequencies: stopped,

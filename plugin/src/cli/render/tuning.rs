@@ -1,0 +1,94 @@
+//! What sounds where fingers stop the frets, and which frets cannot be brought in tune.
+
+use low_action_dsp::intonation::{Intonated, stopped_frequencies};
+use low_action_dsp::setup::{Intonation, frequency};
+use low_action_dsp::{Error, Instrument, Setup};
+
+use crate::engine::Quality;
+
+/// Frets that are farther than this off equal temperament are told of, cents.
+const OUT_OF_TUNE: f64 = 15.0;
+
+/// A string as it is tuned and fretted on its grid, and the frequencies at its frets, Hz, fret 1 first.
+pub(super) fn stopped(
+    setup: &Setup,
+    instrument: &Instrument,
+    quality: Quality,
+    index: usize,
+) -> Result<(Intonated, Vec<f64>), Error> {
+    let settings = quality.settings(instrument.sample_rate());
+    let frets = instrument.geometry(index).frets.clone();
+    let placed = Intonated { string: instrument.model(index).string, frets };
+    let rate = instrument.ratio(index).value() * instrument.sample_rate();
+    let stopped = stopped_frequencies(setup, &setup.string[index], &placed, settings.stencil, rate)?;
+    Ok((placed, stopped))
+}
+
+/// What to say of frets that were to be in tune and are not, if there are any.
+pub(super) fn out_of_tune(
+    setup: &Setup,
+    instrument: &Instrument,
+    quality: Quality,
+) -> Result<Option<String>, Error> {
+    if setup.intonation == Intonation::Physical {
+        return Ok(None);
+    }
+    let mut off = Vec::new();
+    for (index, string) in setup.string.iter().enumerate() {
+        let (_, stopped) = stopped(setup, instrument, quality, index)?;
+        for (fret, sounds) in (1_usize..).zip(stopped) {
+            let cents = 1200.0 * (sounds / frequency(string.pitch + setup.tuning + fret as f64)).log2();
+            if cents.abs() > OUT_OF_TUNE {
+                off.push((index + 1, fret, cents));
+            }
+        }
+    }
+    let farthest = off.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
+    Ok(farthest.map(|(string, fret, cents)| {
+        let others = match off.len() {
+            1 => String::new(),
+            2 => ", and 1 other by less".to_owned(),
+            count => format!(", and {} others by less", count - 1),
+        };
+        format!(
+            "fret {fret} of string {string} cannot be brought in tune: it is off by {cents:+.0} cents{others}"
+        )
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::{Engine, EngineOptions};
+    use crate::setups::SHIPPED;
+
+    fn told(setup: Setup, rate: f64, quality: Quality) -> Option<String> {
+        let options = EngineOptions { quality, ..EngineOptions::new(setup, rate) };
+        let engine = Engine::new(&options).unwrap();
+        out_of_tune(&options.setup, engine.instrument(), quality).unwrap()
+    }
+
+    #[test]
+    fn of_all_but_two_that_come_with_the_program_every_fret_is_in_tune() {
+        for name in SHIPPED {
+            // Strings that lie on the bridge, and fingers that hardly hold them.
+            let is_off = matches!(name, "sitar" | "light-fingers");
+            for rate in [44_100.0, 48_000.0] {
+                let said = told(Setup::shipped(name).unwrap(), rate, Quality::Live);
+                assert_eq!(said.is_some(), is_off, "{name}: {said:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn frets_beyond_what_moving_them_can_mend_are_told_of() {
+        let setup = "based_on = \"electric\"\n[neck]\nfrets = 30\n";
+        let said = told(Setup::from_toml(setup).unwrap(), 48_000.0, Quality::Live).unwrap();
+        let worst =
+            "fret 30 of string 5 cannot be brought in tune: it is off by +69 cents, and 2 others by less";
+        assert_eq!(said, worst);
+        // As sharp as pressing makes it is what was asked for.
+        let physical = setup.replace("[neck]", "intonation = \"physical\"\n[neck]");
+        assert_eq!(told(Setup::from_toml(&physical).unwrap(), 48_000.0, Quality::Live), None);
+    }
+}
