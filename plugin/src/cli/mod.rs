@@ -203,7 +203,34 @@ pub(crate) fn unless_closed(written: std::io::Result<()>) -> anyhow::Result<()> 
     }
 }
 
-/// A message folded into one line, without orders to the terminal.
+/// A message folded into one line, without orders to the terminal. Within its lines nothing is folded: names may have any number
+/// of spaces.
 pub(crate) fn one_line(text: &str) -> String {
-    names::escaped(&text.split_whitespace().collect::<Vec<_>>().join(" "))
+    let mut lines = text.split(['\n', '\r', '\u{2028}', '\u{2029}']);
+    let first = lines.next().unwrap_or_default().to_owned();
+    let folded = lines.map(str::trim).filter(|line| !line.is_empty()).fold(first, |before, line| {
+        let before = before.trim_end();
+        if before.is_empty() { line.to_owned() } else { format!("{before} {line}") }
+    });
+    names::escaped(&folded)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_folded_and_names_are_not() {
+        for (text, expected) in [
+            ("cannot read a  b   .mid", "cannot read a  b   .mid"),
+            ("one\n  two  three\r\n\n | four\n", "one two  three | four"),
+            ("\none\u{2028}two", "one two"),
+            ("one \n two ", "one two"),
+            ("\u{1b}\t", "\\u{1b}\\t"),
+            (" ", " "),
+            ("", ""),
+        ] {
+            assert_eq!(one_line(text), expected);
+        }
+    }
 }
