@@ -237,10 +237,9 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     if arguments.bit_depth != BitDepth::Float32 {
         for (name, findings) in [("sound", mix), ("strings' own sound", stems)] {
             if findings.peak > 1.0 {
-                // Rounded up: what is clipped is not at 0.
-                let peak = (10.0 * decibels(findings.peak)).ceil() / 10.0;
+                let peak = level(findings.peak);
                 let advice = "use --bit-depth 32f or a set-up with less gain";
-                warn(arguments, &format!("the {name} peaks at {peak:+.1} dBFS and is clipped: {advice}"));
+                warn(arguments, &format!("the {name} peaks at {peak} dBFS and is clipped: {advice}"));
             }
         }
     }
@@ -250,13 +249,38 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
         let text = format!("{not_finite} samples of {name} are not finite numbers; the file is kept");
         return Err(Failure::Check(text));
     }
-    let peak = if mix.peak > 0.0 { format!("peak {:.1} dBFS", decibels(mix.peak)) } else { "silent".into() };
+    let clipped = mix.peak > 1.0 && arguments.bit_depth != BitDepth::Float32;
+    let peak = match mix.peak {
+        0.0 => "silent".into(),
+        _ if clipped => format!("peak {} dBFS, clipped", level(1.0)),
+        peak => format!("peak {} dBFS", level(peak)),
+    };
     let speed = seconds / elapsed.max(1e-9);
     say(&name, &format!("{seconds:.2} s, {peak}, {speed:.1} times faster than real time"));
     Ok(())
 }
 
-/// A size as a level, 1 is 0 dB.
-fn decibels(size: f32) -> f64 {
-    20.0 * f64::from(size).log10()
+/// A size as a level in dB, 1 is 0. Above that it is rounded up: what is clipped is not at 0.
+fn level(size: f32) -> String {
+    let tenths = 200.0 * f64::from(size).log10();
+    if size > 1.0 { format!("{:+.1}", tenths.ceil() / 10.0) } else { format!("{:.1}", tenths / 10.0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_above_full_scale_is_shown_above_it() {
+        for (size, expected) in [
+            (1.0, "0.0"),
+            (1.000_001, "+0.1"),
+            (1.1, "+0.9"),
+            (1.11, "+1.0"),
+            (0.5, "-6.0"),
+            (1e-6, "-120.0"),
+        ] {
+            assert_eq!(level(size), expected, "{size}");
+        }
+    }
 }

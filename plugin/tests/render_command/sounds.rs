@@ -320,8 +320,13 @@ fn clipping_is_said_and_saturates() {
     let said = room.renders(&arguments);
     assert!(said.contains("warning: song.mid: the sound peaks at +") && said.contains("clipped"), "{said}");
     assert_eq!(peak(&room.path("loud.wav")), 1.0);
+    // The file's own peak is another matter than the sound's.
+    assert!(said.contains(" s, peak 0.0 dBFS, clipped, "), "{said}");
+    let above =
+        said.split_once("peaks at ").and_then(|(_, rest)| rest.split_once(" dBFS")).unwrap().0.to_owned();
     let said = room.renders(&[&arguments[..], &["--bit-depth", "32f"]].concat());
     assert!(!said.contains("warning"), "{said}");
+    assert!(said.contains(&format!(" s, peak {above} dBFS, ")), "{said} {above}");
     assert!(peak(&room.path("loud.wav")) > 1.0);
 }
 
