@@ -142,14 +142,6 @@ fn read_song(arguments: &RenderArgs) -> Result<Song> {
 /// Refuses music that would take hours, or more than a WAV file holds.
 fn check_length(arguments: &RenderArgs, song: &Song) -> Result<()> {
     let minutes = song.duration() / 60.0;
-    let limit = arguments.max_length;
-    if minutes > limit {
-        bail!(
-            "the music lasts {} minutes, over the limit of {}: raise it with --max-length MIN",
-            plain(at_least(minutes)),
-            plain(limit)
-        );
-    }
     let rate = f64::from(arguments.sample_rate);
     // (How long notes will wait for strings after the song nobody knows before.)
     let longest = (arguments.bit_depth.largest_length(2) as f64 / rate - LONGEST_WAIT) / 60.0;
@@ -161,6 +153,15 @@ fn check_length(arguments: &RenderArgs, song: &Song) -> Result<()> {
             plain(at_most(longest)),
             arguments.sample_rate,
             arguments.bit_depth
+        );
+    }
+    // (Only of what fits: a higher limit would be no help to the rest.)
+    let limit = arguments.max_length;
+    if minutes > limit {
+        bail!(
+            "the music lasts {} minutes, over the limit of {}: raise it with --max-length MIN",
+            plain(at_least(minutes)),
+            plain(limit)
         );
     }
     Ok(())
