@@ -17,6 +17,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, anyhow, bail};
 use low_action_dsp::digits::{at_least, at_most, plain};
 
+use super::descriptors::descriptor;
 use super::names::{escaped, shown};
 use super::paths::{is_dash, keep_apart};
 pub use super::wav::BitDepth;
@@ -172,7 +173,8 @@ fn output_path(arguments: &RenderArgs) -> Result<PathBuf> {
     match (&arguments.output, &arguments.song) {
         (Some(output), _) => Ok(output.clone()),
         (None, None) => Ok("demo.wav".into()),
-        (None, Some(song)) if is_dash(song) => Ok("song.wav".into()),
+        // What is open already has a number and no name: `render <(...)` is given a pipe as `/dev/fd/63`.
+        (None, Some(song)) if descriptor(song).is_some() => Ok("song.wav".into()),
         (None, Some(song)) => {
             let stem = song.file_stem().ok_or_else(|| anyhow!("{} is not a file's name", shown(song)))?;
             let mut name = stem.to_owned();

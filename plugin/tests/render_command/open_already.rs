@@ -76,3 +76,24 @@ fn any_number_of_it_is_added_to() {
     let said = room.refuses(1, &[&BRIEF[..], &["-o", "/dev/fd/77"]].concat());
     assert!(said.contains("cannot write /dev/fd/77"), "{said}");
 }
+
+#[test]
+fn a_song_that_is_open_already_has_no_name() {
+    let room = Room::new();
+    for (song, redirected) in
+        [("/dev/fd/3", "3< song.mid"), ("/dev/stdin", "< song.mid"), ("-", "< song.mid")]
+    {
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", &format!("\"$@\" {redirected}"), "sh"]);
+        let program = room.command(&[&["render", song], &BRIEF[2..]].concat());
+        let done = shell
+            .arg(program.get_program())
+            .args(program.get_args())
+            .current_dir(room.path(""))
+            .output()
+            .unwrap();
+        assert!(done.status.success(), "{done:?}");
+        assert_eq!(room.files(), [room.path("song.mid"), room.path("song.wav")], "{song}");
+        fs::remove_file(room.path("song.wav")).unwrap();
+    }
+}
