@@ -1,6 +1,7 @@
 //! WAV files of the three sample formats, and what is known of the sound once it is written.
 
 mod header;
+mod room;
 
 use std::fmt;
 use std::fs::File;
@@ -13,6 +14,7 @@ use hound::{SampleFormat, WavSpec, WavWriter};
 
 use super::names::shown;
 use super::output::Draft;
+use room::WithRoom;
 
 /// Bytes a WAV file can hold: sizes are 32-bit, and the header takes some.
 const LARGEST_FILE: u64 = u32::MAX as u64 - 1024;
@@ -82,7 +84,7 @@ pub(super) struct Findings {
 pub(super) struct WavFile {
     path: PathBuf,
     draft: Draft,
-    writer: WavWriter<BufWriter<File>>,
+    writer: WavWriter<BufWriter<WithRoom<File>>>,
     depth: BitDepth,
     /// Samples of all channels that it still has room for.
     left: u64,
@@ -101,7 +103,7 @@ impl WavFile {
         let writer = draft
             .handle()
             .map_err(hound::Error::from)
-            .and_then(|file| WavWriter::new(BufWriter::new(file), spec))
+            .and_then(|file| WavWriter::new(BufWriter::new(WithRoom::new(file, sample_format)), spec))
             .with_context(|| format!("cannot write {}", shown(path)))?;
         let left = depth.largest_length(channels) * u64::from(channels);
         Ok(Self { path: path.to_owned(), draft, writer, depth, left, findings: Findings::default() })

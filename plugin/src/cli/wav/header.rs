@@ -8,24 +8,40 @@ const FORMAT: u64 = 20;
 const EXTENSIBLE: [u8; 2] = [0xFE, 0xFF];
 const CHANNELS: u64 = 22;
 const CHANNEL_MASK: u64 = 40;
+const SAMPLE_FORMAT: u64 = 44;
+const FLOATING_POINT: [u8; 2] = [3, 0];
+
+/// Where the chunk `fact` stands in files of floating point, and its bytes: how many frames there are. Microsoft's standard asks
+/// for one of all formats but whole numbers.
+pub(super) const FACT: u64 = 60;
+pub(super) const FACT_SIZE: u64 = 12;
+/// Where the size of the data stands behind it.
+const DATA_SIZE: u64 = FACT + FACT_SIZE + 4;
 
 /// The loudspeaker of a single channel, in front in the middle. (`hound` says left, which encoders refuse.)
 const CENTRE: u32 = 4;
 
-/// Mends a finished file: a single channel is in the middle, and the data are padded to an even length.
+/// Mends a finished file: a single channel is in the middle, floating point has its `fact`, for which there is [room](super::room),
+/// and the data are padded to an even length.
 pub(super) fn mend(file: &mut (impl Read + Write + Seek)) -> Result<()> {
     let (format, channels) = (field(file, FORMAT)?, field(file, CHANNELS)?);
     if format == EXTENSIBLE && u16::from_le_bytes(channels) == 1 {
         put(file, CHANNEL_MASK, &CENTRE.to_le_bytes())?;
     }
+    // (Of whole numbers of 16 bits there are data at that place.)
+    if format == EXTENSIBLE && field(file, SAMPLE_FORMAT)? == FLOATING_POINT {
+        let frames =
+            u32::from_le_bytes(field(file, DATA_SIZE)?) / (4 * u32::from(u16::from_le_bytes(channels)));
+        let fact = [&b"fact"[..], &4_u32.to_le_bytes(), &frames.to_le_bytes()].concat();
+        put(file, FACT, &fact)?;
+    }
     let length = file.seek(SeekFrom::End(0))?;
     if !length.is_multiple_of(2) {
-        // The size of the whole counts this byte; that of the data does not.
+        // (The size of the whole counts this byte; that of the data does not.)
         file.write_all(&[0])?;
-        let size = u32::from_le_bytes(field(file, SIZE)?);
-        put(file, SIZE, &(size + 1).to_le_bytes())?;
     }
-    Ok(())
+    let size = file.seek(SeekFrom::End(0))? as u32 - 8;
+    put(file, SIZE, &size.to_le_bytes())
 }
 
 fn field<const BYTES: usize>(file: &mut (impl Read + Seek), place: u64) -> Result<[u8; BYTES]> {
@@ -46,6 +62,7 @@ mod tests {
 
     use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
 
+    use super::super::room::WithRoom;
     use super::*;
 
     /// A mended file of so many frames of one sample.
@@ -53,7 +70,7 @@ mod tests {
         let sample_format = if bits_per_sample == 32 { SampleFormat::Float } else { SampleFormat::Int };
         let spec = WavSpec { channels, sample_rate: 48_000, bits_per_sample, sample_format };
         let mut file = Cursor::new(Vec::new());
-        let mut writer = WavWriter::new(&mut file, spec).unwrap();
+        let mut writer = WavWriter::new(WithRoom::new(&mut file, sample_format), spec).unwrap();
         for _ in 0..frames * channels {
             match sample_format {
                 SampleFormat::Int => writer.write_sample(-7).unwrap(),
@@ -83,7 +100,19 @@ mod tests {
             } else {
                 assert_eq!(bits, 16, "{of}");
             }
-            let reader = WavReader::new(Cursor::new(file)).unwrap();
+            let fact = file.windows(4).position(|four| four == b"fact");
+            assert_eq!(fact, (bits == 32).then_some(60), "{of}");
+            if let Some(fact) = fact {
+                assert_eq!(
+                    (number(fact + 4), number(fact + 8), data),
+                    (4, u32::from(frames), fact + 12),
+                    "{of}"
+                );
+            }
+            let mut reader = WavReader::new(Cursor::new(file)).unwrap();
+            if bits == 32 {
+                assert!(reader.samples::<f32>().all(|sample| sample.unwrap() == -7.0), "{of}");
+            }
             assert_eq!((reader.spec().bits_per_sample, reader.duration()), (bits, u32::from(frames)), "{of}");
         }
     }
