@@ -8,6 +8,7 @@ mod handover_any;
 mod handover_books;
 mod impossible_gestures;
 mod level;
+mod low_rates;
 mod no_allocation;
 mod presets;
 mod same_bits;
