@@ -54,29 +54,67 @@ impl Curve {
         }
     }
 
-    /// Refuses an empty or unordered list and every value outside `[low, high]`; `over` is what the
-    /// points are placed in, "time" or "place".
-    pub(crate) fn check(&self, name: &str, over: &str, low: f64, high: f64, unit: &str) -> Result<(), Error> {
+    /// Refuses an empty or unordered list, points elsewhere than `along` has them and every value outside `[low, high]`.
+    pub(crate) fn check(
+        &self,
+        name: &str,
+        along: Along,
+        low: f64,
+        high: f64,
+        unit: &str,
+    ) -> Result<(), Error> {
+        self.check_each(name, along, |name, value| within(name, value, low, high, unit))
+    }
+
+    /// The same where values are refused by `refused`, which is given the name of each.
+    pub(crate) fn check_each(
+        &self,
+        name: &str,
+        along: Along,
+        refused: impl Fn(&str, f64) -> Result<f64, Error>,
+    ) -> Result<(), Error> {
         let points = match self {
-            Curve::Constant(value) => return within(name, *value, low, high, unit).map(drop),
+            Curve::Constant(value) => return refused(name, *value).map(drop),
             Curve::Points(points) => points,
         };
         if points.is_empty() {
             return Err(Error::range(name, "[]", "a list of points must have at least one"));
         }
+        let Along { over, unit, from, to } = along;
         let mut before = f64::NEG_INFINITY;
         for (i, &[place, value]) in points.iter().enumerate() {
             let number = i + 1;
             let place_name = format!("{over} of point {number} of {name}");
-            within(&place_name, place, -FARTHEST, FARTHEST, "")?;
+            within(&place_name, place, from, to, unit)?;
             if place <= before {
-                let accepted = format!("it must be above that of the point before, {}", plain(before));
+                let accepted = format!("it must be above that of the point before, {} {unit}", plain(before));
                 return Err(Error::range(place_name, plain(place), accepted));
             }
             before = place;
-            within(&format!("value of point {number} of {name}"), value, low, high, unit)?;
+            refused(&format!("value of point {number} of {name}"), value)?;
         }
         Ok(())
+    }
+}
+
+/// What the points of a curve are placed in, and where they may be.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Along {
+    over: &'static str,
+    unit: &'static str,
+    from: f64,
+    to: f64,
+}
+
+impl Along {
+    /// Any time.
+    pub const TIME: Along = Along { over: "time", unit: "s", from: -FARTHEST, to: FARTHEST };
+    /// Any place.
+    pub const ANYWHERE: Along = Along { over: "place", unit: "m", from: -FARTHEST, to: FARTHEST };
+
+    /// The places of a string of so many m, its ends among them.
+    pub fn string(length: f64) -> Self {
+        Along { from: 0.0, to: length, ..Self::ANYWHERE }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Contact, ContactKind};
 use crate::contact::ContactLaw;
-use crate::curve::{CountOrList, Curve, OneOrEach};
+use crate::curve::{Along, CountOrList, Curve, OneOrEach};
 use crate::error::{Error, ranged, within};
 use crate::grid::{AT_NODE, Grid, Reading};
 use crate::scene::{FretPlacement, FretboardSpec};
@@ -66,7 +66,7 @@ impl Barrier {
     fn check(&self) -> Result<(), Error> {
         ranged("fretboard.damping", self.damping, Self::DAMPING, "s/m")?;
         if let Some(board) = &self.board {
-            board.check("fretboard.board", "place", -Self::FARTHEST, Self::FARTHEST, "m")?;
+            board.check("fretboard.board", Along::ANYWHERE, -Self::FARTHEST, Self::FARTHEST, "m")?;
         }
         for (i, [_, height]) in self.frets.iter().enumerate() {
             within(&format!("fretboard.fret_top[{}]", i + 1), *height, -Self::FARTHEST, Self::FARTHEST, "m")?;

@@ -2,7 +2,7 @@
 
 use super::{FingerSpec, FretboardSpec, ListeningPoint, Scene, SolverSettings, StringSpec};
 use crate::contact::ContactLaw;
-use crate::curve::{CountOrList, Curve, MOST_COUNTED, MOST_FRETS, OneOrEach};
+use crate::curve::{Along, CountOrList, Curve, MOST_COUNTED, MOST_FRETS, OneOrEach};
 use crate::error::{Error, on_string, ranged, within};
 use crate::gesture::{FASTEST, MOST_CLEARANCE, MOST_FORCE};
 use crate::model::{Barrier, Model, StringParameters};
@@ -98,7 +98,7 @@ impl StringSpec {
             |key: &str, value, range, unit| ranged(&format!("{name}.{key}"), value, range, unit).map(drop);
         number("linear_density", self.linear_density, StringParameters::LINEAR_DENSITY, "kg/m")?;
         let [least, most] = StringParameters::TENSION;
-        self.tension.check(&format!("{name}.tension"), "time", least, most, "N")?;
+        self.tension.check(&format!("{name}.tension"), Along::TIME, least, most, "N")?;
         number("youngs_modulus", self.youngs_modulus, StringParameters::YOUNGS_MODULUS, "Pa")?;
         number("core_radius", self.core_radius, StringParameters::CORE_RADIUS, "m")?;
         number("loss_0", self.loss_0, StringParameters::LOSS_0, "1/s")?;
@@ -108,10 +108,7 @@ impl StringSpec {
         {
             let Some(points) = points else { continue };
             let name = format!("{name}.{key}");
-            Curve::Points(points.clone()).check(&name, "place", -most, most, unit)?;
-            for (i, &[place, _]) in points.iter().enumerate() {
-                within(&format!("place of point {} of {name}", i + 1), place, 0.0, self.length, "m")?;
-            }
+            Curve::Points(points.clone()).check(&name, Along::string(self.length), -most, most, unit)?;
         }
         Ok(())
     }
@@ -123,7 +120,7 @@ impl FretboardSpec {
         ContactLaw::new("fretboard", self.stiffness, self.exponent)?;
         ranged("fretboard.damping", self.damping, Barrier::DAMPING, "s/m")?;
         if let Some(board) = &self.board {
-            board.check("fretboard.board", "place", -Barrier::FARTHEST, 0.0, "m")?;
+            board.check("fretboard.board", Along::ANYWHERE, -Barrier::FARTHEST, 0.0, "m")?;
         }
         if let Some(spacing) = self.board_reference_spacing {
             ranged("fretboard.board_reference_spacing", spacing, Barrier::REFERENCE_SPACING, "m")?;
@@ -170,16 +167,8 @@ impl FingerSpec {
         self.touch().check(name)?;
         within(&format!("{name}.height"), self.height, -MOST_CLEARANCE, MOST_CLEARANCE, "m")?;
         within(&format!("{name}.velocity"), self.velocity, -FASTEST, FASTEST, "m/s")?;
-        self.force.check(&format!("{name}.force"), "time", -MOST_FORCE, MOST_FORCE, "N")?;
-        match &self.position {
-            Curve::Constant(place) => on_string(&format!("{name}.position"), *place, length).map(drop)?,
-            Curve::Points(points) => {
-                self.position.check(&format!("{name}.position"), "time", f64::MIN, f64::MAX, "m")?;
-                for (i, point) in points.iter().enumerate() {
-                    on_string(&format!("value of point {} of {name}.position", i + 1), point[1], length)?;
-                }
-            }
-        }
-        Ok(())
+        self.force.check(&format!("{name}.force"), Along::TIME, -MOST_FORCE, MOST_FORCE, "N")?;
+        let on_string = |name: &str, place| on_string(name, place, length);
+        self.position.check_each(&format!("{name}.position"), Along::TIME, on_string)
     }
 }

@@ -99,10 +99,15 @@ fn values_out_of_range_are_refused() {
         (
             "tension = 60.0",
             "tension = [[1, 60], [0.5, 60]]",
-            &["time of point 2 of string[1].tension = 0.5", "above"],
+            &["time of point 2 of string[1].tension = 0.5", "above that of the point before, 1 s"],
         ),
         ("tension = 60.0", "tension = [[0, 60], [1, -2]]", &["value of point 2 of string[1].tension = -2"]),
         ("tension = 60.0", "tension = 60\nshape = [[0.1, 0.001], [0.7, 0]]", &["shape = 0.7", "0.65"]),
+        (
+            "tension = 60.0",
+            "tension = 60\nshape = [[nan, 0.0]]",
+            &["place of point 1 of string[1].shape = NaN", "between 0 and 0.65 m"],
+        ),
         (
             "tension = 60.0",
             "tension = 60\nvelocity = [[0.1, 1], [0.7, 0]]",
@@ -142,6 +147,16 @@ fn values_out_of_range_are_refused() {
             "position = 0.2",
             "position = [[0, 0.2], [1, 0.8]]",
             &["point 2 of finger[1].position = 0.8", "0.65 m"],
+        ),
+        (
+            "position = 0.2",
+            "position = [[0.0, nan]]",
+            &["value of point 1 of finger[1].position = NaN", "above 0 and below 0.65 m"],
+        ),
+        (
+            "position = 0.2",
+            "position = [[nan, 0.2]]",
+            &["time of point 1 of finger[1].position = NaN", "between -1e9 and 1e9 s"],
         ),
         ("position = 0.2", "position = 0.2\nheight = 11", &["finger[1].height = 11", "m"]),
         (
