@@ -25,7 +25,7 @@ pub enum Error {
     Unknown {
         /// What kind of thing was looked for.
         kind: &'static str,
-        /// The name given.
+        /// The name given, as one line of printable characters.
         name: String,
         /// The names there are.
         accepted: String,
@@ -40,6 +40,11 @@ impl Error {
         accepted: impl Into<String>,
     ) -> Self {
         Error::OutOfRange { name: name.into(), value: value.to_string(), accepted: accepted.into() }
+    }
+
+    /// A name that nothing goes by. (It may stand in a file, which may hold anything.)
+    pub(crate) fn unknown(kind: &'static str, name: &str, accepted: String) -> Self {
+        Error::Unknown { kind, name: printable(name), accepted }
     }
 
     /// The same error with the place it arose in before the name; of a fretboard, neck, bridge or hand that several

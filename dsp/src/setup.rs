@@ -170,10 +170,8 @@ impl Setup {
     pub fn from_toml(text: &str) -> Result<Setup, Error> {
         let base = |name: &str| {
             let found = FILES.iter().find(|(known, _)| *known == name);
-            found.map(|(_, text)| *text).ok_or_else(|| Error::Unknown {
-                kind: "set-up",
-                name: name.into(),
-                accepted: format!("it must be {}", Self::BUILTIN.join(", ")),
+            found.map(|(_, text)| *text).ok_or_else(|| {
+                Error::unknown("set-up", name, format!("it must be {}", Self::BUILTIN.join(", ")))
             })
         };
         let setup: Setup = crate::preset::read(text, base)?;
