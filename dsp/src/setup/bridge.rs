@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::digits::{at_least, at_most, plain};
 use crate::error::{Error, within};
 use crate::grid::Grid;
+use crate::model::Barrier;
 use crate::neck::Neck;
 
 /// A wide bridge that falls away under the strings, as on sitar and tanpura: its top is at the saddle, where
@@ -15,7 +16,7 @@ pub struct Bridge {
     /// How far it reaches from the saddle under the strings, m: 1e-4 or more, clear of the board, and as far at least as the grid
     /// points of each string are apart.
     pub length: f64,
-    /// Radius of its curve, m, 1e-3 to 1e3: at x from the saddle it is x²/(2·radius) below the string.
+    /// Radius of its curve, m, 1e-3 to 1e3: at x from the saddle it is x²/(2·radius) below the string, 10 m at most where it ends.
     pub radius: f64,
 }
 
@@ -43,7 +44,20 @@ impl Bridge {
             let accepted = format!("it must lie between {} and {most} m, clear of the board", plain(least));
             return Err(Error::range("bridge.length", plain(self.length), accepted));
         }
-        within("bridge.radius", self.radius, 1e-3, 1e3, "m").map(drop)
+        let (tightest, widest) = (1e-3, 1e3);
+        within("bridge.radius", self.radius, tightest, widest, "m")?;
+        if self.height(self.length) >= -Barrier::FARTHEST {
+            return Ok(());
+        }
+        let tightest = at_least(self.length * self.length / (2.0 * Barrier::FARTHEST));
+        let accepted = format!(
+            "of a bridge.length of {} m it must lie between {} and {} m, or the bridge ends more than {} m below the strings",
+            plain(self.length),
+            plain(tightest),
+            plain(widest),
+            plain(Barrier::FARTHEST),
+        );
+        Err(Error::range("bridge.radius", plain(self.radius), accepted))
     }
 
     /// Refuses one that lies between two points of a string's grid, and so would never be touched.

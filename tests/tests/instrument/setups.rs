@@ -387,6 +387,38 @@ fn a_bridge_leaves_room_for_the_edges_of_both() {
     Instrument::new(&longest, &Quality::Draft.settings(RATE)).expect("it can be built");
 }
 
+/// One that is curved so much that it ends beyond where a barrier may be is refused where it stands in the file; the radius that is
+/// named as the least can be built.
+#[test]
+fn a_bridge_that_falls_too_far_is_refused_by_its_radius() {
+    let read = |length: &str, radius: &str| {
+        let bridge =
+            format!("name = \"x\"\nbased_on = \"electric\"\n[bridge]\nlength = {length}\nradius = {radius}");
+        Setup::from_toml(&bridge).map_err(|error| error.to_string())
+    };
+    // 17²/2 mm below the string, in cm.
+    let error = read("0.17", "1e-3").expect_err("it falls 14 m");
+    let least = error
+        .strip_prefix("bridge.radius = 0.001 is refused: of a bridge.length of 0.17 m it must lie between ")
+        .and_then(|rest| rest.split(' ').next())
+        .unwrap_or_else(|| panic!("{error}"));
+    let mut setup = read("0.17", least).expect("it is named as the least");
+    setup.string.truncate(1);
+    assert!(Instrument::new(&setup, &Quality::Draft.settings(RATE)).is_ok(), "{least} m");
+    // 10 m, but for a part in thousands.
+    assert!(read("0.14", "1e-3").is_ok() && read("0.1415", "1e-3").is_err());
+}
+
+/// A name may be anything that fits between quotes: what is said of it is one short line all the same.
+#[test]
+fn a_base_of_any_name_is_refused_in_one_line() {
+    for name in ["a\\nb", "\\u001B[2J", "a\\r\\u0000\\tb", &"x".repeat(100_000)] {
+        let error = Setup::from_toml(&format!("based_on = \"{name}\"")).unwrap_err().to_string();
+        assert!(error.starts_with("set-up `") && error.contains("electric"), "{error:?}");
+        assert!(!error.chars().any(char::is_control) && error.len() < 1000, "{error:?}");
+    }
+}
+
 /// A bridge that no grid point is over would be none: grids are fine enough for a short one, and what is too short for any is
 /// refused. Those that are as long as real ones cost nothing.
 #[test]
