@@ -156,9 +156,10 @@ impl Inertia {
     /// fast as the continuous one, and a steady force moves it at F/R, whatever the step.
     pub fn new(touch: &Touch, time_step: f64) -> Self {
         let half_loss = 0.5 * touch.hand_damping * time_step;
-        let braked = half_loss / libm::tanh(half_loss / touch.mass);
-        // Without loss that is 0/0.
-        let mass = if braked > touch.mass { braked } else { touch.mass };
+        // Of a loss that is nothing beside the mass: without, below it would be 0/0, and of less than any normal number x/0.
+        let part = half_loss / touch.mass;
+        let braked = if part >= f64::MIN_POSITIVE { half_loss / libm::tanh(part) } else { touch.mass };
+        let mass = braked.max(touch.mass);
         let heft = mass + half_loss;
         Inertia { mass, mobility: time_step * time_step / heft, persistence: (mass - half_loss) / heft }
     }
