@@ -198,7 +198,7 @@ impl State {
     ///
     /// # Panics
     /// When the state, the drive or its readings, or the scratch are not made for this model: heights must be as many as its
-    /// contacts, or none.
+    /// contacts, or none, and of hands none may lack that has a finger.
     pub fn step(&mut self, model: &Model, drive: &Drive, scratch: &mut Scratch) -> Convergence {
         scratch.instructions.run(Step { state: self, model, drive, scratch })
     }

@@ -80,8 +80,9 @@ impl State {
     fn hold_fingers(&mut self, model: &Model, drive: &Drive, resting: bool, scratch: &mut Scratch) {
         let string = (&self.displacement, &self.motion);
         let mut squares = 0.0;
-        let (fingers, mut last) = (&mut self.fingers[..self.no_finger_from], 0);
-        let past = scratch.fingers.iter_mut().zip(&drive.hands);
+        let (from, mut last) = (self.no_finger_from, 0);
+        let fingers = &mut self.fingers[..from];
+        let past = scratch.fingers[..from].iter_mut().zip(&drive.hands[..from]);
         for (slot, (finger, (before, hand))) in fingers.iter_mut().zip(past).enumerate() {
             let Some(finger) = finger else {
                 if before.is_some() {
