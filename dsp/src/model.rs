@@ -16,6 +16,7 @@ use crate::finger::Inertia;
 use crate::flexibility::Flexibility;
 use crate::gesture::Touch;
 use crate::grid::{Grid, Reading};
+use crate::response::Needs;
 use crate::scene::{FretPlacement, MOST_FINGERS, SolverSettings, Stencil};
 use crate::skyline::Blocks;
 pub use barrier::Barrier;
@@ -57,9 +58,32 @@ impl Model {
     /// Compiles a string over a barrier, with room for so many fingers, 100 at most, at a sample rate in Hz, 1e3 to 1e7.
     ///
     /// # Errors
-    /// When a number is out of its range, the string is too short for its grid, a fret is off the string, or a contact is too
-    /// stiff to be told from rounding at this rate.
+    /// When a number is out of its range, the string is too short for its grid, a fret is off the string, a contact is too
+    /// stiff to be told from rounding at this rate, or contacts are so crowded that what they are to each other takes more than
+    /// [`MOST_NUMBERS`].
     pub fn new(
+        string: StringParameters,
+        barrier: Option<&Barrier>,
+        finger_slots: usize,
+        settings: SolverSettings,
+        sample_rate: f64,
+    ) -> Result<Model, Error> {
+        let model = Self::of_any_crowd(string, barrier, finger_slots, settings, sample_rate)?;
+        // As many as all squared, twice: of few contacts nothing need be counted.
+        let all = (model.contacts.len() + finger_slots) as f64;
+        if 2.0 * all * all <= MOST_NUMBERS as f64 || model.numbers() <= MOST_NUMBERS {
+            return Ok(model);
+        }
+        let accepted = format!(
+            "contacts that share grid points are too many: how each answers each may take {} numbers, with {finger_slots} fingers",
+            plain(MOST_NUMBERS as f64)
+        );
+        let frets = barrier.map_or(0, |barrier| barrier.frets.len());
+        Err(Error::range("number of fretboard.frets", frets, accepted))
+    }
+
+    /// The same however crowded contacts are: for whoever counts what several strings need together.
+    pub(crate) fn of_any_crowd(
         string: StringParameters,
         barrier: Option<&Barrier>,
         finger_slots: usize,
@@ -164,6 +188,16 @@ impl Model {
         Stiffness::new(self.settings.stencil, self.string.linear_density, tension, kappa_squared, &self.grid)
     }
 
+    /// How many numbers say how contacts and fingers answer one another.
+    pub(crate) fn numbers(&self) -> usize {
+        Needs::numbers(&self.spans(), self.finger_slots)
+    }
+
+    /// How many steps it may take to solve once for all contacts and fingers.
+    pub(crate) fn contact_work(&self) -> f64 {
+        Needs::work(&self.spans(), self.finger_slots)
+    }
+
     /// The grid points that each fixed contact touches, from the first to the one after the last, in the order in which many
     /// are solved.
     pub(crate) fn spans(&self) -> Vec<(usize, usize)> {
@@ -233,6 +267,10 @@ const LEAST_INTERVALS: usize = 4;
 /// Between these the length is looked for that a string must have, m, whatever numbers there are to begin with.
 const SHORTEST: f64 = 1e-9;
 const LONGEST: f64 = 1e9;
+
+/// The most numbers that say how the contacts of a string, or of all strings of a scene, answer one another: as many for a crowd of
+/// contacts that share grid points as twice its square.
+pub const MOST_NUMBERS: usize = 100_000_000;
 
 /// The most intervals of a grid, a limit against descriptions that would fill the memory.
 const MOST_INTERVALS: usize = 1_000_000;

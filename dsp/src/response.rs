@@ -91,6 +91,8 @@ pub(crate) struct Needs {
     entries: usize,
     /// Contacts in the largest block.
     largest: usize,
+    /// Cubes of the numbers of contacts in the blocks, all together.
+    cubes: f64,
 }
 
 impl Needs {
@@ -120,13 +122,21 @@ impl Needs {
         let largest = blocks.iter().map(|block| block.0).max().unwrap_or(0).max(joined);
         let square = |contacts: usize| contacts.saturating_mul(contacts);
         let fixed = blocks.iter().fold(0usize, |sum, block| sum.saturating_add(square(block.0)));
-        Needs { entries: fixed.saturating_add(square(joined)).min(square(all)), largest }
+        let cube = |contacts: usize| (contacts as f64).powi(3);
+        let cubes = blocks.iter().fold(cube(joined), |sum, block| sum + cube(block.0)).min(cube(all));
+        Needs { entries: fixed.saturating_add(square(joined)).min(square(all)), largest, cubes }
     }
 
     /// How many numbers a [`Response`] to fixed contacts with these spans and so many fingers keeps.
     pub fn numbers(spans: &[(usize, usize)], fingers: usize) -> usize {
-        let Needs { entries, largest } = Needs::of(spans, fingers);
+        let Needs { entries, largest, .. } = Needs::of(spans, fingers);
         entries.saturating_add(largest.saturating_mul(largest))
+    }
+
+    /// How many steps it may take to gather them and to solve with them once, a third of the cube of each block: at worst, where
+    /// all contacts are active and fingers join as many as they can.
+    pub fn work(spans: &[(usize, usize)], fingers: usize) -> f64 {
+        Self::numbers(spans, fingers) as f64 + Needs::of(spans, fingers).cubes / 3.0
     }
 }
 
@@ -135,7 +145,7 @@ impl Response {
     /// all that can be active at once, but for no square of a long board.
     pub fn with_capacity(spans: &[(usize, usize)], fingers: usize) -> Self {
         let all = spans.len() + fingers;
-        let Needs { entries, largest } = Needs::of(spans, fingers);
+        let Needs { entries, largest, .. } = Needs::of(spans, fingers);
         Response {
             blocks: Roomy::with_capacity(all),
             starts: Roomy::with_capacity(all),

@@ -6,6 +6,7 @@ use crate::digits::{at_most, plain};
 use crate::energy::Ledger;
 use crate::entry::Entry;
 use crate::error::Error;
+pub use crate::model::MOST_NUMBERS;
 use crate::model::{Model, StringParameters};
 use crate::scene::Scene;
 use scene_string::Clock;
@@ -32,10 +33,12 @@ impl Simulation {
         let points = check_size(scene)?;
         // Made one after another, and none that there is no room for.
         let mut left = MOST_NUMBERS;
-        let strings = (0..scene.string.len())
+        let mut strings = (0..scene.string.len())
             .map(|index| SceneString::new(scene, index, &mut left))
-            .collect::<Result<_, Error>>()?;
-        check_work(scene, points, MOST_NUMBERS - left)?;
+            .collect::<Result<Vec<_>, Error>>()?;
+        let contacts = strings.iter().fold(0.0, |sum, string| sum + string.model.contact_work());
+        check_work(scene, points, contacts)?;
+        strings.iter_mut().for_each(SceneString::begin);
         Ok(Simulation {
             strings,
             sample_rate: scene.sample_rate,
@@ -141,11 +144,8 @@ impl Simulation {
 /// string gets at most that asks for more.)
 pub const MOST_POINTS: usize = 1_000_000;
 
-/// The most numbers that say how contacts answer one another, in all strings: as many for a crowd of contacts that share grid
-/// points as its square.
-pub const MOST_NUMBERS: usize = 100_000_000;
-
-/// The most steps of grid points, plucks, fingers and those numbers that a scene may take: hours of computing.
+/// The most steps of grid points, plucks, fingers and what contacts that share grid points may take that a scene may ask for: hours
+/// of computing. Contacts may take two numbers for each two of a crowd, and a third of its cube to solve for them.
 pub const MOST_WORK: f64 = 1e13;
 
 /// Refuses a scene that would fill the memory, before anything of its size is made. Returns how many grid points it has.
@@ -166,17 +166,17 @@ fn check_size(scene: &Scene) -> Result<usize, Error> {
     Ok(points)
 }
 
-/// Refuses a scene of so many grid points that would never end, with so many numbers that say how contacts answer one another.
-fn check_work(scene: &Scene, points: usize, numbers: usize) -> Result<(), Error> {
-    let things = (points + numbers + scene.pluck.len() + scene.finger.len()) as f64;
+/// Refuses a scene of so many grid points that would never end, in each sample of which contacts may take so many steps.
+fn check_work(scene: &Scene, points: usize, contacts: f64) -> Result<(), Error> {
+    let things = (points + scene.pluck.len() + scene.finger.len()) as f64 + contacts;
     let work = things * scene.duration * scene.sample_rate;
     if work <= MOST_WORK {
         return Ok(());
     }
     let longest = MOST_WORK / (things * scene.sample_rate);
-    let contacts = match numbers {
-        0 => String::new(),
-        _ => format!(" and {numbers} numbers for contacts that share some"),
+    let contacts = match contacts {
+        0.0 => String::new(),
+        _ => format!(" and {contacts:.2e} numbers for contacts that share some"),
     };
     let accepted = format!(
         "with {points} grid points{contacts} at {} Hz it must lie between 0 and {} s",

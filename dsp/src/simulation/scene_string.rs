@@ -9,7 +9,6 @@ use crate::gesture::pluck_push;
 use crate::grid::Reading;
 use crate::model::{Barrier, ContactKind, Model, StringParameters};
 use crate::pickup::bridge_force;
-use crate::response::Needs;
 use crate::scene::{ListeningPoint, PluckSpec, Scene};
 use crate::solver::Convergence;
 use crate::state::State;
@@ -33,6 +32,8 @@ pub struct SceneString {
     pub(super) tension: Curve,
     /// The tension, N, if it stays as it is and nothing of the scene acts on the string: what most steps need not ask for.
     steady: Option<f64>,
+    /// Whether anything but rest is let go of at the first sample.
+    begins_held: bool,
     listening: Option<Reading>,
     fret_count: usize,
 }
@@ -101,11 +102,10 @@ impl SceneString {
             scene.finger.iter().enumerate().filter(|(_, finger)| finger.string == number).collect();
         let barrier = scene.fretboard.as_ref().map(|b| Barrier::from_spec(b, spec.length)).transpose()?;
         let parameters = StringParameters::from_spec(spec);
-        let model = Model::new(parameters, barrier.as_ref(), fingers.len(), scene.solver, scene.sample_rate)
+        let slots = fingers.len();
+        let model = Model::of_any_crowd(parameters, barrier.as_ref(), slots, scene.solver, scene.sample_rate)
             .map_err(|error| error.under(&format!("string[{number}]")))?;
-        *left = left
-            .checked_sub(Needs::numbers(&model.spans(), fingers.len()))
-            .ok_or_else(|| too_crowded(number))?;
+        *left = left.checked_sub(model.numbers()).ok_or_else(|| too_crowded(number))?;
         let mut state = State::new(&model);
         if let Some(shape) = &spec.shape {
             state.set_shape(&model, &Curve::Points(shape.clone()));
@@ -134,11 +134,8 @@ impl SceneString {
         };
         let mut drive = Drive::new(&model);
         drive.pushes.reserve(scene.pluck.len());
-        if spec.shape.is_some() || spec.velocity.is_some() || !fingers.is_empty() {
-            for (hand, (_, finger)) in drive.hands.iter_mut().zip(&fingers) {
-                *hand = Hand { position: finger.position.at(0.0), force: finger.force.at(0.0) };
-            }
-            state.let_go(&model, &drive);
+        for (hand, (_, finger)) in drive.hands.iter_mut().zip(&fingers) {
+            *hand = Hand { position: finger.position.at(0.0), force: finger.force.at(0.0) };
         }
         Ok(SceneString {
             plucks,
@@ -152,6 +149,7 @@ impl SceneString {
                 .collect(),
             tension: spec.tension.clone(),
             steady,
+            begins_held: spec.shape.is_some() || spec.velocity.is_some() || !fingers.is_empty(),
             fret_count: barrier.as_ref().map_or(0, |barrier| barrier.frets.len()),
             listening: match scene.output.position {
                 ListeningPoint::Bridge => None,
@@ -163,6 +161,13 @@ impl SceneString {
             state,
             model,
         })
+    }
+
+    /// Lets go of how the string begins: that solves for its contacts, which may take a while.
+    pub(super) fn begin(&mut self) {
+        if self.begins_held {
+            self.state.let_go(&self.model, &self.drive);
+        }
     }
 
     /// Fills the drive of the next step.
