@@ -144,7 +144,7 @@ impl ContactLaw {
     }
 
     /// The same law with another stiffness: every force and energy in proportion to it, beyond the knee too, which stays
-    /// where it is.
+    /// where it is. It is not looked at here: a [model](crate::Model::new) refuses those of frets and board that are out of range.
     pub fn with_stiffness(&self, stiffness: f64) -> Self {
         let times = stiffness / self.stiffness;
         let Knee { force, energy, slope } = self.at_knee;

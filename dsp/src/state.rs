@@ -9,7 +9,6 @@
 //! - `handover`: what it takes over from a string on another model.
 
 use crate::curve::Curve;
-use crate::digits::plain;
 use crate::error::{Error, within};
 use crate::field::{Ends, Field};
 use crate::finger::Finger;
@@ -28,6 +27,10 @@ pub(crate) struct Close {
     pub displacement: f64,
     pub before: f64,
 }
+
+/// How high or low a finger may be put, m: anywhere over a string that swings far, and not so far in it that the energy that pressing
+/// it there takes is none that numbers have.
+const FARTHEST: f64 = 1e30;
 
 /// The state of one string, its fingers and its contacts.
 #[derive(Debug, Clone, PartialEq)]
@@ -212,7 +215,7 @@ impl State {
         reading.of(&self.motion) / model.grid.time_step
     }
 
-    /// Puts a finger into a slot: at a place (m from the nut), a height (m, any that is finite) and a velocity (m/s, 1000
+    /// Puts a finger into a slot: at a place (m from the nut), a height (m, 1e30 either way) and a velocity (m/s, 1000
     /// either way). What was in the slot is taken away.
     ///
     /// # Errors
@@ -231,10 +234,7 @@ impl State {
         velocity: f64,
     ) -> Result<(), Error> {
         let position = model.grid.check_place("finger.position", position)?;
-        // Over a string that swings far it may be anywhere.
-        if !height.is_finite() {
-            return Err(Error::range("finger.height", plain(height), "it must be a finite number of metres"));
-        }
+        within("finger.height", height, -FARTHEST, FARTHEST, "m")?;
         within("finger.velocity", velocity, -FASTEST, FASTEST, "m/s")?;
         let law = model.finger_law(&touch)?;
         self.put_finger(slot, Finger::over(model, touch, law, position, height, velocity));

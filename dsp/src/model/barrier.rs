@@ -2,7 +2,7 @@
 
 use super::{Contact, ContactKind};
 use crate::contact::ContactLaw;
-use crate::curve::{Along, CountOrList, Curve, OneOrEach};
+use crate::curve::{Along, CountOrList, Curve, MOST_FRETS, OneOrEach};
 use crate::error::{Error, ranged, within};
 use crate::grid::{AT_NODE, Grid, Reading};
 use crate::scene::{FretPlacement, FretboardSpec};
@@ -15,13 +15,14 @@ pub(crate) fn equal_place(length: f64, fret: f64) -> f64 {
 /// Board and frets under one string.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Barrier {
-    /// Contact law of a fret, and of a board point unless `board_reference_spacing` is given.
+    /// Contact law of a fret, and of a board point unless `board_reference_spacing` is given; its stiffness 1e-3 to 1e30
+    /// N/m^exponent.
     pub law: ContactLaw,
     /// Hunt–Crossley damping of board and frets, s/m, 0 to 1e5.
     pub damping: f64,
     /// Height of the board, −10 to 10 m, over places, m, in increasing order; none beyond the ends of its points.
     pub board: Option<Curve>,
-    /// Places, m from the nut, and heights, −10 to 10 m, of the crowns.
+    /// Places, m from the nut, and heights, −10 to 10 m, of the crowns; 1000 at most.
     pub frets: Vec<[f64; 2]>,
     /// Where frets act on the grid.
     pub placement: FretPlacement,
@@ -64,10 +65,12 @@ impl Barrier {
 
     /// Refuses what no barrier can have. (Whether frets are on the string is seen on its grid.)
     fn check(&self) -> Result<(), Error> {
+        ranged("fretboard.stiffness", self.law.stiffness(), ContactLaw::STIFFNESS, "N/m^exponent")?;
         ranged("fretboard.damping", self.damping, Self::DAMPING, "s/m")?;
         if let Some(board) = &self.board {
             board.check("fretboard.board", Along::ANYWHERE, -Self::FARTHEST, Self::FARTHEST, "m")?;
         }
+        within("number of fretboard.frets", self.frets.len() as f64, 0.0, MOST_FRETS as f64, "")?;
         for (i, [_, height]) in self.frets.iter().enumerate() {
             within(&format!("fretboard.fret_top[{}]", i + 1), *height, -Self::FARTHEST, Self::FARTHEST, "m")?;
         }

@@ -146,7 +146,7 @@ fn fingers_that_cannot_be_are_refused() {
     for (wrong, shown) in [(-1e4, "-10000"), (1e4, "10000"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
         for (begins, name, range) in [
             ([wrong, 1e-3, -1.0], "position", "it must lie on the string, above 0 and below 0.65 m"),
-            ([0.3, wrong, -1.0], "height", "it must be a finite number of metres"),
+            ([0.3, wrong, -1.0], "height", "it must lie between -1e30 and 1e30 m"),
             ([0.3, 1e-3, wrong], "velocity", "it must lie between -1000 and 1000 m/s"),
         ] {
             // Over a string that swings far it may be anywhere.
@@ -234,4 +234,93 @@ fn boards_and_frets_that_cannot_be_are_refused() {
         build(Barrier { board_reference_spacing: Some(0.0), ..barrier() }),
         &["fretboard.board_reference_spacing = 0", "1e-6"],
     );
+    for (wrong, shown) in [(f64::NAN, "NaN"), (-1e10, "-1e10"), (0.0, "0"), (f64::INFINITY, "inf")] {
+        let law = barrier().law.with_stiffness(wrong);
+        let words = format!("fretboard.stiffness = {shown} is refused: it must lie between 0.001 and 1e30");
+        assert_refused(build(Barrier { law, ..barrier() }), &[&words]);
+    }
+}
+
+/// As many as a scene may have; and so crowded that how each answers each would fill the memory, no more than there is room for.
+#[test]
+fn more_frets_than_there_is_memory_for_are_refused() {
+    // At 10 MHz a string without stiffness has tens of thousands of points.
+    let string = StringParameters { youngs_modulus: 0.0, loss_1: 0.0, ..STRING };
+    let build = |frets: usize, fingers, board| {
+        let frets = (0..frets).map(|i| [0.3 + 1e-9 * i as f64, -1e-3]).collect();
+        let barrier = Barrier { frets, board, placement: FretPlacement::Exact, ..barrier() };
+        Model::new(string, Some(&barrier), fingers, SolverSettings::default(), 1e7)
+    };
+    assert_refused(build(100_000, 0, None), &["number of fretboard.frets = 100000", "between 0 and 1000"]);
+    assert!(build(1000, 0, None).is_ok());
+    // Each of a hundred fingers may join all frets, where these are crowded, to what the others touch of the board.
+    let board = Some(Curve::Constant(-2e-3));
+    assert_refused(
+        build(1000, 100, board.clone()),
+        &[
+            "number of fretboard.frets = 1000",
+            "share grid points are too many",
+            "1e8 numbers, with 100 fingers",
+        ],
+    );
+    assert!(build(10, 100, board).is_ok());
+}
+
+/// From as high or low as a finger may be put it throws the string wherever it may, and what there is stays a number: whatever pulls
+/// it back, and however hard the pad.
+#[test]
+fn fingers_as_far_as_may_be_leave_numbers() {
+    let model =
+        Model::new(STRING, Some(&barrier()), 1, SolverSettings::default(), RATE).expect("it can be built");
+    for height in [-1e30, -1e9, -1e3, 1e30] {
+        for stiffness in [1e3, 1e9] {
+            let touch = Touch { mass: 5e-3, stiffness, exponent: 1.5, damping: 1.0, hand_damping: 5.0 };
+            let (mut state, mut scratch) = (State::new(&model), Scratch::new(&model));
+            state.place_finger(&model, 0, touch, 0.3, height, 0.0).expect("it may be there");
+            let mut drive = Drive::new(&model);
+            drive.hands[0].position = 0.3;
+            for step in 0..200 {
+                state.step(&model, &drive, &mut scratch);
+                assert!(
+                    state.displacement().chain(state.motion()).all(f64::is_finite),
+                    "{height} m, {stiffness} N/m^1.5: step {step}"
+                );
+            }
+        }
+    }
+}
+
+/// A drive that lacks the hand of a finger is of another model. (It would hold that finger still for ever.)
+#[test]
+#[should_panic]
+fn a_drive_without_a_hand_for_each_finger_is_not_taken() {
+    let model = Model::new(STRING, None, 2, SolverSettings::default(), RATE).expect("it can be built");
+    let touch = Touch { mass: 5e-3, stiffness: 1e7, exponent: 2.0, damping: 1.0, hand_damping: 5.0 };
+    let (mut state, mut scratch) = (State::new(&model), Scratch::new(&model));
+    state.place_finger(&model, 1, touch, 0.3, 1e-3, 0.0).expect("it may be there");
+    let mut drive = Drive::new(&model);
+    drive.hands.truncate(1);
+    state.step(&model, &drive, &mut scratch);
+}
+
+/// A brake that is nothing beside the mass, be it less than any normal number, leaves a finger as free as none.
+#[test]
+fn a_brake_of_next_to_nothing_brakes_nothing() {
+    let model = Model::new(STRING, None, 1, SolverSettings::default(), RATE).expect("it can be built");
+    let height_after = |hand_damping| {
+        let touch = Touch { mass: 1000.0, stiffness: 1e7, exponent: 2.0, damping: 1.0, hand_damping };
+        let (mut state, mut scratch) = (State::new(&model), Scratch::new(&model));
+        state.place_finger(&model, 0, touch, 0.3, 1e-3, -1.0).expect("it may be there");
+        let mut drive = Drive::new(&model);
+        drive.hands[0].position = 0.3;
+        for _ in 0..100 {
+            state.step(&model, &drive, &mut scratch);
+        }
+        state.fingers()[0].map(|finger| finger.height)
+    };
+    let free = height_after(0.0);
+    assert!(free.is_some_and(|height| height.abs() < 1.0), "{free:?}");
+    for loss in [5e-324, 1e-318, 1e-310, 1e-305, 1e-300] {
+        assert_eq!(height_after(loss), free, "{loss:e} kg/s");
+    }
 }
