@@ -197,8 +197,9 @@ impl Hands {
                 let place = inside(position);
                 let rate = self.sample_rate;
                 let Some(held) = self.finger(finger) else { return false };
-                let least = (place - held.position.value()).abs() / FASTEST_SLIDE;
-                held.position.go_straight(place, samples(duration.max(least), rate));
+                // So many samples that none of its steps is longer than a hand's.
+                let least = ((place - held.position.value()).abs() / FASTEST_SLIDE * rate).ceil() as u64;
+                held.position.go_straight(place, samples(duration, rate).max(least));
                 true
             }
             Gesture::Lift { finger, force, duration } => {

@@ -67,6 +67,40 @@ fn places_beyond_the_string_are_its_ends() {
     assert!(from(10.0) != from(0.5 * length) && from(-10.0) != from(0.5 * length), "nothing slides");
 }
 
+/// However near it is and at once: a slide of little more than a sample of a hand's way takes two.
+#[test]
+fn no_slide_is_faster_than_a_hand() {
+    let mut setup = Setup::builtin("electric").expect("built in");
+    setup.string.truncate(1);
+    for rate in [44_100.0, 48_000.0] {
+        // One step a sample.
+        let mut instrument =
+            Instrument::new(&setup, &Quality::Draft.settings(rate)).expect("it can be built");
+        for samples in [0.4, 0.6, 1.1, 1.49, 1.51, 2.3, 7.49, 100.2] {
+            instrument.reset();
+            let (from, to) = (0.3, 0.3 + 10.0 * samples / rate);
+            let mut at = |time, gesture| {
+                instrument.schedule(TimedGesture { time, string: 0, gesture }).expect("there is room");
+            };
+            at(0, Gesture::Place { finger: FINGER, touch: PAD, position: from, clearance: 1e-3 });
+            at(10, Gesture::Slide { finger: FINGER, position: to, duration: 0.0 });
+            let mut places = Vec::new();
+            for _ in 0..130 {
+                instrument.process(&mut [0.0], &mut [0.0]);
+                places.push(instrument.state(0).fingers()[FINGER].expect("it is there").position);
+            }
+            let fastest = places.windows(2).map(|pair| (pair[1] - pair[0]).abs() * rate).fold(0.0, f64::max);
+            assert!(fastest <= 10.0 * (1.0 + 1e-9), "{samples} samples at {rate} Hz: {fastest} m/s");
+            // Nor slower than it must be: by a sample.
+            assert!(
+                fastest > 10.0 * samples / (samples + 1.0) * (1.0 - 1e-9),
+                "{samples} samples: {fastest} m/s"
+            );
+            assert!((places[129] - to).abs() < 1e-15, "{samples} samples: {} m, {to} m", places[129]);
+        }
+    }
+}
+
 /// It can take no more than all of the motion that a step begins with. Under that the string creeps back, partials p at c²γ²/(2σ₀)
 /// with σ₀ = 1/k, 20 p² a second, and does not ring at 2800 p: it moves 40 dB more slowly, or 26 with several partials together.
 #[test]
