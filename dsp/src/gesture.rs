@@ -220,8 +220,23 @@ pub struct TimedGesture {
 /// one that ends between two samples might not push at all; by means the string gets what the push gives, (t_p + t_r)/2 in all,
 /// wherever samples fall.
 pub fn pluck_push(since: f64, step: f64, duration: f64, release: f64) -> f64 {
-    // What falls has grown, seen from its end.
-    growing(since, step, duration) + growing(duration + release - since, step, release)
+    let falls = if release >= LONG * step {
+        falling(since - duration, step, release)
+    } else {
+        // What falls has grown, seen from its end.
+        growing(duration + release - since, step, release)
+    };
+    growing(since, step, duration) + falls
+}
+
+/// A release of so many steps is seen from its beginning: from its end, half a step would be off by a millionth, and in the end be
+/// no time at all.
+const LONG: f64 = (1u64 << 32) as f64;
+
+/// The part of a long release that falls, so long after the peak: the same all over a step, as far as the step is in it.
+fn falling(since: f64, step: f64, release: f64) -> f64 {
+    let within = (0.5 + since / step).min(0.5 + (release - since) / step).clamp(0.0, 1.0);
+    0.5 * within * (1.0 + libm::cos(std::f64::consts::PI * (since / release).clamp(0.0, 1.0)))
 }
 
 /// The part of it that grows.

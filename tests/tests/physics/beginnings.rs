@@ -37,6 +37,23 @@ fn a_pluck_gives_what_its_push_adds_up_to() {
         }
     }
     assert_eq!(pluck_push(0.0, 1e-5, 0.0, 0.0), 0.0);
+    // One that lets go for years is at its strongest for long; in the step of its peak it has come to that half way, and before it
+    // is a step of the rest of the push. Half a step more or less of the longest release that is seen from its end is known to a
+    // part in 2²⁰.
+    for step in [1e-7, 1.0 / 48_000.0, 1e-3] {
+        for release in [0.9e9 * step, 4.2e9 * step, 4.3e9 * step, 1e6, 1e9, 1e11, 1e301, f64::MAX] {
+            for (since, right) in [(0.0, 0.5), (step, 1.0), (100.25 * step, 1.0), (-step, 0.0)] {
+                let push = pluck_push(since, step, 0.0, release);
+                let case = format!("{since} s in steps of {step} s, for {release} s");
+                assert!((push - right).abs() < 2e-6, "{case}: {push}");
+            }
+            if release < 1e300 {
+                let middle = pluck_push(0.5 * release, step, 0.0, release);
+                assert!((middle - 0.5).abs() < 2e-6, "{step} s, {release} s: {middle}");
+                assert_eq!(pluck_push(1.5 * release, step, 0.0, release), 0.0);
+            }
+        }
+    }
     // One that lasts for years is at its beginning for long.
     assert!(pluck_push(1.0, 1e-5, 1e9, 0.0) < 1e-17);
 }
