@@ -142,8 +142,8 @@ impl State {
     }
 
     /// Gives the string a velocity over places (m/s over m from the nut) beside the displacement it has: each grid point the
-    /// mean of what stands within half a spacing of it, so that even the narrowest hammer leaves its momentum. As with a shape,
-    /// [`State::let_go`] is to follow.
+    /// mean of what stands within half a spacing of it, so that even the narrowest hammer leaves its momentum, but for what strikes
+    /// within half a spacing of an end: that the end takes. As with a shape, [`State::let_go`] is to follow.
     pub fn set_velocity(&mut self, model: &Model, velocity: &Curve) {
         let (k, half) = (model.grid.time_step, 0.5 * model.grid.spacing);
         for node in 1..model.grid.intervals {

@@ -3,7 +3,8 @@
 
 use std::f64::consts::PI;
 
-use low_action_dsp::{Scene, Simulation};
+use low_action_dsp::curve::Curve;
+use low_action_dsp::{Scene, Simulation, State};
 use low_action_tests::numbers::largest;
 
 const LENGTH: f64 = 0.65;
@@ -197,6 +198,27 @@ fn momentum_and_energy_are_those_of_the_blow() {
             let off = found / expected - 1.0;
             assert!(off.abs() < allowed, "{width} m at {sample_rate} Hz: energy off by {off:e}");
         }
+    }
+}
+
+/// But for what strikes within half a spacing of an end, which the end takes: of a hammer of ever more of its width beyond that as much
+/// as is beyond, and of a narrower one nothing.
+#[test]
+fn an_end_takes_what_strikes_beside_it() {
+    let spacing = thrown(88_200.0, "paper", &HAMMER, "").string(0).model.grid.spacing;
+    for part in [0.3, 0.5, 0.8, 1.7] {
+        let width = part * spacing;
+        let blow = [[0.0, 2.0], [width, 2.0], [width * (1.0 + 1e-12), 0.0]];
+        let simulation = thrown(88_200.0, "paper", &blow, "");
+        let model = &simulation.string(0).model;
+        let mut state = State::new(model);
+        state.set_velocity(model, &Curve::Points(blow.to_vec()));
+        let momentum = state.motion().sum::<f64>() * DENSITY * spacing / model.grid.time_step;
+        let expected = 2.0 * DENSITY * (width - 0.5 * spacing).max(0.0);
+        assert!(
+            (momentum - expected).abs() < 1e-9 * DENSITY * spacing,
+            "{part}: {momentum} of {expected} N s"
+        );
     }
 }
 
