@@ -157,7 +157,8 @@ impl Scratch {
     /// How far the string was stretched around the sample the last step led from, m²: the sum of squared differences
     /// between neighbours, by (δuⁿ)ᵀδ(uⁿ⁺¹ + uⁿ⁻¹)/2. 0 without tension modulation.
     pub fn stretching(&self) -> f64 {
-        self.stretching
+        // (A step of a string that does not pull itself tight leaves there what plucks and contacts do.)
+        if self.coasting.stretch > 0.0 { self.stretching } else { 0.0 }
     }
 
     /// Energy of the string as a linear one without bending at the sample the last step led from, J:

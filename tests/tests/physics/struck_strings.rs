@@ -242,6 +242,30 @@ fn shape_and_velocity_add_up() {
     }
 }
 
+/// One that does not pull itself tight says that it is not stretched, whatever plucks it and whatever it touches; of one that does
+/// the numbers are what its energy has.
+#[test]
+fn a_string_is_stretched_only_where_that_pulls() {
+    let down = HAMMER.map(|[place, velocity]| [place, -4.0 * velocity]);
+    for tight in [false, true] {
+        let more = format!(
+            "youngs_modulus = 2e11\ncore_radius = 4.3e-4\ntension_modulation = {tight}\n[fretboard]\n\
+             stiffness = 1e10\nexponent = 1.5\nboard = -0.001\n[[pluck]]\nduration = 0.01\nposition = 0.3\n\
+             force = -2.0\n"
+        );
+        let mut simulation = thrown(88_200.0, "wide", &down, &more);
+        let (mut most, mut touched) = (0.0_f64, false);
+        for _ in 0..500 {
+            simulation.step();
+            let scratch = &simulation.string(0).scratch;
+            most = most.max(scratch.stretching().abs());
+            touched |= scratch.forces().count() > 0;
+        }
+        assert!(touched, "the string never met the board");
+        assert_eq!(most > 0.0, tight, "{most} m²");
+    }
+}
+
 /// The balance of a struck string that stretches and hits a board closes from its beginning on.
 #[test]
 fn the_balance_holds_from_the_blow_on() {
