@@ -223,7 +223,9 @@ impl ContactLaw {
     #[inline(always)]
     pub fn slope(&self, penetration: f64) -> f64 {
         if penetration <= 0.0 {
-            return if self.exponent == 1.0 && penetration == 0.0 { self.stiffness } else { 0.0 };
+            // One that is straight from the start has the slope beyond its knee there, too.
+            let first = if self.knee > LEAST_KNEE { self.stiffness } else { self.at_knee.slope };
+            return if self.exponent == 1.0 && penetration == 0.0 { first } else { 0.0 };
         }
         if penetration > self.knee {
             return self.at_knee.slope;

@@ -108,6 +108,11 @@ fn of_two_straight_springs_the_softer_one_is_left() {
         assert!((law.energy(deep) / (0.5 * force * deep) - 1.0).abs() < 1e-14);
         assert!(law.own_force(deep) < 1e-14 * force, "the contact itself is hardly pressed in");
     }
+    // Its slope is the same where it begins to touch.
+    for deep in [0.0, 1e-49, 1e-6] {
+        assert!((law.slope(deep) * FLEXIBILITY - 1.0).abs() < 1e-14, "{deep}: {} N/m", law.slope(deep));
+    }
+    assert_eq!((plain.slope(0.0), law.slope(-1e-9)), (plain.stiffness(), 0.0));
     // Behind a softer contact, what hardly gives way changes nothing.
     let hard = plain.giving_way(0.9 / 2e7);
     assert_eq!(hard, plain);
