@@ -134,6 +134,10 @@ impl Instrument {
         let run = span.len();
         before.voices.iter_mut().for_each(|voice| voice.run(run));
         for (i, at) in span.enumerate() {
+            // All that follows is the new sound to the last bit, as in runs that begin later.
+            if self.fade.rests() {
+                break;
+            }
             let part = self.fade.value();
             self.fade.step();
             let mix = |new: &mut f32, old: f64| *new = heard(old + (f64::from(*new) - old) * part);
