@@ -49,7 +49,7 @@ impl ContactLaw {
     /// What an exponent α may be.
     pub(crate) const EXPONENT: [f64; 2] = [1.0, 5.0];
 
-    /// A law of stiffness K > 0 (N/m^α) and exponent 1 ≤ α ≤ 5.
+    /// A law of stiffness K, 1e-3 to 1e30 N/m^α, and exponent α, 1 to 5.
     ///
     /// # Errors
     /// When either is out of range; `name` says whose they are.

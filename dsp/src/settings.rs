@@ -21,11 +21,12 @@ use crate::setup::{Setup, SetupString};
 pub struct EngineSettings {
     /// Sample rate at which it is heard, Hz, 8e3 to 1e6.
     pub sample_rate: f64,
-    /// The widest grid a string may have, m, 1e-4 or more: one whose grid is wider at `sample_rate` is computed at a multiple of
-    /// it. Over a wide bridge, or where fret 12 is more than 6 mm below the string, it is two thirds of this. Over a bare board it
-    /// is moreover 3 mm and a ninetieth of the shortest length that sounds at most. Infinite sets no limit, be the board bare or
-    /// not: every string is computed at `sample_rate` itself that is not too short for its grid there. No grid is wider than four
-    /// fifths of what a wide bridge reaches, or the string would not touch it.
+    /// The widest grid a string is asked to have, m, 1e-4 or more: one whose grid is wider at `sample_rate` is computed at a multiple
+    /// of it, up to 400 kHz, and has what grid it gets there, wider or not. Over a wide bridge, or where fret 12 is more than 6 mm
+    /// below the string, two thirds of this are asked for. Over a bare board it is moreover 3 mm and a ninetieth of the shortest
+    /// length that sounds at most. Infinite sets no limit, be the board bare or not: every string is computed at `sample_rate` itself
+    /// that is not too short for its grid there. Over a wide bridge four fifths of what that reaches are asked for in any case; a grid
+    /// that comes out wider than all of it is refused, as the string would not touch it.
     pub widest_spacing: f64,
     /// Difference operator of the strings.
     pub stencil: Stencil,
