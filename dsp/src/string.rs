@@ -292,3 +292,6 @@ impl State {
 /// Above this energy, J, hands neither slide nor bend nor move a board: each of these multiplies what there is,
 /// and if it were repeated for ever would reach infinity.
 const MOST_ENERGY: f64 = 1e30;
+
+#[cfg(test)]
+mod tests;
