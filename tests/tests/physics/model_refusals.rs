@@ -140,6 +140,10 @@ fn fingers_that_cannot_be_are_refused() {
         }
     }
     refused(
+        place(FINGER, [0.3, -1e160, -1.0]),
+        "finger.height = -1e160 is refused: it must lie between -1e30 and 1e30 m",
+    );
+    refused(
         place(Touch { mass: 0.0, ..FINGER }, there),
         "finger.mass = 0 is refused: it must lie between 1e-7 and 1000 kg",
     );
