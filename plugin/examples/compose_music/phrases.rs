@@ -126,7 +126,6 @@ fn chugged() -> Score {
 
 fn rolled() -> Score {
     Score::solo(120, |track| {
-        track.set(0, STROKE, 3);
         let now = track.line(&[52, 53, 55, 56, 58, 56, 55, 53], 110, 0, EIGHTH, 0);
         track.set(now, STROKE, 2);
         track.set(now, STRUM, 24);
