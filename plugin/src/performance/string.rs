@@ -48,6 +48,8 @@ pub(crate) struct StringPlayer {
     under: [Option<Note>; UNDER],
     /// What is to be done to the present note.
     deeds: Deeds,
+    /// Sample by which a hand that stills it is off it.
+    stilled: u64,
     /// Strokes a second of a tremolo, 0 for none.
     tremolo: f64,
     /// Since when it may sound without a note, by somebody who sees it.
@@ -77,6 +79,7 @@ impl StringPlayer {
             plucked_at: None,
             under: [None; UNDER],
             deeds: Deeds::default(),
+            stilled: 0,
             tremolo: 0.0,
             touched: None,
             bent_short: 0,
@@ -95,6 +98,7 @@ impl StringPlayer {
         self.plucked_at = None;
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
+        self.stilled = 0;
         self.tremolo = 0.0;
         self.touched = None;
         self.bent_short = 0;
@@ -159,7 +163,7 @@ impl StringPlayer {
         (self.bend, self.note, self.parting, self.ending) = (old.bend, old.note, old.parting, old.ending);
         self.plucked_at = old.plucked_at;
         (self.under, self.deeds, self.tremolo) = (old.under, old.deeds, old.tremolo);
-        self.touched = old.touched;
+        (self.touched, self.stilled) = (old.touched, old.stilled);
     }
 
     /// The hands act differently on the note that sounds, and on those to come.

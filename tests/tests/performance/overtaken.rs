@@ -5,10 +5,10 @@ use std::sync::LazyLock;
 
 use low_action::controls::Touching;
 use low_action::performance::{Annotation, GestureSink, InputMode, PlayerEvent, TimedAnnotation};
-use low_action_dsp::TimedGesture;
+use low_action_dsp::{Gesture, Setup, TimedGesture};
 use low_action_tests::cases::cases;
 use low_action_tests::hands::{EXACT, Neck, RATE};
-use low_action_tests::stage::{cc, off, on};
+use low_action_tests::stage::{Stage, at, cc, level, off, on};
 use proptest::prelude::*;
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
@@ -66,6 +66,51 @@ fn a_note_that_takes_over_a_string_before_a_strum_is_the_one_it_strikes() {
     // The hammer, and two strokes.
     assert_eq!(fate(&[&told[..], &[low, high, hammered]].concat()), (3, [1, 0]));
     assert_eq!(fate(&[&told[..], &[low, high, (24_000, on(67, 90))]].concat()), (3, [0, 0]));
+}
+
+/// A strum of strings that sound, one way or back, whose last stroke falls at 1.4 s, and a note that is hammered on its string at
+/// some time: key, string.
+fn hammered_before_the_last_stroke(back: u8, stroke: u8, time: f64) -> (Vec<(f64, PlayerEvent)>, usize) {
+    let (key, string) = if back > 0 { (43, 5) } else { (67, 0) };
+    let open = |time, event: fn(u8) -> PlayerEvent| [40, 45, 50, 55, 59, 64].map(|key| (time, event(key)));
+    let struck = |key| on(key, 90);
+    let told = [(0.0, cc(21, 127)), (0.0, cc(22, back.max(stroke)))];
+    let strums = [open(0.1, struck), open(0.99, off), open(1.0, struck)].concat();
+    ([&told[..], &strums, &[(1.2, cc(68, 127)), (time, on(key, 90))]].concat(), string)
+}
+
+/// The hand that was to still the string for it does not come any more, or goes. (A note that began up to 10 ms before the stroke was 30
+/// to 40 dB below the others.)
+#[test]
+fn a_hand_on_its_way_does_not_still_what_is_hammered_meanwhile() {
+    let mut stage = Stage::new(&Setup::shipped("electric").expect("it comes with the program"));
+    for back in [0, 1] {
+        let mut heard = |time| {
+            let (events, string) = hammered_before_the_last_stroke(back, 0, time);
+            level(&stage.play(&events, 1.6).strings[string][at(1.45)..])
+        };
+        // Long before it, and long after it.
+        let usual = heard(1.35).min(heard(1.41));
+        for time in [1.391, 1.394, 1.397, 1.3985, 1.3995] {
+            let lower = usual - heard(time);
+            println!("way {back}, hammered at {time} s: {lower:.1} dB lower");
+            assert!(lower < 6.0, "way {back}, hammered at {time} s: {lower} dB lower");
+        }
+    }
+}
+
+/// Nor does the thumb of a pinch come to it.
+#[test]
+fn no_thumb_grazes_what_is_hammered_before_its_stroke() {
+    for time in [1.394, 1.4005] {
+        let (events, string) = hammered_before_the_last_stroke(0, 6, time);
+        let events = events.into_iter().map(|(time, event)| (at(time) as u64, event)).collect::<Vec<_>>();
+        let gestures = GUITAR.told(InputMode::Keyboard, &Touching::new(0.0, 2.0), &events);
+        let thumbs = |g: &&TimedGesture| matches!(g.gesture, Gesture::Place { finger: 4, .. });
+        let grazed: Vec<_> =
+            gestures.iter().filter(|g| g.string == string).filter(thumbs).map(|g| g.time).collect();
+        assert!(grazed.len() == 1 && grazed[0] < at(1.0) as u64, "{time}: {grazed:?}");
+    }
 }
 
 /// The finger of the tap before leaves first, in 3 ms.

@@ -1,7 +1,7 @@
 //! What is yet to be done to a note that sounds: strokes that are on their way, and touches that end.
 
 use super::StringPlayer;
-use super::stilling::{Stilling, still};
+use super::stilling::Stilling;
 use crate::performance::articulation::Stroke;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment, Technique};
@@ -68,10 +68,10 @@ impl Deeds {
         }
     }
 
-    /// A finger that was to strike does not.
-    pub(super) fn forget_tap(&mut self) {
+    /// The string is stopped elsewhere: a finger that was to strike does not, and no thumb grazes what has no node there any more.
+    pub(super) fn forget_touches(&mut self) {
         for deed in &mut self.0 {
-            *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Tap { .. }));
+            *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Tap { .. } | Deed::Graze(_)));
         }
     }
 
@@ -89,15 +89,19 @@ impl Deeds {
         self.0.iter().flatten().any(|(_, deed)| matches!(deed, Deed::Strike(_) | Deed::Tap { .. }))
     }
 
-    /// Takes out the stroke that is to come before a time.
+    /// Takes out the stroke that is to come before a time. The hand that was to still the string for it has no time for that.
     pub(super) fn take_stroke(&mut self, until: u64) -> Option<Struck> {
-        self.0.iter_mut().find_map(|slot| match *slot {
+        let struck = self.0.iter_mut().find_map(|slot| match *slot {
             Some((time, Deed::Strike(struck))) if time < until => {
                 *slot = None;
                 Some(struck)
             }
             _ => None,
-        })
+        })?;
+        for deed in &mut self.0 {
+            *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Still(_)));
+        }
+        Some(struck)
     }
 
     /// A palm waits no more.
@@ -140,7 +144,7 @@ impl StringPlayer {
         match self.deeds.take() {
             None => {}
             Some(Deed::Strike(struck)) => self.strike(struck, 0.0, at),
-            Some(Deed::Still(stilling)) => still(stilling, at),
+            Some(Deed::Still(stilling)) => self.still(stilling, at),
             Some(Deed::Tremolo) => self.tremble(at),
             Some(Deed::Tap { fret, strength }) => self.tap(fret, strength, at),
             Some(Deed::LeaveNode) => self.fingers.leave_node(at),
@@ -174,7 +178,7 @@ impl StringPlayer {
                 self.strike(note.struck, 0.0, at);
             } else {
                 let stilling = self.stilling(note.struck.stroke, note.fret);
-                still(stilling, at);
+                self.still(stilling, at);
                 self.deeds.plan(at.after(stilling.lead), Deed::Strike(note.struck));
             }
         }

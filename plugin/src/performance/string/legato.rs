@@ -15,6 +15,7 @@ impl StringPlayer {
         // The stroke that was to begin the note before is yet to reach the string, and finds this one there.
         let in_time = self.strike_in_time(&mut self.moment(time, out));
         self.overtaken += u64::from(!in_time && self.note.is_some_and(|note| note.since > time));
+        self.still_no_more(&mut self.moment(time, out));
         let strength = start.force();
         self.take_presses(&mut start);
         let before = self.note;
@@ -33,7 +34,7 @@ impl StringPlayer {
         if let (Some(note), Some(before)) = (&mut self.note, before.filter(|_| tremolo > 0.0)) {
             note.struck = note.struck.in_turn_with(before.struck);
         }
-        self.deeds.forget_tap();
+        self.deeds.forget_touches();
         let (slide, bar) = self.note.map_or((None, false), |note| (note.slide, note.bar));
         let fret =
             self.bend.begin_slid(start.fret, start.wheel + start.manner.tuning, bar, &mut self.fingers);
@@ -97,7 +98,7 @@ impl StringPlayer {
         let asked = self.bend.asked_by(back.channel, back.tuning);
         self.bend.begin(back.channel);
         let fret = self.bend.begin_slid(back.fret, asked, from.bar, &mut self.fingers);
-        self.deeds.forget_tap();
+        self.deeds.forget_touches();
         let mut at = self.moment(time, out);
         at.tells(self.returning_note(&back, time));
         let stood = self.fingers.stands();

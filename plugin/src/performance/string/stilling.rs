@@ -63,7 +63,7 @@ impl StringPlayer {
     /// Has the hand still the string for a stroke so many seconds from now, no less than it comes before it.
     pub(super) fn still_before(&mut self, wait: f64, stilling: Stilling, at: &mut Moment<impl GestureSink>) {
         if stilling.comes_at_once(wait) {
-            still(stilling, at);
+            self.still(stilling, at);
         } else {
             self.deeds.plan(at.after(wait - stilling.lead), Deed::Still(stilling));
         }
@@ -85,9 +85,18 @@ impl StringPlayer {
         }
         struck.is_some()
     }
-}
 
-/// The hand comes.
-pub(super) fn still(Stilling { duration, loss, .. }: Stilling, at: &mut Moment<impl GestureSink>) {
-    at.does(Gesture::Still { loss, duration });
+    /// The hand comes.
+    pub(super) fn still(&mut self, stilling: Stilling, at: &mut Moment<impl GestureSink>) {
+        let Stilling { duration, loss, .. } = stilling;
+        self.stilled = at.after(duration);
+        at.does(Gesture::Still { loss, duration });
+    }
+
+    /// It goes before its time: what sounds now is not what it came to still.
+    pub(super) fn still_no_more(&mut self, at: &mut Moment<impl GestureSink>) {
+        if at.time < std::mem::take(&mut self.stilled) {
+            at.does(Gesture::Still { loss: 0.0, duration: 0.0 });
+        }
+    }
 }
