@@ -112,6 +112,33 @@ fn what_comes_late_with_its_key_up_takes_no_string_from_a_held_note() {
     assert_eq!((struck.len(), performance.compromises().left_out), (14, 0));
 }
 
+/// What its key has done while it waited is nothing to another note of that key.
+#[test]
+fn a_note_that_comes_late_with_its_key_up_ends_by_itself() {
+    let ms = |time: f64| (time * RATE) as u64;
+    let chord = [64, 59, 57, 55, 50, 45, 40].map(|key| (ms(0.1), on(key, 90)));
+    let again = [(0.11, off(55)), (0.14, off(57)), (0.15, on(55, 120)), (0.16, off(40))];
+    let again = again.map(|(time, event)| (ms(time), event));
+    let mut performance = player();
+    let mut gestures = Vec::new();
+    for (time, event) in chord.into_iter().chain(again) {
+        performance.event(time, event, &mut gestures);
+    }
+    performance.advance(ms(0.9), &mut gestures);
+    let struck = plucks(&gestures);
+    // The late one comes when the next of its key sounds on another string.
+    let [held, late] = [struck[6], struck[7]];
+    assert!(struck.len() == 8 && held.0 < ms(0.16) && late.0 > ms(0.17), "{struck:?}");
+    let damped = |string| {
+        let dampers = |g: &&TimedGesture| matches!(g.gesture, Gesture::Place { finger: 2 | 3, .. });
+        gestures.iter().filter(dampers).any(|g| g.string == string && g.time > ms(0.17))
+    };
+    assert_eq!((damped(held.1), damped(late.1)), (false, true), "{held:?}, {late:?}");
+    assert!(performance.sounds(0, 55));
+    performance.event(ms(1.0), off(55), &mut gestures);
+    assert!(!performance.sounds(0, 55));
+}
+
 #[test]
 fn a_strum_goes_over_the_strings_at_one_speed() {
     let chord = [40, 47, 52, 56, 59, 64];

@@ -2,7 +2,7 @@
 //! what is to come: so those that began a moment ago, and whose keys are down, are placed anew with the next. They stay where they
 //! are unless another needs their string; then they are struck once more on one of their own. None is lost to it.
 
-use super::{Articulation, Manner, Placement, Stroke, Unplaced, Use};
+use super::{Articulation, Manner, Placement, Stroke, Unplaced, Use, Wanted};
 use crate::performance::hand::LARGEST_CHORD;
 use crate::performance::technique::{LONGEST_CHORD, TOGETHER};
 use crate::performance::{Channels, Performance};
@@ -77,6 +77,18 @@ impl Performance {
     /// The same of a moment ago.
     fn begun_a_moment_ago(&self, string: usize) -> Option<Unplaced> {
         self.begun_since(string, self.before(TOGETHER))
+    }
+
+    /// The string on which a note begins at this very sample whose key has gone up before.
+    pub(super) fn begins_let_go(&self, note: &Unplaced) -> Option<usize> {
+        let Wanted { channel, key, .. } = note.wanted;
+        let is_it = |begun: Unplaced| begun.let_go && begun.is(channel, key) && begun.asked == note.asked;
+        (0..self.strings.len()).find(|&string| {
+            let begins = self.strings[string].usage(self.now) == Use::Untouchable;
+            begins
+                && self.strings[string].is_of(channel, key)
+                && self.just_begun.notes[string].is_some_and(is_it)
+        })
     }
 
     /// Notes begin now: with those before them, if they come in time.

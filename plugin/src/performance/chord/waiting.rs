@@ -114,21 +114,16 @@ impl Performance {
             self.late.remove(index);
             self.advance_strings(late.time.max(self.now), out);
             let Wanted { channel, key, .. } = late.note.wanted;
-            // A key that was struck again since is another note, which goes on.
-            let alone = !self.sounds(channel, key) && !self.awaits(channel, key);
-            self.chord.push(Unplaced { let_go: !late.key_down(), ..late.note });
-            let left_out = self.compromises.left_out;
+            let let_go = !late.key_down();
+            // One that ends at once has all its presses until it has begun.
+            let presses = if let_go { late.note.presses } else { late.note.presses - late.releases };
+            self.chord.push(Unplaced { presses, let_go, ..late.note });
             self.begin_chord(out);
-            // What its key has done since is another note's then.
-            if self.compromises.left_out > left_out {
-                continue;
-            }
-            if late.cut && alone {
-                self.cut(channel, key, out);
-                continue;
-            }
-            for _ in 0..late.releases {
-                self.let_go(channel, key, out);
+            // Where it has come to: its key may have gone down again since, for another note, which goes on.
+            let Some(string) = self.begins_let_go(&late.note) else { continue };
+            let pedal = self.pedal(channel) && !late.cut;
+            for _ in 0..presses {
+                self.strings[string].release(self.now, channel, key, pedal, out);
             }
         }
     }
