@@ -149,8 +149,7 @@ impl Performance {
             let strum = self.strum(index);
             let start = self.start(index, placement, strum.as_ref());
             let (channel, string) = (start.channel, placement.string);
-            let (bend, palm) = (self.bend(channel), start.articulation.palm);
-            self.strings[string].expect_palm(palm);
+            let bend = self.bend(channel);
             self.strings[string].start(time, start, out);
             self.strings[string].bend(time, channel, bend);
             self.just_begun.note(string, self.chord[index]);

@@ -125,7 +125,7 @@ impl Performance {
             Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),
             Request::Hand(fret) => return self.hand.set_home((fret > 0).then_some(fret)),
             Request::ReleaseKeys | Request::Silence => self.forget_keys(whose),
-            Request::Press | Request::Swing => self.tell_keys_under(request, whose),
+            Request::Press | Request::Swing | Request::Touch => self.tell_keys_under(request, whose),
             Request::Catch => self.catch_late(whose),
             Request::LetFall => self.let_fall_under(whose),
             Request::Reset => {
@@ -195,8 +195,9 @@ impl Performance {
 
     /// Notes whose keys are down under the ones that sound hear how they are to be played when they come back.
     pub(super) fn tell_keys_under(&mut self, request: Request, whose: Whose) {
-        let manners: [Manner; CHANNELS] = std::array::from_fn(|channel| self.manner(channel as u8));
-        let said = |own: u8| whose.is(own).then(|| manners[usize::from(own)]);
+        let told = |channel: usize| (self.manner(channel as u8), self.channels[channel].articulation.palm);
+        let told: [(Manner, f64); CHANNELS] = std::array::from_fn(told);
+        let said = |own: u8| whose.is(own).then(|| told[usize::from(own)]);
         self.strings.iter_mut().for_each(|string| string.hear(request, said));
     }
 
@@ -270,13 +271,13 @@ impl Performance {
         }
     }
 
-    /// A note that has come back to a string has the wheel, the palm and the tremolo of its own channel.
+    /// A note that has come back to a string has the wheel and the tremolo of its own channel.
     pub(super) fn welcome_back(&mut self, index: usize, out: &mut impl GestureSink) {
         let Some(channel) = self.strings[index].take_gone_back() else { return };
         let (time, bend) = (self.now, self.bend(channel));
-        let articulation = self.channels[usize::from(channel)].articulation;
+        let tremolo = self.channels[usize::from(channel)].articulation.tremolo;
         self.strings[index].bend(time, channel, bend);
-        self.strings[index].set_touch(time, &articulation, out);
+        self.strings[index].go_on_with_tremolo(time, tremolo, out);
     }
 
     /// What wheels stand for has changed: strings are bent as far as it is now.

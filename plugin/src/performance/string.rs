@@ -169,14 +169,14 @@ impl StringPlayer {
     /// The hands act differently on the note that sounds, and on those to come.
     pub(crate) fn set_touch(&mut self, time: u64, articulation: &Articulation, out: &mut impl GestureSink) {
         self.set_palm(time, articulation.palm, out);
-        let at = self.moment(time, out);
-        let before = self.set_tremolo(articulation.tremolo);
-        self.begin_tremolo(before, &at);
+        self.go_on_with_tremolo(time, articulation.tremolo, out);
     }
 
-    /// The palm is to rest so hard, 0 to 1, at the next stroke.
-    pub(crate) fn expect_palm(&mut self, palm: f64) {
-        self.fingers.expect_palm(palm);
+    /// The note that sounds has a tremolo of so many strokes a second from now on, 0 for none.
+    pub(crate) fn go_on_with_tremolo(&mut self, time: u64, rate: f64, out: &mut impl GestureSink) {
+        let at = self.moment(time, out);
+        let before = self.set_tremolo(rate);
+        self.begin_tremolo(before, &at);
     }
 
     /// The palm rests so hard on the string, 0 to 1; on a silent one for a while, until there is a note.

@@ -2,8 +2,10 @@
 //! has bounced off, and so is one that is laid on meanwhile. It waits on the strings, so that the first note of a riff is as short
 //! as the others. An open string is as loud after a stopped one as after itself.
 
-use low_action::performance::PlayerEvent;
-use low_action_dsp::Gesture;
+use low_action::controls::Touching;
+use low_action::performance::{InputMode, PlayerEvent};
+use low_action_dsp::{Gesture, TimedGesture};
+use low_action_tests::hands::{Neck, control, note, of_string};
 use low_action_tests::stage::{Stage, amplitude, at, cc, decibels, hertz, level, off, on, peak};
 
 const RATE: f64 = 48_000.0;
@@ -171,6 +173,78 @@ fn a_palm_laid_on_while_hands_leave_goes() {
             assert!(came && !stays, "key {key}, laid on at {laid} s: it came {came}, stays {stays}");
         }
     }
+}
+
+/// How hard the palm presses the string, N: what the hands have told it last by some time.
+fn pressed(gestures: &[TimedGesture], time: f64) -> f64 {
+    let mut force = 0.0;
+    for timed in gestures.iter().filter(|timed| timed.time <= at(time) as u64) {
+        match timed.gesture {
+            Gesture::Press { finger: RIGHT_HAND, force: now, .. } => force = now,
+            Gesture::Lift { finger: RIGHT_HAND, .. } => force = 0.0,
+            _ => {}
+        }
+    }
+    force
+}
+
+/// One that a keyswitch lays on is on notes that begin later: also on those that are hammered, pulled or slid, and not on the one
+/// before when it comes back. Controller 20 is heard by all.
+#[test]
+fn a_keyswitch_lays_the_palm_on_connected_notes_and_not_on_those_that_come_back() {
+    for (first, second) in [(60, 62), (62, 60), (62, 59)] {
+        for slides in [0, 127] {
+            let notes = [
+                (0.0, cc(27, 36)),
+                (0.0, on(first, 90)),
+                (0.2, on(39, 90)),
+                (0.2, off(39)),
+                (0.3, cc(68, 127)),
+                (0.3, cc(65, slides)),
+                (0.4, on(second, 90)),
+                (0.7, off(second)),
+            ];
+            let mut stage = Stage::alone("electric", 1);
+            let found = stage.play(&notes, 1.0).gestures;
+            let palms = [0.3, 0.6, 0.9].map(|time| pressed(&found, time));
+            let is_right = palms[0] == 0.0 && palms[1] > 0.0 && palms[2] == 0.0;
+            assert!(is_right, "{first} to {second}, slides {slides}: {palms:?} N");
+            // Off again by the next keyswitch, for the note after it alone.
+            let off_again = [
+                (0.0, cc(27, 36)),
+                (0.0, cc(20, 80)),
+                (0.1, on(first, 90)),
+                (0.2, on(36, 90)),
+                (0.2, off(36)),
+                (0.3, cc(68, 127)),
+                (0.3, cc(65, slides)),
+                (0.4, on(second, 90)),
+                (0.7, off(second)),
+            ];
+            let found = stage.play(&off_again, 1.0).gestures;
+            let palms = [0.3, 0.6, 0.9].map(|time| pressed(&found, time));
+            let is_right = palms[0] > 0.0 && palms[1] == 0.0 && palms[2] == palms[0];
+            assert!(is_right, "{first} to {second}, slides {slides}: {palms:?} N");
+            let all = [&notes[..7], &[(0.5, cc(20, 100)), (0.7, off(second))]].concat();
+            let found = stage.play(&all, 1.0).gestures;
+            let palms = [0.6, 0.9].map(|time| pressed(&found, time));
+            assert!(palms[0] > 0.0 && palms[0] == palms[1], "{palms:?} N");
+        }
+    }
+}
+
+/// A member of MPE that is hammered has its own.
+#[test]
+fn a_member_of_mpe_has_its_own_palm_where_it_is_hammered() {
+    let legato = [(0, control(0, 68, 127)), (0, control(2, 20, 100))];
+    let notes = [(0, note(1, 60)), (24_000, note(2, 62))];
+    let up = [(48_000, PlayerEvent::NoteOff { channel: 2, key: 62 }), (96_000, control(1, 7, 100))];
+    let events = [&legato[..], &notes, &up].concat();
+    let found = Neck::of("electric").told(InputMode::Mpe, &Touching::new(0.0, 2.0), &events);
+    let string = |g: &&TimedGesture| matches!(g.gesture, Gesture::Pluck { .. });
+    let string = found.iter().find(string).expect("it is plucked").string;
+    let palms = [0.4, 0.9, 1.5].map(|time| pressed(&of_string(&found, string), time));
+    assert!(palms[0] == 0.0 && palms[1] > 0.0 && palms[2] == 0.0, "{palms:?} N");
 }
 
 /// And it goes from strings that nobody plays.

@@ -118,7 +118,7 @@ impl StringPlayer {
 
     /// Writes down that a note begins. Gives back how many strokes a second a tremolo had so far.
     pub(super) fn begin(&mut self, time: u64, start: &Start, strength: f64) -> f64 {
-        let Articulation { slide, slide_time, stop, tremolo, .. } = start.articulation;
+        let Articulation { slide, slide_time, stop, tremolo, palm, .. } = start.articulation;
         let moved = start.manner.place;
         let struck =
             Struck { stroke: start.stroke(), strength, beside: start.deviation.place + moved, moved };
@@ -135,6 +135,7 @@ impl StringPlayer {
             tuning: start.manner.tuning,
             pressure: start.manner.pressure,
             vibrato: start.manner.vibrato,
+            palm,
             bar: stop == Stop::Bar,
             partial: (stop == Stop::Harmonic).then_some(start.order),
             slide: (slide || stop == Stop::Bar).then_some(slide_time),
@@ -142,6 +143,7 @@ impl StringPlayer {
         });
         self.bend.begin(start.channel);
         self.fingers.expect_beside(0.0);
+        self.fingers.expect_palm(palm);
         self.plucked_at = Some(time);
         self.touched = None;
         self.set_tremolo(tremolo)

@@ -46,6 +46,7 @@ impl StringPlayer {
         self.fingers.count_from(start.fret);
         self.bend.tell_change(technique, stood - start.fret as f64, &self.fingers, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
+        self.fingers.set_palm(start.articulation.palm, &mut at);
         self.begin_tremolo(tremolo, &at);
         self.follow(time, &start.manner);
     }
@@ -97,6 +98,7 @@ impl StringPlayer {
             Some(Note { began: time, since: time, struck: back.struck.in_turn_with(from.struck), ..back });
         let asked = self.bend.asked_by(back.channel, back.tuning);
         self.bend.begin(back.channel);
+        self.fingers.expect_palm(back.palm);
         let fret = self.bend.begin_slid(back.fret, asked, from.bar, &mut self.fingers);
         self.deeds.forget_touches();
         let mut at = self.moment(time, out);
@@ -108,6 +110,7 @@ impl StringPlayer {
         self.bend.tell_change(technique, stood - back.fret as f64, &self.fingers, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         self.fingers.press(back.pressure, &mut at);
+        self.fingers.set_palm(back.palm, &mut at);
         self.bend.tune(time, back.tuning);
         self.bend.set_vibrato(time, back.vibrato);
         self.gone_back = true;

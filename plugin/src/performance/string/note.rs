@@ -117,6 +117,8 @@ pub(crate) struct Note {
     /// Factor of its finger's force, and depth of its vibrato, 0 to 1: its own or its channel's, whichever was said last.
     pub pressure: f64,
     pub vibrato: f64,
+    /// How hard the palm rests on it, 0 to 1.
+    pub palm: f64,
     /// Whether a bar stops it.
     pub bar: bool,
     /// The partial that a harmonic is.

@@ -54,16 +54,19 @@ impl StringPlayer {
         }
     }
 
-    /// Channels have said how hard keys are pressed, or how deep they swing, of all their notes: those that are to come
-    /// back have it then.
-    pub(crate) fn hear(&mut self, request: Request, manner: impl Fn(u8) -> Option<Manner>) {
+    /// Channels have said how hard keys are pressed, how deep they swing, or how hard the palm rests, of all their notes: those that
+    /// are to come back have it then.
+    pub(crate) fn hear(&mut self, request: Request, said: impl Fn(u8) -> Option<(Manner, f64)>) {
         for note in self.notes() {
-            let Some(manner) = manner(note.channel) else { continue };
+            let Some((manner, palm)) = said(note.channel) else { continue };
             if matches!(request, Request::Press | Request::Reset) {
                 note.pressure = manner.pressure;
             }
             if matches!(request, Request::Swing | Request::Reset) {
                 note.vibrato = manner.vibrato;
+            }
+            if matches!(request, Request::Touch | Request::Reset) {
+                note.palm = palm;
             }
         }
     }
