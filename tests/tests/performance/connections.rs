@@ -5,7 +5,7 @@
 use low_action::performance::PlayerEvent;
 use low_action_dsp::{FINGERS_PER_STRING, Gesture, Setup, TimedGesture};
 use low_action_tests::pitch::off_key;
-use low_action_tests::stage::{Stage, amplitude, at, cc, decibels, hertz, off, on, peak};
+use low_action_tests::stage::{Stage, amplitude, at, cc, decibels, hertz, level, off, on, peak};
 
 const RATE: f64 = 48_000.0;
 
@@ -211,6 +211,28 @@ fn what_a_hand_does_not_reach_is_plucked() {
     assert_eq!(count(&[(0.0, on(57, 90)), (0.2, on(60, 90))]), 2);
     assert_eq!(count(&[legato, (0.0, on(57, 90)), (0.15, off(57)), (0.2, on(60, 90))]), 2);
     assert_eq!(count(&[legato, (0.0, on(57, 90)), (0.2, on(57, 90))]), 2);
+}
+
+/// No hammer and no pull leads from a string that is touched lightly, and none leads back: a harmonic would come back octaves low, and
+/// a muted note ringing.
+#[test]
+fn what_is_touched_lightly_is_not_connected() {
+    for (stop, first, second) in [(1, 59, 52), (1, 76, 69), (2, 52, 54), (2, 45, 47)] {
+        let mut stage = Stage::new(&Setup::shipped("electric").expect("it comes with the program"));
+        let told = [(0.0, cc(68, 127)), (0.0, cc(23, stop)), (0.0, on(first, 90)), (0.2, cc(23, 0))];
+        let played = stage.play(&[&told[..], &[(0.4, on(second, 90)), (0.8, off(second))]].concat(), 1.6);
+        assert_eq!(plucks(&played.gestures), 2, "{stop}: {first}, {second}");
+        // The second has another string, and when it is damped nothing is heard but a harmonic.
+        let pluck = |g: &&TimedGesture| matches!(g.gesture, Gesture::Pluck { .. });
+        let own = played.gestures.iter().find(pluck).expect("it is plucked").string;
+        let again = |g: &TimedGesture| g.string == own && g.time >= at(0.4) as u64;
+        assert!(!played.gestures.iter().any(again), "{stop}: {first}, {second}");
+        for (string, sound) in played.strings.iter().enumerate() {
+            let left = level(&sound[at(1.3)..]);
+            let rings = stop == 1 && string == own;
+            assert_eq!(left > -70.0, rings, "{stop}: {first}, {second}: {left} dB on string {string}");
+        }
+    }
 }
 
 /// A finger that eases off after its note is still the player's: struck again at any moment until it is gone,

@@ -51,9 +51,15 @@ impl Performance {
         }
         let held = self.strings.iter().enumerate().filter_map(|(index, string)| {
             let note = string.held().filter(|note| melody.has(note.channel))?;
-            Some(((note.began, note.since), index, note.fret))
+            Some((index, note))
         });
-        let Some((_, string, from)) = held.max_by_key(|&(latest, ..)| latest) else { return false };
+        let Some((string, before)) = held.max_by_key(|(_, note)| (note.began, note.since)) else {
+            return false;
+        };
+        if before.touched() {
+            return false;
+        }
+        let from = before.fret;
         let Some(fret) = self.hand.fret(&wanted, string) else { return false };
         let open = from.min(fret) <= self.hand.capo();
         let slides = slide || stop == Stop::Bar;

@@ -138,6 +138,7 @@ impl StringPlayer {
             palm,
             bar: stop == Stop::Bar,
             partial: (stop == Stop::Harmonic).then_some(start.order),
+            muted: stop == Stop::Mute,
             slide: (slide || stop == Stop::Bar).then_some(slide_time),
             bent_short: false,
         });

@@ -123,6 +123,8 @@ pub(crate) struct Note {
     pub bar: bool,
     /// The partial that a harmonic is.
     pub partial: Option<u32>,
+    /// Whether fingers that rest on the string mute it.
+    pub muted: bool,
     /// How long a slide to the next note takes, s, if that is how they are connected.
     pub slide: Option<f64>,
     /// Whether it was bent less far than asked.
@@ -133,6 +135,11 @@ impl Note {
     /// Whether its key is down.
     pub fn key_down(&self) -> bool {
         self.presses > 0
+    }
+
+    /// Whether it is touched lightly instead of stopped: no hammer and no pull leads from there and back.
+    pub fn touched(&self) -> bool {
+        self.partial.is_some() || self.muted
     }
 
     /// Whether it is the note of a key of a channel.
