@@ -126,7 +126,7 @@ impl Performance {
             Request::Hand(fret) => return self.hand.set_home((fret > 0).then_some(fret)),
             Request::ReleaseKeys | Request::Silence => self.forget_keys(whose),
             Request::Press | Request::Swing | Request::Touch => self.tell_keys_under(request, whose),
-            Request::Catch => self.catch_late(whose),
+            Request::Catch => self.catch(whose),
             Request::LetFall => self.let_fall_under(whose),
             Request::Reset => {
                 self.tell_keys_under(request, whose);
@@ -190,7 +190,7 @@ impl Performance {
             own.forced = own.forced.filter(|&(_, by)| !whose.is(by));
         }
         self.late.retain(|late| !whose.is(late.note.wanted.channel));
-        self.strings.iter_mut().for_each(|string| string.forget_under(|own| whose.is(own)));
+        self.strings.iter_mut().for_each(|string| string.forget_under(|note| whose.is(note.channel)));
     }
 
     /// Notes whose keys are down under the ones that sound hear how they are to be played when they come back.
@@ -202,7 +202,8 @@ impl Performance {
     }
 
     /// A sostenuto pedal goes down: it catches keys that are down, also those of notes that wait for a string.
-    fn catch_late(&mut self, whose: Whose) {
+    fn catch(&mut self, whose: Whose) {
+        self.strings.iter_mut().for_each(|string| string.catch(|own| whose.is(own)));
         let waiting = self.late.iter_mut().filter(|late| whose.is(late.note.wanted.channel));
         waiting.for_each(|late| late.note.caught |= late.key_down());
     }
@@ -225,12 +226,11 @@ impl Performance {
             (self.channels[usize::from(channel)].articulation, self.sostenuto(channel));
         let string = &mut self.strings[index];
         match request {
-            Request::None | Request::Members | Request::Capo(_) | Request::Switches(_) | Request::Hand(_) => {
-            }
+            Request::None | Request::Members | Request::Catch => {}
+            Request::Capo(_) | Request::Switches(_) | Request::Hand(_) => {}
             Request::Touch => string.set_touch(time, &articulation, out),
             Request::PedalUp if pedal => {}
             Request::PedalUp => string.pedal_up(time, channel, out),
-            Request::Catch => string.catch(channel),
             Request::LetFall if caught => {}
             Request::LetFall => string.let_fall(time, channel, pedal, out),
             Request::Bend => string.bend(time, channel, bend),

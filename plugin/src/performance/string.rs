@@ -44,7 +44,7 @@ pub(crate) struct StringPlayer {
     /// The next step of the last note's ending, and when.
     ending: Option<(u64, Ending)>,
     plucked_at: Option<u64>,
-    /// Notes whose keys are still down under the one that sounds, the latest last.
+    /// Notes under the one that sounds whose keys are still down, or caught by a pedal, the latest last.
     under: [Option<Note>; UNDER],
     /// What is to be done to the present note.
     deeds: Deeds,

@@ -42,4 +42,5 @@ mod taps;
 mod together;
 mod touches;
 mod tremolo;
+mod trills;
 mod vibrato;

@@ -1,5 +1,5 @@
 //! **Legato**: a note that begins alone while the latest one of its channel is held is played on that note's
-//! string, if it is there and near enough. It is alone that begins alone of its channel; in MPE, where each note has one, alone of all of its channels.
+//! string, if it is there and near enough; so is one that begins anew over a held one, as a pedal has kept it. It is alone that begins alone of its channel; in MPE, where each note has one, alone of all of its channels.
 //! So where each string has a channel, several are hammered, pulled or slid at once as one is.
 
 use super::{Articulation, HAMMER_REACH, Placement, SLIDE_REACH, Stop, Unplaced, Use};
@@ -64,7 +64,8 @@ impl Performance {
         let open = from.min(fret) <= self.hand.capo();
         let slides = slide || stop == Stop::Bar;
         let reach = if slides || open { SLIDE_REACH } else { HAMMER_REACH };
-        if fret == from || fret.abs_diff(from) > reach {
+        let again = fret == from && self.strings[string].trills(wanted.channel, wanted.key);
+        if (fret == from && !again) || fret.abs_diff(from) > reach {
             return false;
         }
         let start = self.start(index, Placement { string, fret }, None);

@@ -5,7 +5,7 @@ use super::stilling::Stilling;
 use super::{Manner, Note, Start, StringPlayer, UNDER};
 use crate::performance::articulation::{Articulation, Stop, Stroke};
 use crate::performance::technique::*;
-use crate::performance::{GestureSink, Moment};
+use crate::performance::{GestureSink, Moment, Technique};
 
 impl StringPlayer {
     /// Begins a note; one that sounds gives way.
@@ -44,22 +44,12 @@ impl StringPlayer {
         self.follow(time, &start.manner);
     }
 
-    /// A finger comes down on the fret, how hard, 0 to 1: once the string is up there.
+    /// A finger comes down on the fret, how hard, 0 to 1.
     fn begin_tap(&mut self, start: &Start, strength: f64, at: &mut Moment<impl GestureSink>) {
         let asked = start.wheel + start.manner.tuning;
         let fret = self.bend.begin_slid(start.fret, asked, false, &mut self.fingers);
-        let rising = self.fingers.let_up(fret, strength, at);
-        if let Some(rising) = rising {
-            self.deeds.plan(at.after(rising), Deed::Tap { fret, strength });
-            // Even the shortest note is to be heard.
-            let later = self.samples(rising);
-            if let Some(note) = &mut self.note {
-                note.since += later;
-            }
-        } else {
-            self.tap(fret, strength, at);
-        }
-        self.tremble_after(rising.unwrap_or(0.0), at);
+        let rising = self.tap_when_up(fret, strength, Technique::Tap, at);
+        self.tremble_after(rising, at);
     }
 
     /// The left hand stops the string, and the right hand strikes it, how hard, 0 to 1, if need be after it has stilled it.

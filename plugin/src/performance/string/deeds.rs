@@ -37,10 +37,11 @@ pub(super) enum Deed {
     Still(Stilling),
     /// A stroke of a tremolo, back and forth, with the next one to follow.
     Tremolo,
-    /// A finger strikes the string behind a fret, how hard, 0 to 1.
+    /// A finger strikes the string behind a fret, how hard, 0 to 1, by one technique or another.
     Tap {
         fret: usize,
         strength: f64,
+        technique: Technique,
     },
     /// The light finger leaves its node.
     LeaveNode,
@@ -146,7 +147,7 @@ impl StringPlayer {
             Some(Deed::Strike(struck)) => self.strike(struck, 0.0, at),
             Some(Deed::Still(stilling)) => self.still(stilling, at),
             Some(Deed::Tremolo) => self.tremble(at),
-            Some(Deed::Tap { fret, strength }) => self.tap(fret, strength, at),
+            Some(Deed::Tap { fret, strength, technique }) => self.tap(fret, strength, technique, at),
             Some(Deed::LeaveNode) => self.fingers.leave_node(at),
             Some(Deed::Bounce) => {
                 self.fingers.bounce(at);
@@ -216,15 +217,36 @@ impl StringPlayer {
         }
     }
 
-    /// A finger strikes the string behind a fret, how hard, 0 to 1.
-    pub(super) fn tap(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
+    /// A finger strikes the string behind a fret, how hard, 0 to 1: once the string is up there. Gives back in how many seconds.
+    pub(super) fn tap_when_up(
+        &mut self,
+        fret: usize,
+        strength: f64,
+        technique: Technique,
+        at: &mut Moment<impl GestureSink>,
+    ) -> f64 {
+        let Some(rising) = self.fingers.let_up(fret, strength, at) else {
+            self.tap(fret, strength, technique, at);
+            return 0.0;
+        };
+        self.deeds.plan(at.after(rising), Deed::Tap { fret, strength, technique });
+        // Even the shortest note is to be heard.
+        let later = self.samples(rising);
+        if let Some(note) = &mut self.note {
+            note.since += later;
+        }
+        rising
+    }
+
+    /// It does so now.
+    fn tap(&mut self, fret: usize, strength: f64, technique: Technique, at: &mut Moment<impl GestureSink>) {
         let thrown = self.fingers.hammer(fret, strength, at);
         if let Some(note) = self.note {
             self.fingers.count_from(note.fret);
         }
         self.bend.tell_landing(&self.fingers, at);
         self.bend.renew(at.time);
-        self.tells_sound(0.0, self.fingers.excitation(Technique::Tap, Some(thrown), None), at);
+        self.tells_sound(0.0, self.fingers.excitation(technique, Some(thrown), None), at);
     }
 
     /// The right hand strikes, so many seconds from now.

@@ -59,12 +59,10 @@ impl StringPlayer {
         self.note.filter(|note| begun && note.key_down() && !note.caught)
     }
 
-    /// A sostenuto pedal of a channel goes down: it catches the note if its key is down. What another one has caught, as in
-    /// MPE, stays caught.
-    pub(crate) fn catch(&mut self, channel: u8) {
-        if let Some(note) = self.note.as_mut().filter(|note| note.channel == channel) {
-            note.caught |= note.key_down();
-        }
+    /// A sostenuto pedal of such channels goes down: it catches notes whose keys are down, also under the one that sounds. What
+    /// another one has caught, as in MPE, stays caught.
+    pub(crate) fn catch(&mut self, is_meant: impl Fn(u8) -> bool) {
+        self.notes().filter(|note| is_meant(note.channel)).for_each(|note| note.caught |= note.key_down());
     }
 
     /// It goes up: a note that only it kept ends.
@@ -77,13 +75,11 @@ impl StringPlayer {
         }
     }
 
-    /// It goes up on such channels for the keys under the one that sounds: they come back held by nothing but themselves.
+    /// It goes up on such channels for the keys under the one that sounds: they come back held by nothing but themselves, or not.
     pub(crate) fn let_fall_under(&mut self, fallen: impl Fn(u8) -> bool) {
-        self.under
-            .iter_mut()
-            .flatten()
-            .filter(|note| fallen(note.channel))
-            .for_each(|note| note.caught = false);
+        let fallen = |note: &Note| fallen(note.channel);
+        self.under.iter_mut().flatten().filter(|note| fallen(note)).for_each(|note| note.caught = false);
+        self.forget_under(|note| !note.key_down() && !note.caught);
     }
 
     /// Lets go of whatever key of a channel holds this string.
@@ -106,9 +102,9 @@ impl StringPlayer {
         }
     }
 
-    /// Keys under the one that sounds are no more, those of such channels.
-    pub(crate) fn forget_under(&mut self, is_meant: impl Fn(u8) -> bool) {
-        let kept = self.under.into_iter().flatten().filter(|note| !is_meant(note.channel));
+    /// Such notes under the one that sounds are no more.
+    pub(crate) fn forget_under(&mut self, is_meant: impl Fn(&Note) -> bool) {
+        let kept = self.under.into_iter().flatten().filter(|note| !is_meant(note));
         let mut under = [None; UNDER];
         under.iter_mut().zip(kept).for_each(|(place, note)| *place = Some(note));
         self.under = under;

@@ -1,12 +1,23 @@
 //! One note after another on a string that goes on sounding.
 
 use super::{Note, Start, StringPlayer};
-use crate::performance::GestureSink;
+use crate::performance::{Annotation, GestureSink, Moment, Technique};
 
 impl StringPlayer {
-    /// The note that sounds while its key is down.
+    /// The note that sounds while its key is down, or while a pedal keeps it over one whose key is.
     pub(crate) fn held(&self) -> Option<Note> {
-        self.note.filter(|note| note.key_down() && self.ending.is_none())
+        self.note.filter(|note| (note.key_down() || self.lies_over_held()) && self.ending.is_none())
+    }
+
+    /// Whether the key of a note is down under the one that sounds.
+    fn lies_over_held(&self) -> bool {
+        self.under.iter().flatten().any(Note::key_down)
+    }
+
+    /// Whether the note that sounds is one of a trill, which a key begins anew: its own, or any if only a pedal keeps it.
+    pub(crate) fn trills(&self, channel: u8, key: u8) -> bool {
+        let own = self.note.is_some_and(|note| !note.key_down() || note.is(channel, key));
+        own && self.lies_over_held()
     }
 
     /// A note takes over from the one that sounds, whose key stays down under it: by a hammer, a pull or a
@@ -17,6 +28,7 @@ impl StringPlayer {
         self.overtaken += u64::from(!in_time && self.note.is_some_and(|note| note.since > time));
         self.still_no_more(&mut self.moment(time, out));
         let strength = start.force();
+        let again = self.note.is_some_and(|note| note.fret == start.fret);
         self.take_presses(&mut start);
         let before = self.note;
         if let Some(before) = before.filter(Note::key_down) {
@@ -41,14 +53,31 @@ impl StringPlayer {
         let mut at = self.moment(time, out);
         self.fingers.press(start.manner.pressure, &mut at);
         at.tells(self.new_note(&start));
-        let stood = self.fingers.stands();
-        let (technique, gesture) = self.fingers.change(fret, slide, bar, strength, &mut at);
-        self.fingers.count_from(start.fret);
-        self.bend.tell_change(technique, stood - start.fret as f64, &self.fingers, &mut at);
-        self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
+        if again {
+            self.begin_again(fret, strength, &mut at);
+        } else {
+            let stood = self.fingers.stands();
+            let (technique, gesture) = self.fingers.change(fret, slide, bar, strength, &mut at);
+            self.fingers.count_from(start.fret);
+            self.bend.tell_change(technique, stood - start.fret as f64, &self.fingers, &mut at);
+            self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
+        }
         self.fingers.set_palm(start.articulation.palm, &mut at);
         self.begin_tremolo(tremolo, &at);
         self.follow(time, &start.manner);
+    }
+
+    /// The note of a fret that is stopped already begins anew: its finger comes down once more, how hard, 0 to 1, or the right hand
+    /// strikes where none has anything to strike the string against, or moves along it instead.
+    fn begin_again(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
+        let Some(note) = self.note else { return };
+        if note.bar || note.slide.is_some() || fret <= self.fingers.capo() {
+            self.fingers.count_from(note.fret);
+            self.bend.tell_landing(&self.fingers, at);
+            self.strike(note.struck, 0.0, at);
+        } else {
+            self.tap_when_up(fret, strength, Technique::HammerOn, at);
+        }
     }
 
     /// Channel of the note that has come back since this was last asked, if one has: that channel's wheel is for it.
@@ -59,11 +88,10 @@ impl StringPlayer {
 
     /// Lets go of a key under the one that sounds; `false` if it is not there.
     pub(super) fn release_under(&mut self, channel: u8, key: u8) -> bool {
-        let Some(note) = self.under.iter_mut().flatten().find(|note| note.is(channel, key)) else {
-            return false;
-        };
+        let down = |note: &&mut Note| note.key_down() && note.is(channel, key);
+        let Some(note) = self.under.iter_mut().flatten().find(down) else { return false };
         note.presses -= 1;
-        if !note.key_down() {
+        if !note.key_down() && !note.caught {
             self.take_under(channel, key);
         }
         true
@@ -90,7 +118,7 @@ impl StringPlayer {
         taken
     }
 
-    /// Goes back to the latest note whose key is still down; `false` if there is none.
+    /// Goes back to the latest note whose key is still down, or caught by a pedal; `false` if there is none.
     pub(super) fn go_back(&mut self, time: u64, out: &mut impl GestureSink) -> bool {
         let Some(latest) = self.under.iter().rposition(Option::is_some) else { return false };
         let (Some(back), Some(from)) = (self.under[latest].take(), self.note) else { return false };
@@ -103,6 +131,9 @@ impl StringPlayer {
         self.deeds.forget_touches();
         let mut at = self.moment(time, out);
         at.tells(self.returning_note(&back, time));
+        if !back.key_down() {
+            at.tells(Annotation::Released);
+        }
         let stood = self.fingers.stands();
         let (technique, gesture) =
             self.fingers.change(fret, from.slide, from.bar, from.struck.strength, &mut at);

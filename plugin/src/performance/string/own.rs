@@ -72,7 +72,7 @@ impl StringPlayer {
     }
 
     /// The note that sounds and those under it.
-    fn notes(&mut self) -> impl Iterator<Item = &mut Note> {
+    pub(super) fn notes(&mut self) -> impl Iterator<Item = &mut Note> {
         self.note.iter_mut().chain(self.under.iter_mut().flatten())
     }
 }
