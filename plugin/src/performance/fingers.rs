@@ -211,16 +211,6 @@ impl Fingers {
         self.held_pulled(self.hands.fretting.force * self.pressure, fret)
     }
 
-    /// A capo at this fret on notes to come, 0 for none.
-    pub(crate) fn set_capo(&mut self, fret: usize) {
-        self.capo[0] = fret.min(self.string.geometry.frets.len());
-    }
-
-    /// Fret of the capo on notes to come, 0 for none.
-    pub(crate) fn capo(&self) -> usize {
-        self.capo[0]
-    }
-
     /// How long a pluck pushes before it lets go, and how long that takes, s.
     pub(crate) fn pluck_times(&self) -> [f64; 2] {
         [self.hands.pluck_duration, self.hands.pluck_release]

@@ -313,6 +313,38 @@ fn a_capo_moves_under_a_run() {
     }
 }
 
+/// What lies under a capo that has come with another note does not come back; over a note that comes back none is laid.
+#[test]
+fn no_note_comes_back_under_a_capo() {
+    let mut stage = Stage::alone("electric", 5);
+    let legato = (0.0, cc(68, 127));
+    let ends = |events: &[(f64, PlayerEvent)], stage: &mut Stage| {
+        let played = stage.play(&[&[legato], events, &[(0.9, off(47))]].concat(), 1.8);
+        let sound = played.strings.into_iter().next().expect("one string");
+        let heard = sound[at(1.0)..at(1.4)].to_vec();
+        (level(&sound[at(1.5)..]) - level(&sound[at(0.6)..at(0.9)]), heard)
+    };
+    // At fret 3, or open: a capo at the fifth has come with the note at the seventh, and what ends is damped.
+    for below in [43, 40] {
+        let (left, _) = ends(&[(0.0, on(below, 90)), (0.3, cc(26, 5)), (0.5, on(47, 90))], &mut stage);
+        assert!(left < -60.0, "{below}: {left} dB");
+    }
+    // At fret 6 the finger is over it.
+    let over = [(0.0, on(46, 90)), (0.3, cc(26, 5)), (0.5, on(47, 90))];
+    let cents = off_key(&ends(&over, &mut stage).1, 46.0);
+    assert!(cents.abs() < 10.0, "{cents} cents");
+    // One that is asked for when both sound waits, for the next note.
+    for below in [43, 40, 46] {
+        let (_, heard) = ends(&[(0.0, on(below, 90)), (0.3, on(47, 90)), (0.6, cc(26, 5))], &mut stage);
+        let cents = off_key(&heard, f64::from(below));
+        assert!(cents.abs() < 10.0, "{below}: {cents} cents");
+    }
+    // Also where the hand goes back by a hammer.
+    let hammered = [(0.0, on(44, 90)), (0.3, on(43, 90)), (0.6, cc(26, 5)), (0.7, off(43))];
+    let cents = off_key(&ends(&hammered, &mut stage).1, 44.0);
+    assert!(cents.abs() < 10.0, "{cents} cents");
+}
+
 /// Of two notes the later one, though a strum has yet to reach the other.
 #[test]
 fn the_latest_note_is_that_which_began_last() {

@@ -79,6 +79,21 @@ impl Fingers {
         (BAR_SHARE * self.string.leaving_force(fret)).min(BAR_WEIGHT)
     }
 
+    /// A capo at this fret on notes to come, 0 for none.
+    pub(crate) fn set_capo(&mut self, fret: usize) {
+        self.capo[0] = fret.min(self.string.geometry.frets.len());
+    }
+
+    /// The capo stays where it is.
+    pub(crate) fn keep_capo(&mut self) {
+        self.capo[0] = self.capo[1];
+    }
+
+    /// Fret of the capo on notes to come, 0 for none.
+    pub(crate) fn capo(&self) -> usize {
+        self.capo[0]
+    }
+
     /// Sees to it that the capo is where it should be.
     pub(super) fn lay_capo(&mut self, at: &mut Moment<impl GestureSink>) {
         let [wanted, there] = self.capo;

@@ -41,6 +41,9 @@ impl StringPlayer {
                 *free = Some(before);
             }
         }
+        // A capo that comes with the new note lies over what is below it for good.
+        let capo = self.fingers.capo();
+        self.forget_under(|note| note.fret < capo);
         let tremolo = self.begin(time, &start, strength);
         // A tremolo goes on as it was under way.
         if let (Some(note), Some(before)) = (&mut self.note, before.filter(|_| tremolo > 0.0)) {
@@ -124,6 +127,11 @@ impl StringPlayer {
         let (Some(back), Some(from)) = (self.under[latest].take(), self.note) else { return false };
         self.note =
             Some(Note { began: time, since: time, struck: back.struck.in_turn_with(from.struck), ..back });
+        // A capo that is to come over it waits for the next note that begins.
+        let capo = self.fingers.capo();
+        if back.fret < capo {
+            self.fingers.keep_capo();
+        }
         let asked = self.bend.asked_by(back.channel, back.tuning);
         self.bend.begin(back.channel);
         self.fingers.expect_palm(back.palm);
@@ -138,6 +146,7 @@ impl StringPlayer {
         let (technique, gesture) =
             self.fingers.change(fret, from.slide, from.bar, from.struck.strength, &mut at);
         self.fingers.count_from(back.fret);
+        self.fingers.set_capo(capo);
         self.bend.tell_change(technique, stood - back.fret as f64, &self.fingers, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         self.fingers.press(back.pressure, &mut at);
