@@ -36,7 +36,7 @@ fn a_trill_under_a_pedal_goes_on_as_one() {
         let plucks = played.gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).count();
         assert_eq!(plucks, 2, "{setup} {string}");
         let sound = &played.strings[0];
-        for (from, to, key) in [(0.45, 0.5, other), (1.0, 1.3, other), (1.4, 1.8, held)] {
+        for (from, to, key) in [(0.33, 0.5, other), (1.0, 1.3, other), (1.4, 1.8, held)] {
             let cents = off_key(&sound[at(from)..at(to)], f64::from(key));
             assert!(cents.abs() < 8.0, "{setup} {string}, {key} from {from} s: {cents} cents");
         }
