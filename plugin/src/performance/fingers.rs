@@ -9,6 +9,8 @@ mod held;
 mod landing;
 mod leaving;
 mod legato;
+mod pace;
+mod pressing;
 mod pulling;
 mod sighted;
 mod sliding;
@@ -26,6 +28,7 @@ use super::{GestureSink, Moment, PlayedString};
 use held::Grip;
 use leaving::hurried;
 pub(super) use leaving::{QUIET_LIFT, lift_force, lifting};
+pub(super) use pace::Pace;
 pub(super) use tension::Pulled;
 
 /// A finger behind a fret, or a bar over one.
@@ -119,8 +122,9 @@ pub(crate) struct Fingers {
     home: usize,
     /// Semitones from its fret at which the next finger comes down, where nothing keeps it on frets.
     beside: f64,
-    /// Factor of the fretting finger's force: what a key is pressed down with.
+    /// Factor of the fretting finger's force: what a key is pressed down with, and when it is followed.
     pressure: f64,
+    pace: Pace,
     /// How tight the string is pulled, as a multiple of its own tension, no less than 1.
     tightened: f64,
     /// Fret of the capo on notes to come, 0 for none, and of the one on the string.
@@ -148,6 +152,7 @@ impl Fingers {
             home: 0,
             beside: 0.0,
             pressure: 1.0,
+            pace: Pace::default(),
             tightened: 1.0,
             capo: [0, 0],
             capo_touch,
@@ -162,7 +167,7 @@ impl Fingers {
         self.resting = [false; FINGERS_PER_STRING];
         self.right.reset();
         (self.home, self.beside) = (0, 0.0);
-        (self.pressure, self.tightened) = (1.0, 1.0);
+        (self.pressure, self.pace, self.tightened) = (1.0, Pace::default(), 1.0);
         self.capo = [0, 0];
     }
 
@@ -174,41 +179,13 @@ impl Fingers {
         (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
         self.right.take_over(&old.right);
         (self.home, self.pressure, self.tightened) = (old.home, old.pressure, old.tightened);
+        self.pace = old.pace;
         (self.capo, self.capo_touch) = (old.capo, old.capo_touch);
     }
 
     /// The hands of a string nobody has touched yet act so.
     pub(crate) fn begin_with(&mut self, hands: &Player) {
         self.hands = hands.clone();
-    }
-
-    /// The hands act differently from now on; a finger on the string presses with the new force.
-    pub(crate) fn set_hands(&mut self, hands: &Player, at: &mut Moment<impl GestureSink>) {
-        let pressed = self.hands.fretting.force;
-        self.hands = hands.clone();
-        if self.hands.fretting.force != pressed {
-            self.press_on(PRESSURE_RAMP, at);
-        }
-    }
-
-    /// The fretting finger presses with so many times its usual force.
-    pub(crate) fn press(&mut self, pressure: f64, at: &mut Moment<impl GestureSink>) {
-        if pressure != self.pressure {
-            self.pressure = pressure;
-            self.press_on(PRESSURE_RAMP, at);
-        }
-    }
-
-    fn press_on(&mut self, duration: f64, at: &mut Moment<impl GestureSink>) {
-        if let Some(finger) = self.fretting.filter(|finger| finger.grip == Grip::Presses && !finger.bar) {
-            at.does(Gesture::Press { finger: finger.slot, force: self.force(), duration });
-        }
-    }
-
-    /// What a finger stops the string with, N.
-    fn force(&self) -> f64 {
-        let fret = self.fretting.map_or(0, |finger| finger.nearest_fret());
-        self.held_pulled(self.hands.fretting.force * self.pressure, fret)
     }
 
     /// How long a pluck pushes before it lets go, and how long that takes, s.

@@ -4,7 +4,7 @@ use low_action_dsp::setup::{Damper, Player};
 use low_action_dsp::{Gesture, StringGeometry, Touch};
 
 use super::articulation::Stroke;
-use super::fingers::{QUIET_LIFT, lifting};
+use super::fingers::{Pace, QUIET_LIFT, lifting};
 use super::technique::*;
 use super::{GestureSink, Moment};
 
@@ -30,6 +30,8 @@ pub(crate) struct RightHand {
     clear: u64,
     /// Sample by which the palm presses as it is to.
     pressed: u64,
+    /// When it follows what it is told next.
+    pace: Pace,
 }
 
 /// Where a stroke falls.
@@ -133,7 +135,28 @@ impl RightHand {
     /// flesh takes some hundredths of a second, longer than any stroke waits. One that has gone meanwhile comes back.
     pub(crate) fn set_palm(&mut self, palm: f64, field: &Field, at: &mut Moment<impl GestureSink>) {
         self.palm = palm;
-        // A thumb goes first; the palm follows it.
+        // One that is to come or to go does not wait.
+        let presses_on = self.rests() && palm > 0.0 && self.laid != Laid::Palm(palm);
+        if !presses_on || self.pace.asks(PALM_RAMP, at) {
+            self.follow_now(field, at);
+        }
+    }
+
+    /// When the palm has yet to follow what it has been told.
+    pub(crate) fn due(&self) -> Option<u64> {
+        self.pace.due()
+    }
+
+    /// It does, if that is due.
+    pub(crate) fn follow(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
+        if self.pace.due() == Some(at.time) && self.pace.asks(PALM_RAMP, at) {
+            self.follow_now(field, at);
+        }
+    }
+
+    /// A thumb goes first; the palm follows it.
+    fn follow_now(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
+        self.pace.done();
         if self.laid != Laid::Thumb {
             self.lay(field, PALM_RAMP, at);
         }
@@ -181,6 +204,7 @@ impl RightHand {
         }
         self.laid = wanted;
         self.pressed = at.after(duration);
+        self.pace.done();
     }
 
     /// The thumb is thrown at the string; gives back the throw.
@@ -253,6 +277,7 @@ impl RightHand {
 
     /// Whatever is on the string leaves it.
     pub(crate) fn leave(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
+        self.pace.done();
         if self.laid != Laid::Nothing {
             self.lift(QUIET_LIFT, field, at);
             self.laid = Laid::Nothing;

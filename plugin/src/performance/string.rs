@@ -224,9 +224,9 @@ impl StringPlayer {
             let ending = self.ending.filter(|&(time, _)| time < until);
             let bend = self.bend.due().filter(|&time| time < until);
             let deed = self.deeds.next().filter(|&time| time < until);
-            let Some(first) = [ending.map(|ending| ending.0), bend, deed].into_iter().flatten().min() else {
-                return;
-            };
+            let touch = self.fingers.due().filter(|&time| time < until);
+            let times = [ending.map(|ending| ending.0), bend, touch, deed];
+            let Some(first) = times.into_iter().flatten().min() else { return };
             let mut at = self.moment(first, out);
             if let Some((_, step)) = ending.filter(|&(time, _)| time == first) {
                 self.end_by(step, at);
@@ -239,6 +239,8 @@ impl StringPlayer {
                     note.bent_short = true;
                     self.bent_short += 1;
                 }
+            } else if touch == Some(first) {
+                self.fingers.follow(&mut at);
             } else {
                 self.do_next(&mut at);
             }

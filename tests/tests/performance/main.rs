@@ -2,6 +2,7 @@
 
 mod afterwards;
 mod anything;
+mod automation;
 mod bar;
 mod bends;
 mod by_strings;

@@ -154,6 +154,7 @@ impl Fingers {
         }
         self.fretting = Some(moved);
         self.next_slot = leaving;
+        self.pace.done();
         let force = self.force();
         at.does(Gesture::Press { finger, force, duration: ANCHOR_RAMP.1 });
     }

@@ -93,6 +93,8 @@ impl Fingers {
 
     /// Gives the next slot to a finger that stops the string from now on.
     pub(super) fn take_slot(&mut self, fret: usize, touch: Touch, bar: bool) -> FingerSlot {
+        // It comes with the force that it is to have.
+        self.pace.done();
         let slot = self.next_slot;
         self.next_slot = (slot + 1) % FRETTING_SLOTS;
         let grip = Grip::Presses;
