@@ -133,6 +133,13 @@ impl Bend {
         }
     }
 
+    /// What keeps the finger on frets is another matter now than where it went from its note's fret.
+    pub(crate) fn count_anew(&mut self, fingers: &Fingers) {
+        let away = fingers.away();
+        let glides = fingers.is_fretless();
+        (self.slid, self.glided) = if glides { (0, away) } else { (away.round() as i32, 0.0) };
+    }
+
     /// Something else stops the string.
     pub(crate) fn renew(&mut self, time: u64) {
         self.followed = f64::NAN;

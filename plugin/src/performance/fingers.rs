@@ -5,6 +5,7 @@
 
 mod excitation;
 mod hammering;
+mod handed_over;
 mod held;
 mod landing;
 mod leaving;
@@ -131,6 +132,8 @@ pub(crate) struct Fingers {
     capo: [usize; 2],
     /// What kind of finger that on the string is.
     capo_touch: Touch,
+    /// Whether the neck has been changed under fingers, and they are not where it has them.
+    misplaced: bool,
 }
 
 impl Fingers {
@@ -156,6 +159,7 @@ impl Fingers {
             tightened: 1.0,
             capo: [0, 0],
             capo_touch,
+            misplaced: false,
         }
     }
 
@@ -168,19 +172,7 @@ impl Fingers {
         self.right.reset();
         (self.home, self.beside) = (0, 0.0);
         (self.pressure, self.pace, self.tightened) = (1.0, Pace::default(), 1.0);
-        self.capo = [0, 0];
-    }
-
-    /// Takes over the fingers on this string, when it has been given another model.
-    pub(crate) fn take_over(&mut self, old: &Self) {
-        self.hands = old.hands.clone();
-        (self.fretting, self.anchor, self.light) = (old.fretting, old.anchor, old.light);
-        self.touched = old.touched;
-        (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
-        self.right.take_over(&old.right);
-        (self.home, self.pressure, self.tightened) = (old.home, old.pressure, old.tightened);
-        self.pace = old.pace;
-        (self.capo, self.capo_touch) = (old.capo, old.capo_touch);
+        (self.capo, self.misplaced) = ([0, 0], false);
     }
 
     /// The hands of a string nobody has touched yet act so.

@@ -149,6 +149,9 @@ impl StringPlayer {
     pub(crate) fn set_hands(&mut self, time: u64, hands: &Player, out: &mut impl GestureSink) {
         let mut at = self.moment(time, out);
         self.fingers.set_hands(hands, &mut at);
+        if self.fingers.settle(&mut at) {
+            self.bend.renew(time);
+        }
     }
 
     /// The hands act so on a string that nobody has touched yet, and the tremolo arm stands there, semitones.
@@ -159,8 +162,11 @@ impl StringPlayer {
 
     /// Takes over what the player was doing with this string, when it has been given another model.
     pub(crate) fn take_over(&mut self, old: &Self) {
-        self.fingers.take_over(&old.fingers);
+        let another_kind = self.fingers.take_over(&old.fingers);
         (self.bend, self.note, self.parting, self.ending) = (old.bend, old.note, old.parting, old.ending);
+        if another_kind {
+            self.bend.count_anew(&self.fingers);
+        }
         self.plucked_at = old.plucked_at;
         (self.under, self.deeds, self.tremolo) = (old.under, old.deeds, old.tremolo);
         (self.touched, self.stilled) = (old.touched, old.stilled);

@@ -5,12 +5,13 @@ use std::sync::LazyLock;
 
 use low_action::controls::Touching;
 use low_action::performance::{Expression, Performance, PlayerEvent};
-use low_action_dsp::{Gesture, TimedGesture};
+use low_action_dsp::{FINGERS_PER_STRING, Gesture, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck, RATE, play, wheel};
 use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 static BASS: LazyLock<Neck> = LazyLock::new(|| Neck::of("bass"));
+static FRETLESS: LazyLock<Neck> = LazyLock::new(|| Neck::of("fretless-bass"));
 
 /// A registered parameter, of the first channel.
 fn registered(number: u8, value: u8) -> [(u64, PlayerEvent); 3] {
@@ -76,6 +77,60 @@ fn capo_and_keyswitches_stay_where_they_are() {
     let before = bass.compromises().moved_by_octaves;
     play(&mut bass, &[(400_000, on(28, 90))]);
     assert_eq!(bass.compromises().moved_by_octaves, before + 1);
+}
+
+/// Where fingers and capo are at the end, m from the nut, by string and slot, and how tight each string is pulled.
+fn stands(gestures: &[TimedGesture]) -> ([[Option<f64>; FINGERS_PER_STRING]; 4], [f64; 4]) {
+    let (mut places, mut ratios) = ([[None; FINGERS_PER_STRING]; 4], [1.0; 4]);
+    for timed in gestures {
+        match timed.gesture {
+            Gesture::Place { finger, position, .. }
+            | Gesture::Throw { finger, position, .. }
+            | Gesture::Slide { finger, position, .. } => places[timed.string][finger] = Some(position),
+            Gesture::Lift { finger, .. } => places[timed.string][finger] = None,
+            Gesture::Bend { tension_ratio, .. } => ratios[timed.string] = tension_ratio,
+            _ => {}
+        }
+    }
+    (places, ratios)
+}
+
+/// Where frets come under them, or go, fingers and capo are where the other neck has them. (They stayed where they were, 41 cents flat
+/// on a bare board.)
+#[test]
+fn fingers_on_strings_that_go_on_are_where_the_new_neck_has_them() {
+    let hammered = [(0, cc(68, 127)), (0, on(33, 90)), (9_600, on(36, 90))];
+    let bent = [(0, on(33, 90)), (4_800, wheel(0, 0.25))];
+    let far = [&registered(0, 12)[..], &[(0, on(33, 90)), (4_800, wheel(0, 0.5))]].concat();
+    let over = [(0, cc(26, 3)), (0, on(31, 90)), (0, on(38, 90)), (0, on(45, 90))];
+    for events in [&[(0, on(33, 90)), (0, on(41, 90))][..], &hammered, &bent, &far, &over] {
+        for [from, to] in [[&*BASS, &*FRETLESS], [&*FRETLESS, &*BASS]] {
+            let play = |neck: &Neck, until| {
+                let (mut player, mut gestures) = (neck.player(EXACT), Vec::new());
+                player.touch(0, &Touching::new(0.0, 2.0), &mut gestures);
+                for &(time, event) in events {
+                    player.event(time, event, &mut gestures);
+                }
+                player.advance(until, &mut gestures);
+                (player, gestures)
+            };
+            let (old, mut gestures) = play(from, 48_000);
+            let mut new = to.player(EXACT);
+            new.take_over(&old, true);
+            new.touch(48_000, &Touching::new(0.0, 2.0), &mut gestures);
+            new.advance(96_000, &mut gestures);
+            let [(places, ratios), (wanted, pulled)] =
+                [gestures, play(to, 96_000).1].map(|found| stands(&found));
+            for (string, (place, wanted)) in places.iter().zip(&wanted).enumerate() {
+                for (slot, (place, wanted)) in place.iter().zip(wanted).enumerate() {
+                    let off = place.zip(*wanted).map_or(0.0, |(place, wanted)| (place - wanted).abs());
+                    assert!(off < 1e-9, "string {string}, finger {slot}: {place:?}, {wanted:?}, {events:?}");
+                }
+                let off = (ratios[string] - pulled[string]).abs();
+                assert!(off < 1e-9, "string {string}: {ratios:?}, {pulled:?}, {events:?}");
+            }
+        }
+    }
 }
 
 /// Force of the finger on the string, N, as last asked for.
