@@ -4,7 +4,7 @@
 //! The new instrument is built beforehand, elsewhere. Where its strings are much the same it takes over displacement and
 //! motion of each (read between the grid points where the grids differ), the fingers with the depth to which
 //! they are pressed in, plucks under way and the gestures that wait; where they are not it takes over nothing, and what
-//! waits is dropped with the strings that it was meant for. A finger or fret that was in touch
+//! waits is dropped with the strings that it was meant for, and what is played from then on is for the new ones alone. A finger or fret that was in touch
 //! stays in touch, pressed just as hard; board and frets go on from there to their new places as a luthier's
 //! wrench would move them, and the tension from the old to the new. The step from one set of numbers to
 //! the other changes the energy that the same motion holds: the [`Ledger`] books it, and all work done
@@ -46,7 +46,8 @@ impl Instrument {
         successor.reset();
         successor.now = self.now;
         successor.level.clone_from(&self.level);
-        if self.continues_in(&successor) {
+        successor.goes_on = self.continues_in(&successor);
+        if successor.goes_on {
             successor.queue.take_over(&self.queue);
             for (voice, old) in successor.voices.iter_mut().zip(&mut self.voices) {
                 voice.take_over(old);
@@ -116,9 +117,9 @@ impl Instrument {
         self.voices[string].ledger.as_ref()
     }
 
-    /// What is fading, if anything is.
+    /// What is fading and is still played, if anything is: other strings are not meant by what is played now.
     pub(crate) fn fading(&mut self) -> Option<&mut Instrument> {
-        if self.fade.rests() { None } else { self.before.as_deref_mut() }
+        if self.fade.rests() || !self.goes_on { None } else { self.before.as_deref_mut() }
     }
 
     /// Steps the instrument before through the samples `span` and mixes its sound into theirs.
@@ -140,7 +141,12 @@ impl Instrument {
             }
             let part = self.fade.value();
             self.fade.step();
-            let mix = |new: &mut f32, old: f64| *new = heard(old + (f64::from(*new) - old) * part);
+            // Strings that do not go on begin in silence, and are heard whole from their first sound on.
+            let goes_on = self.goes_on;
+            let mix = |new: &mut f32, old: f64| {
+                let now = f64::from(*new);
+                *new = heard(if goes_on { old + (now - old) * part } else { now + old * (1.0 - part) });
+            };
             let [l, r] = before.stereo(i);
             mix(&mut left[at], l);
             mix(&mut right[at], r);

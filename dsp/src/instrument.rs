@@ -59,8 +59,10 @@ pub struct Instrument {
     pub(crate) sample_rate: f64,
     /// The instrument that this one has taken over from, until it is fetched.
     pub(crate) before: Option<Box<Instrument>>,
-    /// How much of this instrument is heard, 0 to 1; the rest is the one before.
+    /// How much of the instrument before is heard no more, 0 to 1.
     pub(crate) fade: Ramp,
+    /// Whether the strings of that one go on in these.
+    pub(crate) goes_on: bool,
 }
 
 /// The time over which [`Instrument::level`] looks back, s.
@@ -90,6 +92,7 @@ impl Instrument {
             sample_rate: settings.sample_rate,
             before: None,
             fade: Ramp::at(1.0),
+            goes_on: false,
         })
     }
 
@@ -206,7 +209,7 @@ impl Instrument {
                 if let Some(voice) = self.voices.get_mut(due.string) {
                     voice.begin(due.gesture);
                 }
-                // What fades out is played on, so that an attack does not fade in.
+                // What fades out while its strings go on is played on, so that an attack does not fade in.
                 if let Some(voice) = self.fading().and_then(|before| before.voices.get_mut(due.string)) {
                     voice.begin(due.gesture);
                 }

@@ -118,12 +118,15 @@ impl Needs {
         });
         // Fingers join what they touch; at worst all of it becomes one block.
         let all = spans.len() + fingers;
-        let joined = fingers.saturating_mul(touched.max().unwrap_or(0) + 1).min(all);
+        let touched = touched.max().unwrap_or(0);
+        let joined = fingers.saturating_mul(touched + 1).min(all);
         let largest = blocks.iter().map(|block| block.0).max().unwrap_or(0).max(joined);
         let square = |contacts: usize| contacts.saturating_mul(contacts);
         let fixed = blocks.iter().fold(0usize, |sum, block| sum.saturating_add(square(block.0)));
         let cube = |contacts: usize| (contacts as f64).powi(3);
-        let cubes = blocks.iter().fold(cube(joined), |sum, block| sum + cube(block.0)).min(cube(all));
+        // Each with what it touches, or all of them at one place.
+        let with_fingers = fingers as f64 * cube(touched + 1) + cube(fingers);
+        let cubes = blocks.iter().fold(with_fingers, |sum, block| sum + cube(block.0)).min(cube(all));
         Needs { entries: fixed.saturating_add(square(joined)).min(square(all)), largest, cubes }
     }
 

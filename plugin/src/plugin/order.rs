@@ -6,9 +6,9 @@ use nice_plug::prelude::*;
 use super::shelf::{self, Shelf};
 use crate::controls::{Luthier, Touching};
 use crate::engine::EngineOptions;
-use crate::params::{
-    ControlParams, InstrumentChoice, LegatoChoice, LowActionParams, exact, exact_without_modulation,
-};
+#[cfg(feature = "editor")]
+use crate::params::exact_without_modulation;
+use crate::params::{ControlParams, InstrumentChoice, LegatoChoice, LowActionParams, exact};
 use crate::performance::InputMode;
 
 /// What an engine is built from.

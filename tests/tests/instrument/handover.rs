@@ -71,6 +71,40 @@ fn blocks_of_any_size_hand_over_alike() {
     }
 }
 
+/// What is played from the hand-over on is for the new strings: the old ones fade as if nobody played, and the new ones sound from
+/// their first sample on as they do alone.
+#[test]
+fn other_strings_are_played_alone() {
+    let [setup, other] = ["electric", "bass"].map(|name| Setup::builtin(name).expect("it is built in"));
+    let pluck = Gesture::Pluck { position: 0.7, force: 1.0, duration: 1e-3, release: 0.0 };
+    let play_on = |rings: bool, strikes: bool| {
+        let mut instrument = build(&setup);
+        if rings {
+            strike(&mut instrument, &setup);
+        }
+        let mut sound = Vec::new();
+        play(&mut instrument, 2_000, &mut sound);
+        assert!(instrument.hand_over(Box::new(build(&other))).is_ok());
+        if strikes {
+            let time = instrument.now();
+            instrument.schedule(TimedGesture { time, string: 1, gesture: pluck }).expect("there is room");
+        }
+        play(&mut instrument, 2_000, &mut sound);
+        sound.split_off(2_000)
+    };
+    let mut alone = build(&other);
+    alone.schedule(TimedGesture { time: 0, string: 1, gesture: pluck }).expect("there is room");
+    let mut expected = Vec::new();
+    play(&mut alone, 2_000, &mut expected);
+    assert!(play_on(false, true) == expected, "after silence");
+    let (fades, both) = (play_on(true, false), play_on(true, true));
+    let most = peak(&fades);
+    let off = largest(
+        both.iter().zip(fades.iter().zip(&expected)).map(|(both, (old, new))| (both - (old + new)).abs()),
+    );
+    assert!(off <= 1e-6 * most, "{off:e} of {most}");
+}
+
 #[test]
 fn there_is_no_click() {
     let electric = Setup::builtin("electric").expect("it is built in");
