@@ -3,9 +3,9 @@
 //!
 //! The new instrument is built beforehand, elsewhere. Where its strings are much the same it takes over displacement and
 //! motion of each (read between the grid points where the grids differ), the fingers with the depth to which
-//! they are pressed in, plucks under way and the gestures that wait; where they are not it takes over nothing, and what
-//! waits is dropped with the strings that it was meant for, and what is played from then on is for the new ones alone. A finger or fret that was in touch
-//! stays in touch, pressed just as hard; board and frets go on from there to their new places as a luthier's
+//! they are pressed in, plucks under way and the gestures that wait; where they are not it takes over nothing, what waits is
+//! dropped with the strings that it was meant for, and what is played from then on is for the new ones alone. A finger or fret
+//! that was in touch stays in touch, pressed just as hard; board and frets go on from there to their new places as a luthier's
 //! wrench would move them, and the tension from the old to the new. The step from one set of numbers to
 //! the other changes the energy that the same motion holds: the [`Ledger`] books it, and all work done
 //! by what moves afterwards. For a moment both are computed and the one sound fades into the other,

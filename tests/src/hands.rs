@@ -1,7 +1,7 @@
 //! A player's hands alone: what they do to the strings of an instrument, with nothing that sounds.
 
 use low_action::controls::Touching;
-use low_action::performance::{InputMode, Performance, PlayedString, PlayerEvent, Style};
+use low_action::performance::{GestureSink, InputMode, Performance, PlayedString, PlayerEvent, Style};
 use low_action_dsp::{FINGERS_PER_STRING, Gesture, Instrument, Quality, Setup, TimedGesture};
 
 /// Hz.
@@ -32,6 +32,23 @@ impl Neck {
     /// A player who has not touched it yet.
     pub fn player(&self, style: Style) -> Performance {
         Performance::new(self.strings.clone(), &self.setup.player, style, RATE)
+    }
+
+    /// A player with plain hands, as they are after events (samples) and what follows upon them up to a sample, and whoever has been
+    /// told all of it.
+    pub fn after<S: GestureSink>(
+        &self,
+        events: &[(u64, PlayerEvent)],
+        until: u64,
+        mut told: S,
+    ) -> (Performance, S) {
+        let mut player = self.player(EXACT);
+        player.touch(0, &Touching::new(0.0, 2.0), &mut told);
+        for &(time, event) in events {
+            player.event(time, event, &mut told);
+        }
+        player.advance(until, &mut told);
+        (player, told)
     }
 
     /// What hands that act so make of events (samples), with channels taken in a mode.

@@ -2,7 +2,7 @@
 //! a hand bends, in goals at a bounded rate. Before a note on a string at rest nobody hears it pulled: it begins in tune.
 //!
 //! Wheel and tuning pull the string as far as its set-up lets tension go. Past that a finger that stops the
-//! string slides to the nearest fret and pulling does the rest, or comes down there if the note is yet to be plucked; an open string
+//! string slides to the nearest fret and pulling does the rest, or comes down there if it has yet to; an open string
 //! that sounds stays where pulling ends. A finger that has ceased to press, as its note is over, stays where it has slid or glided to,
 //! and pulling does what it can.
 

@@ -7,7 +7,7 @@ use low_action::performance::{InputMode, PlayerEvent};
 use low_action_dsp::Setup;
 use low_action_tests::numbers::{brightness, rms};
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{decibels, hertz, peak};
+use low_action_tests::stage::{amplitude, decibels, hertz, peak};
 
 const RATE: f64 = 48_000.0;
 
@@ -21,11 +21,15 @@ fn note(setup: &Setup, string: u8, key: u8) -> Vec<f32> {
 }
 
 fn play(setup: &Setup, notes: &[(u8, u8)], seconds: f64) -> Vec<f32> {
+    play_as_hard(setup, notes, 100, seconds)
+}
+
+fn play_as_hard(setup: &Setup, notes: &[(u8, u8)], velocity: u8, seconds: f64) -> Vec<f32> {
     let options = EngineOptions { variation: 0.0, ..EngineOptions::new(setup.clone(), RATE) };
     let mut engine = Engine::new(&options).expect("the set-up can be built");
     engine.set_input(InputMode::Strings { first: 0, from_last: false });
     for &(channel, key) in notes {
-        engine.event(0, PlayerEvent::NoteOn { channel, key, velocity: 100.0 / 127.0 });
+        engine.event(0, PlayerEvent::NoteOn { channel, key, velocity: f32::from(velocity) / 127.0 });
     }
     let samples = (seconds * RATE) as usize;
     let (mut left, mut right) = (vec![0.0; samples], vec![0.0; samples]);
@@ -96,6 +100,54 @@ fn strings_are_tuned_as_descriptions_say() {
 fn the_flamenco_rattles_and_drop_d_bites() {
     assert!(attack("flamenco") > 1.5 * attack("classical"));
     assert!(attack("drop-d") > 1.25 * attack("electric"));
+}
+
+/// Not always: soft notes are as dark as softer ones, and hard ones are not.
+#[test]
+fn a_flamenco_guitar_rattles_where_it_is_struck_hard() {
+    let setup = shipped("flamenco");
+    for (string, key) in [(1, 59), (2, 55), (5, 40)] {
+        let bright = |velocity| {
+            let sound = play_as_hard(&setup, &[(string, key)], velocity, 0.6);
+            brightness(&sound[960..])
+        };
+        let [softest, soft, hard] = [30, 60, 120].map(bright);
+        println!("string {string}: {softest:.3}, {soft:.3}, {hard:.3}");
+        assert!(soft < 1.1 * softest && hard > 1.5 * softest, "string {string}: {softest}, {soft}, {hard}");
+    }
+}
+
+/// What ends a string on the bare board takes its brightness and shortens it. (Without the board's losses it was as long as with
+/// frets, and its fifth partial, too.)
+#[test]
+fn a_fretless_bass_is_darker_and_shorter_than_with_frets() {
+    for (string, key) in [(0, 55), (3, 40)] {
+        let [fretted, fretless] = ["bass", "fretless-bass"].map(|name| note(&shipped(name), string, key));
+        let length = sustain(&fretless) / sustain(&fretted);
+        // What the fifth partial loses in eight tenths of a second, dB.
+        let loss = |sound: &[f32]| {
+            let part = |from| amplitude(&sound[from..from + 14_400], RATE, 5.0 * hertz(f64::from(key)));
+            decibels(part(9_600) / part(48_000))
+        };
+        let [with, without] = [&fretted, &fretless].map(|sound| loss(sound));
+        println!(
+            "string {string}: {length:.2} times as long, partial 5 loses {without:.1} dB, {with:.1} with frets"
+        );
+        assert!(length < 1.0 && without > with + 3.0, "string {string}: {length}, {without} dB, {with} dB");
+    }
+}
+
+/// A drone is tuned by ear to a cent or two: what its strokes stretch is little, from the beginning on.
+#[test]
+fn a_tanpura_begins_in_tune() {
+    let setup = shipped("tanpura");
+    for (string, key) in [(0, 43), (1, 48), (3, 36)] {
+        let sound = play_as_hard(&setup, &[(string, key)], 80, 0.5);
+        let expected = hertz(f64::from(key));
+        let off = cents(frequency_near(&sound[2_400..24_000], RATE, expected), expected);
+        println!("string {string}: {off:.1} cents");
+        assert!(off.abs() < 8.0, "string {string}: {off} cents");
+    }
 }
 
 #[test]

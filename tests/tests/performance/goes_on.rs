@@ -105,22 +105,13 @@ fn fingers_on_strings_that_go_on_are_where_the_new_neck_has_them() {
     let over = [(0, cc(26, 3)), (0, on(31, 90)), (0, on(38, 90)), (0, on(45, 90))];
     for events in [&[(0, on(33, 90)), (0, on(41, 90))][..], &hammered, &bent, &far, &over] {
         for [from, to] in [[&*BASS, &*FRETLESS], [&*FRETLESS, &*BASS]] {
-            let play = |neck: &Neck, until| {
-                let (mut player, mut gestures) = (neck.player(EXACT), Vec::new());
-                player.touch(0, &Touching::new(0.0, 2.0), &mut gestures);
-                for &(time, event) in events {
-                    player.event(time, event, &mut gestures);
-                }
-                player.advance(until, &mut gestures);
-                (player, gestures)
-            };
-            let (old, mut gestures) = play(from, 48_000);
+            let (old, mut gestures) = from.after(events, 48_000, Vec::new());
             let mut new = to.player(EXACT);
             new.take_over(&old, true);
             new.touch(48_000, &Touching::new(0.0, 2.0), &mut gestures);
             new.advance(96_000, &mut gestures);
             let [(places, ratios), (wanted, pulled)] =
-                [gestures, play(to, 96_000).1].map(|found| stands(&found));
+                [gestures, to.after(events, 96_000, Vec::new()).1].map(|found| stands(&found));
             for (string, (place, wanted)) in places.iter().zip(&wanted).enumerate() {
                 for (slot, (place, wanted)) in place.iter().zip(wanted).enumerate() {
                     let off = place.zip(*wanted).map_or(0.0, |(place, wanted)| (place - wanted).abs());

@@ -194,41 +194,34 @@ fn pressed(gestures: &[TimedGesture], time: f64) -> f64 {
 fn a_keyswitch_lays_the_palm_on_connected_notes_and_not_on_those_that_come_back() {
     for (first, second) in [(60, 62), (62, 60), (62, 59)] {
         for slides in [0, 127] {
-            let notes = [
-                (0.0, cc(27, 36)),
-                (0.0, on(first, 90)),
-                (0.2, on(39, 90)),
-                (0.2, off(39)),
-                (0.3, cc(68, 127)),
-                (0.3, cc(65, slides)),
-                (0.4, on(second, 90)),
-                (0.7, off(second)),
-            ];
+            // One note, another connected to it and let go of, and a keyswitch (36: no palm, 39: palm) between them.
+            let with = |palm: u8, switch: u8| {
+                [
+                    (0.0, cc(27, 36)),
+                    (0.0, cc(20, palm)),
+                    (0.1, on(first, 90)),
+                    (0.2, on(switch, 90)),
+                    (0.2, off(switch)),
+                    (0.3, cc(68, 127)),
+                    (0.3, cc(65, slides)),
+                    (0.4, on(second, 90)),
+                    (0.7, off(second)),
+                ]
+            };
             let mut stage = Stage::alone("electric", 1);
-            let found = stage.play(&notes, 1.0).gestures;
-            let palms = [0.3, 0.6, 0.9].map(|time| pressed(&found, time));
-            let is_right = palms[0] == 0.0 && palms[1] > 0.0 && palms[2] == 0.0;
-            assert!(is_right, "{first} to {second}, slides {slides}: {palms:?} N");
+            let mut palms = |events: &[(f64, PlayerEvent)]| {
+                let found = stage.play(events, 1.0).gestures;
+                [0.3, 0.6, 0.9].map(|time| pressed(&found, time))
+            };
+            let found = palms(&with(0, 39));
+            let is_right = found[0] == 0.0 && found[1] > 0.0 && found[2] == 0.0;
+            assert!(is_right, "{first} to {second}, slides {slides}: {found:?} N");
             // Off again by the next keyswitch, for the note after it alone.
-            let off_again = [
-                (0.0, cc(27, 36)),
-                (0.0, cc(20, 80)),
-                (0.1, on(first, 90)),
-                (0.2, on(36, 90)),
-                (0.2, off(36)),
-                (0.3, cc(68, 127)),
-                (0.3, cc(65, slides)),
-                (0.4, on(second, 90)),
-                (0.7, off(second)),
-            ];
-            let found = stage.play(&off_again, 1.0).gestures;
-            let palms = [0.3, 0.6, 0.9].map(|time| pressed(&found, time));
-            let is_right = palms[0] > 0.0 && palms[1] == 0.0 && palms[2] == palms[0];
-            assert!(is_right, "{first} to {second}, slides {slides}: {palms:?} N");
-            let all = [&notes[..7], &[(0.5, cc(20, 100)), (0.7, off(second))]].concat();
-            let found = stage.play(&all, 1.0).gestures;
-            let palms = [0.6, 0.9].map(|time| pressed(&found, time));
-            assert!(palms[0] > 0.0 && palms[0] == palms[1], "{palms:?} N");
+            let found = palms(&with(80, 36));
+            let is_right = found[0] > 0.0 && found[1] == 0.0 && found[2] == found[0];
+            assert!(is_right, "{first} to {second}, slides {slides}: {found:?} N");
+            let found = palms(&[&with(0, 39)[..8], &[(0.5, cc(20, 100)), (0.7, off(second))]].concat());
+            assert!(found[1] > 0.0 && found[1] == found[2], "{found:?} N");
         }
     }
 }

@@ -11,7 +11,7 @@ use low_action::performance::{
 };
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::cases::cases;
-use low_action_tests::hands::{EXACT, Neck, note};
+use low_action_tests::hands::{Neck, note};
 use low_action_tests::stage::{cc, off, on};
 use proptest::prelude::*;
 
@@ -45,13 +45,7 @@ impl GestureSink for Heard {
 
 /// Plays events and what follows up to some sample.
 fn played(events: &[(u64, PlayerEvent)], until: u64) -> (Performance, Heard) {
-    let (mut player, mut heard) = (GUITAR.player(EXACT), Heard::default());
-    player.touch(0, &Touching::new(0.0, 2.0), &mut heard);
-    for &(time, event) in events {
-        player.event(time, event, &mut heard);
-    }
-    player.advance(until, &mut heard);
-    (player, heard)
+    GUITAR.after(events, until, Heard::default())
 }
 
 proptest! {

@@ -1,6 +1,7 @@
-//! **Legato**: a note that begins alone while the latest one of its channel is held is played on that note's
-//! string, if it is there and near enough; so is one that begins anew over a held one, as a pedal has kept it. It is alone that begins alone of its channel; in MPE, where each note has one, alone of all of its channels.
-//! So where each string has a channel, several are hammered, pulled or slid at once as one is.
+//! **Legato**: a note that begins alone while the latest one of its channel is held is played on that note's string, if it is
+//! there and near enough; so is one that begins anew over a held one, as a pedal has kept it. It is alone that begins alone of its
+//! channel; in MPE, where each note has one, alone of all of its channels. So where each string has a channel, several are
+//! hammered, pulled or slid at once as one is.
 
 use super::{Articulation, HAMMER_REACH, Placement, SLIDE_REACH, Stop, Unplaced, Use};
 use crate::performance::string::StringPlayer;

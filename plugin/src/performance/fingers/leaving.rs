@@ -25,7 +25,7 @@ impl Fingers {
             self.damp_behind(at);
         }
         if let Some(finger) = self.fretting.filter(|finger| !finger.bar) {
-            let holding = self.holding_force(finger.nearest_fret());
+            let holding = self.holding_force(finger.nearest_fret(), self.force());
             self.ease(Grip::Holds, holding, parting.relaxing, at);
         }
         self.relax_capo(parting.relaxing, at);

@@ -162,7 +162,7 @@ impl Fingers {
     /// A finger that stopped the string stays down behind the one that does, just hard enough.
     pub(super) fn hold_behind(&mut self, anchor: Finger, at: &mut Moment<impl GestureSink>) {
         self.anchor = Some(Finger { grip: Grip::Presses, ..anchor });
-        let force = self.holding_force(anchor.nearest_fret());
+        let force = self.holding_force(anchor.nearest_fret(), self.force());
         at.does(Gesture::Press { finger: anchor.slot, force, duration: ANCHOR_RAMP.0 });
     }
 

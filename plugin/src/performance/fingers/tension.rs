@@ -50,9 +50,9 @@ impl Fingers {
         self.tightened * self.string.leaving_force(fret)
     }
 
-    /// What a finger holds the string down with that does no more than that, N: no more than it presses with.
-    pub(super) fn holding_force(&self, fret: usize) -> f64 {
-        (HOLDING * self.leaving_force(fret)).min(self.force())
+    /// What just holds the string down at a fret, N, of a finger or a capo that presses with no more than so much.
+    pub(super) fn holding_force(&self, fret: usize, most: f64) -> f64 {
+        (HOLDING * self.leaving_force(fret)).min(most)
     }
 
     /// What a force, N, becomes at a fret of a string that is pulled: more if that would leave the fret, but no more than keeps up

@@ -129,7 +129,7 @@ impl Fingers {
     /// nothing is computed for a string that nobody plays.)
     pub(super) fn relax_capo(&mut self, duration: f64, at: &mut Moment<impl GestureSink>) {
         if self.capo[1] > 0 {
-            let force = (HOLDING * self.leaving_force(self.capo[1])).min(self.capo_force());
+            let force = self.holding_force(self.capo[1], self.capo_force());
             at.does(Gesture::Press { finger: CAPO, force, duration });
         }
     }
