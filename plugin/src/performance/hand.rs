@@ -2,9 +2,9 @@
 //!
 //! The left hand covers [`SPAN`] frets from the one under its first finger. Notes that begin at
 //! the same instant are placed together, each on a string of its own, where the whole costs least:
-//! moving the hand and reaching out of it cost by the fret, an open string costs nothing to a hand
-//! low on the neck and a little to one far up (its sound stands out), and lower frets are slightly
-//! preferred. A key that still sounds is struck again where it is, and a note that has just begun stays there unless
+//! moving the hand and reaching out of it cost by the fret, also where a finger holds a note whose key is down. An open
+//! string costs nothing to a hand low on the neck and a little to one far up (its sound stands out, but for a bass far below
+//! all else), and lower frets are slightly preferred. A key that still sounds is struck again where it is, and a note that has just begun stays there unless
 //! another needs its string. A hand that has been told where on the neck
 //! to play moves from there for each of them, and not from where it went for the one before.
 //!
@@ -48,6 +48,8 @@ pub(crate) enum Use {
         since: u64,
         /// Whether its key is down (or only the pedal keeps it).
         key_down: bool,
+        /// Its fret, 0 for the open string.
+        fret: usize,
     },
     /// A note has just begun that looks for a string once more.
     Begun {
@@ -272,7 +274,7 @@ impl Hand {
                     continue;
                 }
                 self.tabulate(position, wanted, uses);
-                let so_far = MOVE * distance as f64;
+                let so_far = MOVE * distance as f64 + self.stretch(position, uses);
                 let mut search = Search {
                     strings: self.strings.len(),
                     costs: &self.costs,

@@ -110,8 +110,8 @@ impl StringPlayer {
     pub(crate) fn usage(&self, time: u64) -> Use {
         match self.note {
             _ if self.plucked_at == Some(time) => Use::Untouchable,
-            Some(note @ Note { channel, key, since, .. }) => {
-                Use::Taken { channel, key, since, key_down: note.key_down() }
+            Some(note @ Note { channel, key, since, fret, .. }) => {
+                Use::Taken { channel, key, since, key_down: note.key_down(), fret }
             }
             None => Use::Free,
         }

@@ -41,6 +41,7 @@ mod strums;
 mod switches;
 mod taps;
 mod together;
+mod tone;
 mod touches;
 mod tremolo;
 mod trills;

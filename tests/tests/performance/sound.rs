@@ -81,9 +81,9 @@ fn the_first_sound_comes_within_three_milliseconds_and_no_second_attack_follows(
                 let first = sound.iter().position(|sample| f64::from(sample.abs()) > 0.01 * attack);
                 assert!(first.is_some_and(|first| first < samples(0.003)), "{name}: first at {first:?}");
                 let later = peak(&sound[set_down..]);
-                // The partials of a stiff string come into step at other times, too: at most 0.73 dB more here than in the
+                // The partials of a stiff string come into step at other times, too: at most 1.0 dB more here than in the
                 // attack. Another as strong would add up to 6 dB.
-                assert!(later < 1.09 * attack, "{name}: {:.1} dB later", decibels(later / attack));
+                assert!(later < 1.15 * attack, "{name}: {:.1} dB later", decibels(later / attack));
             }
         }
     });

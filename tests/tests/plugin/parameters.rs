@@ -159,9 +159,12 @@ const BUILT: &[Built] = &[
     },
     Built {
         id: "pluck_release",
-        // A plectrum lets go at once: less than its nothing is nothing.
+        // Less than nothing is nothing: as a wire does, at once.
         ends: [0.0, 1.0],
-        means: |options, high| options.setup.player.pluck_release = pick(high, 0.0, 0.004),
+        means: |options, high| {
+            let own = options.setup.player.pluck_release;
+            options.setup.player.pluck_release = (own + pick(high, -0.001, 0.004)).max(0.0);
+        },
     },
     Built {
         id: "variation",

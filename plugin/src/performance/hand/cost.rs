@@ -7,10 +7,14 @@ use super::{Hand, SPAN, Use, Wanted};
 pub(super) const MOVE: f64 = 1.0;
 /// Reaching a fret beyond the hand, for the first fret and for each further one.
 const REACH: (f64, f64) = (1.2, 2.5);
+/// Reaching a finger that holds a note, at most: all strings of a guitar together cost less than beginning a note again.
+const STRETCH: f64 = 8.0;
 /// Preferring low frets among equals.
 const HEIGHT: f64 = 0.02;
 /// An open string, for each fret the hand is above the first, and at most.
 const OPEN: (f64, f64) = (0.3, 2.0);
+/// So many semitones below all else it is a bass, which costs nothing: nobody compares their sound, and the hand is free.
+const BASS: f64 = 12.0;
 /// Striking a sounding key again where it is.
 pub(super) const AGAIN: f64 = -8.0;
 /// A harmonic that is hardly heard there; more than any movement.
@@ -27,12 +31,37 @@ const STEAL_YOUNGER: f64 = 0.5;
 pub(super) const LEAVE_OUT: f64 = 100_000.0;
 
 impl Hand {
+    /// What the fingers that hold notes cost a hand at some place.
+    pub(super) fn stretch(&self, position: usize, uses: &[Use]) -> f64 {
+        let held = |usage: &Use| match *usage {
+            Use::Taken { key_down: true, fret, .. } if fret > self.capo => Some(reach(position, fret)),
+            _ => None,
+        };
+        uses.iter().filter_map(held).map(|cost| cost.min(STRETCH)).sum()
+    }
+
+    /// Whether a note is a bass under all else that sounds or begins with it.
+    fn is_bass(&self, note: &Wanted, wanted: &[Wanted], uses: &[Use]) -> bool {
+        let begin = self.order.iter().map(|&other| wanted[other].pitch);
+        let sound = uses.iter().zip(&self.strings).filter_map(|(usage, string)| match usage {
+            Use::Taken { fret, .. } => Some(string.open_pitch + *fret as f64),
+            _ => None,
+        });
+        let others = begin.chain(sound).filter(|&pitch| pitch != note.pitch);
+        let lowest = others.fold(f64::INFINITY, f64::min);
+        lowest.is_finite() && lowest - note.pitch >= BASS
+    }
+
     /// Fills in the cost of every chosen note on every string for one place of the hand.
     pub(super) fn tabulate(&mut self, position: usize, wanted: &[Wanted], uses: &[Use]) {
         let count = self.strings.len();
         for (row, &note) in self.order.iter().enumerate() {
+            let open = match self.is_bass(&wanted[note], wanted, uses) {
+                true => 0.0,
+                false => (OPEN.0 * position.saturating_sub(self.capo + 1) as f64).min(OPEN.1),
+            };
             for string in 0..count {
-                self.costs[row * count + string] = self.cost(position, wanted[note], string, uses);
+                self.costs[row * count + string] = self.cost((position, open), wanted[note], string, uses);
             }
         }
         self.bounds[self.order.len()] = 0.0;
@@ -44,8 +73,8 @@ impl Hand {
         self.taken.fill(false);
     }
 
-    /// Cost of one note on one string, infinite where it cannot be played.
-    fn cost(&self, position: usize, note: Wanted, string: usize, uses: &[Use]) -> f64 {
+    /// Cost of one note on one string, infinite where it cannot be played; an open string has one of its own.
+    fn cost(&self, (position, open): (usize, f64), note: Wanted, string: usize, uses: &[Use]) -> f64 {
         let Some(fret) = self.fret(&note, string) else { return f64::INFINITY };
         let steal = match uses[string] {
             Use::Free | Use::Begun { .. } => 0.0,
@@ -67,13 +96,16 @@ impl Hand {
             return UNHEARD + steal;
         }
         if fret == self.capo {
-            return steal + (OPEN.0 * position.saturating_sub(self.capo + 1) as f64).min(OPEN.1);
+            return steal + open;
         }
-        let beyond = (position.saturating_sub(fret)).max((fret + 1).saturating_sub(position + SPAN));
-        let reach = match beyond {
-            0 => 0.0,
-            more => REACH.0 + REACH.1 * (more - 1) as f64,
-        };
-        steal + reach + HEIGHT * fret as f64
+        steal + reach(position, fret) + HEIGHT * fret as f64
+    }
+}
+
+/// What it costs a hand at some place to reach a fret.
+fn reach(position: usize, fret: usize) -> f64 {
+    match position.saturating_sub(fret).max((fret + 1).saturating_sub(position + SPAN)) {
+        0 => 0.0,
+        beyond => REACH.0 + REACH.1 * (beyond - 1) as f64,
     }
 }

@@ -48,9 +48,47 @@ fn a_melody_stays_in_position() {
     assert_eq!(hand.position, here);
 }
 
+/// A string that sounds with a finger on a fret, or open.
+fn held(key: u8, fret: usize) -> Use {
+    Use::Taken { channel: 1, key, since: 0, key_down: true, fret }
+}
+
+#[test]
+fn fingers_that_hold_notes_keep_the_hand() {
+    // C5 is held at fret 8 of the first string. Another hand would go to the nut for G3 and E4.
+    let mut hand = guitar();
+    play(&mut hand, &[72], &FREE);
+    let mut uses = FREE;
+    uses[0] = held(72, 8);
+    assert_eq!(play(&mut hand, &[64], &uses), [Some((1, 5))]);
+    assert_eq!(play(&mut hand, &[53], &uses), [Some((4, 8))]);
+    assert!(hand.position() <= 8 && hand.position() + SPAN > 8, "{}", hand.position());
+    // A note kept by the pedal alone needs no finger.
+    uses[0] = Use::Taken { channel: 1, key: 72, since: 0, key_down: false, fret: 8 };
+    play(&mut hand, &[42], &uses);
+    assert!(hand.position() < 5, "{}", hand.position());
+}
+
+#[test]
+fn a_bass_is_played_open_under_a_melody_far_up_the_neck() {
+    let up_the_neck = || {
+        let mut hand = guitar();
+        play(&mut hand, &[76], &FREE);
+        hand
+    };
+    let mut uses = FREE;
+    uses[0] = held(76, 12);
+    assert_eq!(play(&mut up_the_neck(), &[45], &uses), [Some((4, 0))]);
+    assert_eq!(play(&mut up_the_neck(), &[76, 45], &FREE), [Some((0, 12)), Some((4, 0))]);
+    // Alone, or near to what else sounds, it would stand out.
+    assert_eq!(play(&mut up_the_neck(), &[50], &FREE), [Some((5, 10))]);
+    uses[4] = held(57, 12);
+    assert_eq!(play(&mut up_the_neck(), &[50], &uses), [Some((5, 10))]);
+}
+
 #[test]
 fn a_pedal_note_gives_way_before_any_held_key() {
-    let taken = |key, since, key_down| Use::Taken { channel: 0, key, since, key_down };
+    let taken = |key, since, key_down| Use::Taken { channel: 0, key, since, key_down, fret: 0 };
     let mut uses = [
         taken(64, 10, true),
         taken(59, 2, true),
@@ -75,7 +113,7 @@ fn a_pedal_note_gives_way_before_any_held_key() {
 #[test]
 fn a_sounding_key_is_struck_again_where_it_is() {
     let mut uses = FREE;
-    uses[2] = Use::Taken { channel: 0, key: 64, since: 0, key_down: true };
+    uses[2] = Use::Taken { channel: 0, key: 64, since: 0, key_down: true, fret: 9 };
     assert_eq!(play(&mut guitar(), &[64], &uses), [Some((2, 9))]);
 }
 

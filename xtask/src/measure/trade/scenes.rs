@@ -196,7 +196,8 @@ impl Part {
             string: 1,
             start: PLUCK + later,
             duration: setup.player.pluck_duration,
-            release: setup.player.pluck_release,
+            // At once: the most that a rate may have to carry.
+            release: 0.0,
             position: setup.neck.scale_length - setup.player.pluck_position,
             force,
         });
