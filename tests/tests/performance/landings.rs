@@ -102,3 +102,26 @@ fn a_finger_that_lands_is_hardly_heard_by_itself() {
     let page = include_str!("../../../docs/gestures.md");
     assert!(page.contains(&sentence), "docs/gestures.md does not say: {sentence}");
 }
+
+/// Once it is down, the string stays on its fret: no finger bounces. (One of 5 g pressed by 6 N and braked by nothing would, for
+/// 40 ms.)
+#[test]
+fn a_finger_comes_down_once() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        for fret in FRETS {
+            for velocity in [1, 64, 127] {
+                let mut depths = Vec::new();
+                stage.watch(&[(0.0, on(open + fret, velocity))], 0.2, |_, instrument| {
+                    let crown = instrument.geometry(0).frets[usize::from(fret) - 1];
+                    let reading = instrument.model(0).grid.reading(crown);
+                    depths.push(-instrument.state(0).displacement_at(&reading));
+                });
+                let stays = depths[depths.len() - 100..].iter().sum::<f64>() / 100.0;
+                let there = depths.iter().position(|depth| *depth >= 0.98 * stays).expect("it comes down");
+                let lifted = 1.0 - depths[there..].iter().copied().fold(f64::INFINITY, f64::min) / stays;
+                println!("{setup} {string} fret {fret} at {velocity}: {lifted:.3}");
+            }
+        }
+    }
+}

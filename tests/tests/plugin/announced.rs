@@ -18,7 +18,7 @@ fn announcements() -> [Score; 5] {
 }
 
 /// A note that is too low with the capo, bent by the first channel's wheel and its own, with a keyswitch for the sixth string; and
-/// one that three strings have, too late to be of a chord with them.
+/// one that three strings have, when no key is down that would keep the hand where it is.
 fn notes() -> Score {
     vec![
         (0, Action::Parameter(parameter("relax"), 0.0)),
@@ -27,6 +27,8 @@ fn notes() -> Score {
         (0, Action::Midi([0xE0, 0, 80])),
         (0, Action::Midi([0xE2, 0, 68])),
         (100, Action::NoteOn { channel: 0, key: 52, velocity: 100 }),
+        (1_900, Action::NoteOff { channel: 2, key: 43 }),
+        (1_900, Action::NoteOff { channel: 0, key: 52 }),
         (2_000, Action::NoteOn { channel: 0, key: 64, velocity: 100 }),
     ]
 }
