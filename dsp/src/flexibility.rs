@@ -48,8 +48,8 @@ impl Flexibility {
         (straight - bent) / self.tension
     }
 
-    /// wᵀKₕ⁻¹w.
-    fn of_grid(&self, reading: &Reading) -> f64 {
+    /// wᵀKₕ⁻¹w, m/N.
+    pub fn of_grid(&self, reading: &Reading) -> f64 {
         let mut weights = vec![0.0; self.unknowns];
         for (i, weight) in crate::band::weights(reading) {
             weights[i] += weight;

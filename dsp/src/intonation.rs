@@ -11,6 +11,7 @@
 //! scheme steps through.
 
 mod equilibrium;
+mod laid;
 mod mode;
 
 use crate::curve::Curve;
@@ -22,6 +23,7 @@ use crate::neck::Neck;
 use crate::scene::{SolverSettings, Stencil};
 use crate::setup::{Fretting, Intonation, Setup, SetupString, frequency};
 use equilibrium::Equilibrium;
+pub use laid::Laid;
 use mode::{Resting, open_frequency, stopped_frequency};
 
 /// A string ready to be modelled.
@@ -291,7 +293,7 @@ impl<'a> Bench<'a> {
         let at: Reading = model.grid.reading(place);
         let guess = guess.unwrap_or_else(|| self.folded(&model, place, frets[fret]));
         let rest = Equilibrium::new(&model, &at, self.fretting.force, guess);
-        let finger = Resting { at, law, fretting: self.fretting };
+        let finger = Resting { at, law, touch: &self.fretting.touch, force: self.fretting.force };
         // Behind a fret a finger lies between both parts of the string, and swallows what the one behind does. On a bare board it
         // does not: at semitones 12, 19 and 24, where that has a partial of the same pitch, it would be found as well.
         let still_to = if self.neck.fretless { frets[fret] } else { 0.0 };

@@ -5,9 +5,9 @@ use nalgebra::Complex;
 use super::equilibrium::{Equilibrium, axial_spring, stiffness_at};
 use crate::band::{Band, RankOne, dot};
 use crate::contact::ContactLaw;
+use crate::gesture::Touch;
 use crate::grid::Reading;
 use crate::model::{Model, Stiffness};
-use crate::setup::Fretting;
 
 /// Angular frequency of a partial of the open string on its grid, 1/s: the scheme turns a stiffness Λ
 /// (1/s²) into the frequency with 4/k² sin²(ωk/2) = Λ.
@@ -20,6 +20,21 @@ pub(super) fn open_frequency(model: &Model, partial: usize) -> f64 {
         s * (own.tension / model.string.linear_density + s * (own.kappa_squared + s * own.kappa_6));
     realised(stiffness, grid.time_step)
 }
+
+/// The wavenumber, 1/m, of what swings at an angular frequency, 1/s, on the grid of a string under a tension, N: the same backwards.
+pub(super) fn wavenumber(model: &Model, tension: f64, frequency: f64) -> f64 {
+    let grid = &model.grid;
+    let own = model.stiffness(model.string.tension);
+    let chord = 2.0 / grid.time_step * libm::sin(0.5 * frequency * grid.time_step);
+    let square = tension / model.string.linear_density;
+    // Bending adds a small part of it to what tension does.
+    let s =
+        (0..BENDINGS).fold(0.0, |s, _| chord * chord / (square + s * (own.kappa_squared + s * own.kappa_6)));
+    2.0 / grid.spacing * libm::asin((0.5 * grid.spacing * s.sqrt()).min(1.0))
+}
+
+/// How often that part is found anew: each time it is off by that part of what it was.
+const BENDINGS: usize = 8;
 
 /// The frequency that the scheme gives a stiffness, both angular.
 fn realised(stiffness: f64, time_step: f64) -> f64 {
@@ -34,7 +49,9 @@ pub(super) struct Resting<'a> {
     /// The law of its pad.
     pub law: ContactLaw,
     /// The rest of it.
-    pub fretting: &'a Fretting,
+    pub touch: &'a Touch,
+    /// What it presses with, N.
+    pub force: f64,
 }
 
 impl Resting<'_> {
@@ -42,12 +59,12 @@ impl Resting<'_> {
     /// side by side) with the finger's mass and the hand's damping behind it. Centred differences in
     /// time turn 1 into cos ωk where a mean of n + 1 and n − 1 acts, iω into i sin(ωk)/k. (The mass is M where steps have M̃, 1 to
     /// 2 % more at 48 kHz for fingers that press: that would move the frets of guitars and basses by less than 1e-4 cents.)
-    fn stiffness(&self, frequency: f64, time_step: f64) -> Complex<f64> {
-        let Fretting { touch, force, .. } = self.fretting;
+    pub fn stiffness(&self, frequency: f64, time_step: f64) -> Complex<f64> {
+        let Self { touch, force, .. } = *self;
         let angle = frequency * time_step;
         let rate = libm::sin(angle) / time_step;
         let chord = 2.0 / time_step * libm::sin(0.5 * angle);
-        let spring = self.law.slope(self.law.penetration_at(*force));
+        let spring = self.law.slope(self.law.penetration_at(force));
         let pad = Complex::new(spring * libm::cos(angle), touch.damping * force * rate);
         let hand = Complex::new(-touch.mass * chord * chord, touch.hand_damping * rate);
         pad * hand / (pad + hand)

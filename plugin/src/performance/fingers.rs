@@ -352,7 +352,7 @@ impl Fingers {
     /// Where a finger stops a fret, or a bar lies over it, m from the nut.
     fn place(&self, fret: usize, bar: bool) -> f64 {
         match bar {
-            true => self.string.geometry.length * (1.0 - libm::exp2(-(fret as f64) / 12.0)),
+            true => self.string.bar_place(fret),
             false => self.string.geometry.finger_position(fret),
         }
     }

@@ -1,7 +1,10 @@
 //! What a player knows of a string before touching it.
 
-use low_action_dsp::setup::{Pickup, Setup};
+use low_action_dsp::intonation::Laid;
+use low_action_dsp::setup::{Pickup, Setup, frequency};
 use low_action_dsp::{Instrument, StringGeometry};
+
+use super::technique::{BAR, BAR_SHARE, BAR_WEIGHT};
 
 /// What the player knows of one string.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +17,8 @@ pub struct PlayedString {
     pub depths: Vec<f64>,
     /// Force of a fretting finger from which on the string lies on a fret, N, fret 1 first.
     pub stopping_forces: Vec<f64>,
+    /// Where a bar lies over a fret for its note to be in tune, m from the nut, fret 1 first.
+    pub bar_places: Vec<f64>,
     /// Whether fingers stop it on a bare board.
     pub fretless: bool,
     /// Whether it is so high that it is stopped by a bar unless something else is asked for.
@@ -51,7 +56,21 @@ impl PlayedString {
             _ => None,
         };
         let (fretless, barred) = (setup.neck.fretless, setup.wants_bar());
-        Self { geometry, tension, depths, stopping_forces, fretless, barred, coil }
+        let mut string = Self {
+            geometry,
+            tension,
+            depths,
+            stopping_forces,
+            bar_places: Vec::new(),
+            fretless,
+            barred,
+            coil,
+        };
+        let laid = Laid::new(instrument.model(index));
+        let open = string.geometry.open_pitch + setup.tuning;
+        let bar_place = |fret: usize| laid.place(&BAR, string.bar_force(fret), frequency(open + fret as f64));
+        string.bar_places = (1..=string.geometry.frets.len()).map(bar_place).collect();
+        string
     }
 
     /// How far a finger has to press the string down until it touches a fret, m; 0 for the open string.
@@ -70,6 +89,16 @@ impl PlayedString {
     pub fn leaving_force(&self, fret: usize) -> f64 {
         let depth = self.depth(fret);
         if depth > 0.0 { self.pull(depth, 0, fret) } else { 0.0 }
+    }
+
+    /// Where a bar lies over a fret, m from the nut; 0 for the open string.
+    pub fn bar_place(&self, fret: usize) -> f64 {
+        of_fret(&self.bar_places, fret)
+    }
+
+    /// What a bar presses the string with over a fret, N: its weight, or less where the string would touch the fret.
+    pub fn bar_force(&self, fret: usize) -> f64 {
+        (BAR_SHARE * self.leaving_force(fret)).min(BAR_WEIGHT)
     }
 
     /// What pulls a finger back that has pressed the string down behind one fret by so much, m, while another (0 for the nut)

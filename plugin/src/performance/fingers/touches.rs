@@ -66,17 +66,11 @@ impl Fingers {
 
     /// Lays a bar over a fret, too light to touch it.
     pub(super) fn lay_bar(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
-        let force = self.bar_force(fret);
+        let force = self.string.bar_force(fret);
         let finger = self.take_slot(fret, BAR, true);
         let position = self.sounding_from();
         at.does(Gesture::Throw { finger, touch: BAR, position, clearance: 0.0, speed: BAR_SPEED });
         at.does(Gesture::Press { finger, force, duration: 0.0 });
-    }
-
-    /// What a bar presses a string with over a fret, N: its weight, or less where the string would touch the
-    /// fret.
-    pub(super) fn bar_force(&self, fret: usize) -> f64 {
-        (BAR_SHARE * self.string.leaving_force(fret)).min(BAR_WEIGHT)
     }
 
     /// A capo at this fret on notes to come, 0 for none.
