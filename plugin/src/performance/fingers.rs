@@ -3,6 +3,7 @@
 //! Two slots belong to fingers that stop the string. The one that sounds is `fretting`; another may be
 //! held down behind it (`anchor`), so that a pull-off finds it there, or touch the string lightly.
 
+mod behind_bar;
 mod excitation;
 mod hammering;
 mod handed_over;
@@ -114,6 +115,8 @@ pub(crate) struct Fingers {
     light: Option<FingerSlot>,
     /// Where that touches it, m from the nut.
     touched: f64,
+    /// Whether one rests behind the bar that stops the string.
+    behind_bar: bool,
     /// By slot, what is leaving.
     departing: [Option<Departing>; FINGERS_PER_STRING],
     /// Which slots hold a damper that rests on the string.
@@ -149,6 +152,7 @@ impl Fingers {
             next_slot: 0,
             light: None,
             touched: 0.0,
+            behind_bar: false,
             departing: [None; FINGERS_PER_STRING],
             resting: [false; FINGERS_PER_STRING],
             right: RightHand::default(),
@@ -166,6 +170,7 @@ impl Fingers {
     /// All away.
     pub(crate) fn reset(&mut self) {
         (self.fretting, self.anchor, self.light, self.touched) = (None, None, None, 0.0);
+        self.behind_bar = false;
         self.departing = [None; FINGERS_PER_STRING];
         self.next_slot = 0;
         self.resting = [false; FINGERS_PER_STRING];

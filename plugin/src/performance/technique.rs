@@ -258,7 +258,7 @@ pub(crate) const NEAR_ENOUGH: f64 = 0.2;
 pub(crate) const HIGHEST_HARMONIC: u32 = 8;
 /// Part of its largest motion under which a pickup hardly hears a partial.
 pub(crate) const DEAF: f64 = 0.2;
-/// How a resting finger mutes: a match with the string.
+/// How a resting finger mutes, and keeps quiet what is behind a bar: a match with the string.
 pub(crate) const MUTE: f64 = 1.0;
 
 /// How a stroke differs from the usual one.
@@ -320,14 +320,18 @@ pub(crate) const GRAZE_TIME: f64 = 0.04;
 pub(crate) const BESIDE_THUMB: f64 = 0.75;
 
 /// A steel bar of 250 g, and half a kilogram of the hand that holds it and lets it come to rest on a string without a
-/// bounce. An end that gives way like a mass m shortens the string by T/(mω²): the lowest notes of a bass are 6 cents
-/// sharp by it, and would be 19 under the bar alone.
+/// bounce. An end that gives way like a mass m shortens the string by T/(mω²), which its place makes up for: 6 cents for the
+/// lowest notes of a bass, and 19 under the bar alone.
 pub(crate) const BAR: Touch =
     Touch { mass: 0.75, stiffness: 1e8, exponent: 1.5, damping: 0.05, hand_damping: 45.0 };
 /// How it leaves when the next note is about to sound: no hand throws it up faster.
 pub(crate) const BAR_LIFT: Leaving = Leaving { speed: 0.3, turning: 0.003 };
 /// How fast it comes down on a string, m/s.
 pub(crate) const BAR_SPEED: f64 = 0.05;
+/// Slot of the finger that rests on the string behind a bar: a damper's, which takes that of the other fretting finger then.
+pub(crate) const BEHIND_BAR: FingerSlot = DAMPERS[1].0;
+/// How far behind the bar it rests: so far, m, but no more than this part of the way to the nut or the capo.
+pub(crate) const BEHIND_BAR_REACH: (f64, f64) = (0.04, 0.4);
 /// Its weight on one string, N; and the largest part of what brings the string to the fret that may be used.
 pub(crate) const BAR_WEIGHT: f64 = 0.25;
 pub(crate) const BAR_SHARE: f64 = 0.5;

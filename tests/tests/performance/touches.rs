@@ -163,11 +163,8 @@ fn a_bar_stops_a_string_without_its_frets() {
             {
                 let pitch = hertz(key);
                 let off = cents(frequency_near(&sound[at(from)..at(to)], RATE, pitch), pitch);
-                // It weighs 0.25 N on the string and is not infinitely heavy: both raise the pitch a little.
-                assert!(
-                    (-4.0..10.0).contains(&off),
-                    "{setup} {string} fret {fret} from {from} s: {off} cents"
-                );
+                // Over a fret it is in tune; half way between two of them the grid makes a difference.
+                assert!(off.abs() < 3.0, "{setup} {string} fret {fret} from {from} s: {off} cents");
             }
             if setup == "electric" {
                 assert!(!touched, "{setup} {string} fret {fret}: the string lies on the frets");
@@ -186,7 +183,7 @@ fn a_bar_is_laid_on_an_open_string() {
     for (from, to, key) in [(0.1, 0.5, 59.0), (0.8, 1.5, 63.0), (1.6, 2.2, 59.0)] {
         let part = &sound[at(from)..at(to)];
         let off = cents(frequency_near(part, RATE, hertz(key)), hertz(key));
-        assert!((-4.0..10.0).contains(&off), "from {from} s: {off} cents");
+        assert!(off.abs() < 3.0, "from {from} s: {off} cents");
         assert!(decibels(peak(part)) > -45.0, "from {from} s: {} dB", decibels(peak(part)));
     }
 }

@@ -17,7 +17,7 @@ impl Fingers {
     pub(crate) fn take_over(&mut self, old: &Self) -> bool {
         self.hands = old.hands.clone();
         (self.fretting, self.anchor, self.light) = (old.fretting, old.anchor, old.light);
-        self.touched = old.touched;
+        (self.touched, self.behind_bar) = (old.touched, old.behind_bar);
         (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
         self.right.take_over(&old.right);
         (self.home, self.pressure, self.tightened) = (old.home, old.pressure, old.tightened);
@@ -48,7 +48,7 @@ impl Fingers {
         }
         for finger in [self.fretting, self.anchor].into_iter().flatten() {
             let duration = finger.time_to_arrive(at).max(MOVES);
-            at.does(Gesture::Slide { finger: finger.slot, position: self.pressed(&finger), duration });
+            self.move_along(&finger, self.pressed(&finger), duration, at);
         }
         if self.capo[1] > 0 {
             let position = self.string.geometry.finger_position(self.capo[1]);

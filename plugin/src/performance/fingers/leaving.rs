@@ -10,18 +10,19 @@ use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
     /// Lays the edge of the hand near the saddle, and a finger of the other hand behind a fretting one,
-    /// which goes on pressing just hard enough. A hand that mutes the string stays where it is, and so does
+    /// which goes on pressing just hard enough; behind a bar one rests already. A hand that mutes the string stays where it is, and so does
     /// a light finger: a string that is let go of sounds.
     pub(crate) fn damp(&mut self, parting: Parting, at: &mut Moment<impl GestureSink>) {
         let near_saddle = self.hands.damper.position.min(FARTHEST_DAMPER * self.sounding_length());
         let (light, mutes) = (self.light, self.light.is_some() && self.resting[LIGHT]);
         for (slot, part) in DAMPERS.into_iter().filter(|&(slot, _)| !mutes && light != Some(slot)) {
+            let slot = if self.behind_bar && slot == BEHIND_BAR { self.next_slot } else { slot };
             self.rest(slot, self.string.geometry.length - part * near_saddle, at);
         }
         if let Some(anchor) = self.anchor.take() {
             // It keeps quiet what is behind; it leaves as softly as the other.
             self.depart(anchor.slot, anchor.touch, parting.easing, at);
-        } else if self.light.is_none() && self.waits_behind(at.time).is_none() {
+        } else if self.light.is_none() && !self.behind_bar && self.waits_behind(at.time).is_none() {
             self.damp_behind(at);
         }
         if let Some(finger) = self.fretting.filter(|finger| !finger.bar) {
@@ -65,6 +66,7 @@ impl Fingers {
         if let Some(finger) = self.fretting.take() {
             self.depart(finger.slot, finger.touch, parting.easing, at);
         }
+        self.ease_from_behind_bar(at);
         self.lift_capo(parting.easing, at);
         for slot in self.resting_slots() {
             at.does(lifting(slot, self.hands.damper.touch, DAMPER_EASING));

@@ -75,7 +75,7 @@ impl Fingers {
     ) -> Gesture {
         self.make_way(at);
         self.lay_capo(at);
-        let before = self.fretting.take();
+        let before = self.take_fretting(at);
         let stopped = self.down(before.as_ref(), at);
         // An anchor there was has the slot that the new finger takes.
         self.anchor = None;
@@ -100,7 +100,7 @@ impl Fingers {
             return None;
         }
         let manner = self.letting_go(strength);
-        let leaving = [self.fretting.take(), self.anchor.take()];
+        let leaving = [self.take_fretting(at), self.anchor.take()];
         for finger in leaving.into_iter().flatten() {
             at.does(finger.lets_go(manner));
         }
@@ -116,7 +116,7 @@ impl Fingers {
         at: &mut Moment<impl GestureSink>,
     ) -> Option<Gesture> {
         self.make_way(at);
-        let old = self.fretting.take()?;
+        let old = self.take_fretting(at)?;
         self.home = fret;
         self.next_slot = (old.slot + 1) % FRETTING_SLOTS;
         match self.anchor.take() {

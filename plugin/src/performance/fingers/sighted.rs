@@ -12,7 +12,9 @@ impl Fingers {
     pub(crate) fn let_ring(&mut self, at: &mut Moment<impl GestureSink>) {
         self.make_way(at);
         self.lay_capo(at);
-        if let Some(old) = self.fretting.take_if(|finger| finger.grip != Grip::Presses) {
+        if self.fretting.is_some_and(|finger| finger.grip != Grip::Presses)
+            && let Some(old) = self.take_fretting(at)
+        {
             at.does(old.gives_way());
         }
     }
@@ -29,7 +31,7 @@ impl Fingers {
         }
         self.make_way(at);
         self.lay_capo(at);
-        for old in [self.anchor.take(), self.fretting.take()].into_iter().flatten() {
+        for old in [self.anchor.take(), self.take_fretting(at)].into_iter().flatten() {
             at.does(old.gives_way());
         }
         self.expect_beside(0.0);

@@ -67,7 +67,7 @@ impl Fingers {
     ) -> (i32, Option<Gesture>) {
         let frets = self.can_slide(frets);
         let Some(sliding) = self.slidable() else { return (frets, None) };
-        let Finger { slot, fret: at_fret, bar, .. } = sliding;
+        let Finger { fret: at_fret, bar, .. } = sliding;
         let fret = self.home as i32 + frets;
         let mut slide = None;
         if fret as usize != at_fret {
@@ -77,9 +77,7 @@ impl Fingers {
             }
             let position = self.place(fret as usize, bar);
             let duration = Self::unhurried(&sliding, duration, at);
-            let moves = Gesture::Slide { finger: slot, position, duration };
-            at.does(moves);
-            slide = Some(moves);
+            slide = Some(self.move_along(&sliding, position, duration, at));
         }
         (frets, slide)
     }
@@ -173,7 +171,7 @@ impl Fingers {
         }
         let position = self.glided_place(stands, finger.bar);
         let duration = Self::unhurried(&finger, duration, at);
-        at.does(Gesture::Slide { finger: finger.slot, position, duration });
+        self.move_along(&finger, position, duration, at);
         reached
     }
 }

@@ -41,7 +41,7 @@ impl Fingers {
         if self.fretting.is_some_and(|finger| stays(&finger)) {
             return self.press_again(at);
         }
-        let (old, anchor) = (self.fretting.take(), self.anchor.take().or(called_back));
+        let (old, anchor) = (self.take_fretting(at), self.anchor.take().or(called_back));
         let presses = matches!(stop, Stop::Press | Stop::Harmonic) && fret > self.capo[1];
         let down = self.down(old.as_ref(), at);
         match old.filter(|old| presses && !old.bar && old.free.is_none()) {

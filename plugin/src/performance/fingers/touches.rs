@@ -64,13 +64,14 @@ impl Fingers {
         }
     }
 
-    /// Lays a bar over a fret, too light to touch it.
+    /// Lays a bar over a fret, too light to touch it, and a finger behind it.
     pub(super) fn lay_bar(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
         let force = self.string.bar_force(fret);
         let finger = self.take_slot(fret, BAR, true);
         let position = self.sounding_from();
         at.does(Gesture::Throw { finger, touch: BAR, position, clearance: 0.0, speed: BAR_SPEED });
         at.does(Gesture::Press { finger, force, duration: 0.0 });
+        self.rest_behind_bar(position, at);
     }
 
     /// A capo at this fret on notes to come, 0 for none.
