@@ -9,6 +9,13 @@ folder = pathlib.Path(sys.argv[1])
 notices = folder / "THIRD-PARTY.txt"
 if not notices.is_file() or "SIL OPEN FONT LICENSE" not in notices.read_text(encoding="utf-8"):
     sys.exit(f"{notices} is missing, or has not all licences")
+# After the list of libraries each text stands under the names of those that come with it.
+listed, *texts = notices.read_text(encoding="utf-8").split("=" * 80)
+libraries = [line.split(": ")[0] for line in listed.splitlines()[2:] if line]
+named = {name for text in texts for name in text.strip().split(":\n")[0].split(", ")}
+missing = [name for name in libraries if name not in named]
+if missing or len(libraries) < 100:
+    sys.exit(f"{notices} names {len(libraries)} libraries; without a text: {', '.join(missing) or 'none'}")
 # Where the two formats want the library, on Linux; elsewhere only the bundles' presence is checked.
 ENTRIES = {
     "Low Action.clap": (".", "clap_entry"),

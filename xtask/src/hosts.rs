@@ -19,7 +19,7 @@ use std::process::Command;
 use anyhow::{Context, Result, bail};
 use xtask::repository::root;
 
-use crate::notices;
+use crate::bundles;
 
 use compare::{Comparison, Sound};
 
@@ -80,9 +80,8 @@ fn known(name: &str) -> Result<&'static str> {
 
 /// Builds the VST3 bundle.
 fn bundle() -> Result<PathBuf> {
-    let words = ["bundle", "low-action", "--release"].map(str::to_owned);
-    nice_plug_xtask::main_with_args("cargo xtask", words)?;
-    Ok(notices::bundles()?.join("Low Action.vst3"))
+    bundles::make("bundle", &["low-action", "--release"].map(str::to_owned))?;
+    Ok(bundles::folder()?.join("Low Action.vst3"))
 }
 
 /// Renders a clip with the command line.

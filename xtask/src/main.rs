@@ -2,6 +2,7 @@
 //!
 //! Each command is one entry of [`COMMANDS`]; a command that outgrows a few lines gets a module.
 
+mod bundles;
 mod figures;
 mod hosts;
 mod notices;
@@ -61,7 +62,7 @@ const COMMANDS: &[Command] = &[
                   the libraries in them",
         examples: &["low-action --release", "low-action --release --no-default-features"],
         names: Vec::new,
-        run: |arguments| bundle("bundle", arguments),
+        run: |arguments| bundles::make("bundle", &arguments),
     },
     Command {
         name: "bundle-universal",
@@ -69,7 +70,7 @@ const COMMANDS: &[Command] = &[
         summary: "bundles for both processors of macOS in one binary (on macOS only)",
         examples: &["low-action --release"],
         names: Vec::new,
-        run: |arguments| bundle("bundle-universal", arguments),
+        run: |arguments| bundles::make("bundle-universal", &arguments),
     },
     Command {
         name: "figures",
@@ -97,13 +98,6 @@ const COMMANDS: &[Command] = &[
         run: xtask::measure::run,
     },
 ];
-
-/// Hands a bundling command to the plugin framework, which reads `bundler.toml`; then puts the notices of what is in the
-/// bundles beside them.
-fn bundle(name: &str, arguments: Arguments) -> Result<()> {
-    nice_plug_xtask::main_with_args("cargo xtask", std::iter::once(name.to_owned()).chain(arguments))?;
-    notices::write()
-}
 
 /// The list of commands, one line each.
 fn help() -> String {

@@ -1,9 +1,10 @@
 //! What the licences of the libraries inside a bundle ask to be handed on with it: their names and texts, in one file.
 
+mod kept;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
@@ -18,42 +19,18 @@ const BUNDLED: &str = "low-action";
 const BEGINNINGS: [&str; 7] = ["license", "licence", "copying", "copyright", "notice", "ofl", "ufl"];
 
 /// Writes the notices of everything that is linked into the plugin, beside its bundles.
-pub fn write() -> Result<()> {
-    let metadata = metadata()?;
-    let path = bundles_of(&metadata)?.join(FILE);
-    let text = notices(&metadata)?;
+pub fn write(text: &str, folder: &Path) -> Result<()> {
+    let path = folder.join(FILE);
     fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
     eprintln!("Created '{}'", path.display());
     Ok(())
 }
 
-/// The folder of the bundles: in cargo's target folder, wherever that has been put.
-pub fn bundles() -> Result<PathBuf> {
-    bundles_of(&metadata()?)
-}
-
-fn bundles_of(metadata: &Value) -> Result<PathBuf> {
-    let folder = metadata["target_directory"].as_str().context("cargo names no target folder")?;
-    Ok(Path::new(folder).join("bundled"))
-}
-
-/// What cargo knows of the packages, for this platform.
-fn metadata() -> Result<Value> {
-    let run = |program: &str, arguments: &[&str]| -> Result<Vec<u8>> {
-        let done = Command::new(program).args(arguments).output();
-        let done = done.with_context(|| format!("{program} cannot be run"))?;
-        ensure!(done.status.success(), "{program} failed: {}", String::from_utf8_lossy(&done.stderr));
-        Ok(done.stdout)
-    };
-    let version = String::from_utf8(run("rustc", &["-vV"])?)?;
-    let host = version.lines().find_map(|line| line.strip_prefix("host: ")).context("rustc names no host")?;
-    let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".into());
-    let out = run(&cargo, &["metadata", "--format-version", "1", "--locked", "--filter-platform", host])?;
-    Ok(serde_json::from_slice(&out)?)
-}
-
 /// A list of the libraries, then each text once, under the names of those that come with it.
-fn notices(metadata: &Value) -> Result<String> {
+///
+/// # Errors
+/// When one of them ships no text, and none is kept for it.
+pub fn notices(metadata: &Value) -> Result<String> {
     let linked = linked(metadata)?;
     let word = |package: &Value, key: &str| package[key].as_str().unwrap_or_default().to_owned();
     let mut list = Vec::new();
@@ -66,7 +43,16 @@ fn notices(metadata: &Value) -> Result<String> {
         let name = format!("{} {}", word(package, "name"), word(package, "version"));
         list.push(format!("{name}: {}, {}\n", word(package, "license"), word(package, "repository")));
         let manifest = PathBuf::from(word(package, "manifest_path"));
-        for text in licences(manifest.parent().context("a package without a folder")?)? {
+        let mut shipped = licences(manifest.parent().context("a package without a folder")?)?;
+        if shipped.is_empty() {
+            let (package, licence) = (word(package, "name"), word(package, "license"));
+            shipped.extend(kept::text(&package, &licence));
+            ensure!(
+                !shipped.is_empty(),
+                "{name} ships no text of its licence, {licence}: say in xtask/src/notices/kept.rs whose it is"
+            );
+        }
+        for text in shipped {
             let names = texts.entry(text).or_default();
             if names.last() != Some(&name) {
                 names.push(name.clone());
@@ -128,32 +114,87 @@ fn licences(folder: &Path) -> Result<Vec<String>> {
     };
     files.retain(is_licence);
     // What is no text is none that can be read.
-    Ok(files.iter().filter_map(|path| fs::read_to_string(path).ok()).collect())
+    let texts = files.iter().filter_map(|path| fs::read_to_string(path).ok());
+    Ok(texts.filter(|text| !text.trim().is_empty()).collect())
 }
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
+    use std::fs;
 
     use serde_json::json;
 
-    use super::{bundles_of, metadata, notices};
+    use super::notices;
+    use crate::bundles::Build;
 
-    #[test]
-    fn bundles_are_where_cargo_builds() {
-        let metadata = json!({ "target_directory": "/elsewhere" });
-        let folder = bundles_of(&metadata).expect("it is named");
-        assert_eq!(folder, Path::new("/elsewhere/bundled"));
-        assert!(bundles_of(&json!({})).is_err());
+    /// Names in the list, and in the lines above texts.
+    fn named(text: &str) -> (Vec<&str>, Vec<&str>) {
+        let line = "=".repeat(80);
+        let mut parts = text.split(&line);
+        let list =
+            parts.next().expect("there is a list").lines().skip(2).filter_map(|line| line.split_once(": "));
+        let list = list.map(|(name, _)| name).collect();
+        let above = parts.filter_map(|part| part.trim_start().split_once(":\n"));
+        (list, above.flat_map(|(names, _)| names.split(", ")).collect())
     }
 
-    /// Fonts and sound files are under licences that ask for their texts.
+    /// Fonts and sound files are under licences that ask for their texts, and most others are.
     #[test]
-    fn what_is_linked_is_named_with_its_licence() {
-        let text = notices(&metadata().expect("cargo is there")).expect("all packages are there");
-        for words in ["\nhound ", "\nnice-plug ", "\negui ", "SIL OPEN FONT LICENSE", "Apache License"] {
-            assert!(text.contains(words), "{words} is missing");
+    fn what_is_linked_stands_above_the_text_of_its_licence() {
+        for platform in [
+            "x86_64-unknown-linux-gnu",
+            "aarch64-unknown-linux-gnu",
+            "x86_64-pc-windows-msvc",
+            "x86_64-apple-darwin",
+            "aarch64-apple-darwin",
+        ] {
+            let words = ["--target", platform, "--all-features"].map(str::to_owned);
+            let metadata =
+                Build::of("bundle", &words).and_then(|build| build.metadata()).expect("cargo is there");
+            let text = notices(&metadata).expect("there is a text for each");
+            let (list, above) = named(&text);
+            assert!(list.len() > 200, "{} on {platform}", list.len());
+            for name in &list {
+                assert!(above.contains(name), "{name} has no text on {platform}");
+            }
+            for name in ["hound ", "nice-plug ", "egui "] {
+                assert!(
+                    list.iter().any(|listed| listed.starts_with(name)),
+                    "{name} is missing on {platform}"
+                );
+            }
+            for words in ["SIL OPEN FONT LICENSE", "Apache License", "Robbert van der Helm"] {
+                assert!(text.contains(words), "{words} is missing on {platform}");
+            }
+            assert!(!text.contains("\nproptest "), "what only tests use is not bundled");
         }
-        assert!(!text.contains("\nproptest "), "what only tests use is not bundled");
+    }
+
+    #[test]
+    fn a_library_without_a_text_is_refused() {
+        let folder = std::env::temp_dir().join(format!("low-action-notices-{}", std::process::id()));
+        fs::create_dir_all(&folder).expect("it can be made");
+        let package = |name: &str, source| {
+            json!({
+                "name": name, "id": name, "source": source, "version": "1.0.0", "license": "MIT",
+                "repository": "", "manifest_path": folder.join("Cargo.toml"),
+            })
+        };
+        let metadata = json!({
+            "packages": [package("low-action", json!(null)), package("nobody", json!("registry"))],
+            "resolve": { "nodes": [
+                { "id": "low-action", "deps": [{ "pkg": "nobody", "dep_kinds": [{ "kind": null }] }] },
+                { "id": "nobody", "deps": [] },
+            ] },
+        });
+        let refused = notices(&metadata).expect_err("it has no text").to_string();
+        assert!(refused.contains("nobody 1.0.0") && refused.contains("MIT"), "{refused}");
+        // An empty file is no text.
+        fs::write(folder.join("LICENSE"), "\n").expect("it can be written");
+        assert!(notices(&metadata).is_err());
+        fs::write(folder.join("LICENSE"), "As you like.").expect("it can be written");
+        let text = notices(&metadata).expect("there is one now");
+        assert_eq!(named(&text), (vec!["nobody 1.0.0"], vec!["nobody 1.0.0"]));
+        fs::remove_dir_all(&folder).expect("it is there");
     }
 }
