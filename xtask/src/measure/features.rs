@@ -5,7 +5,7 @@ mod baseline;
 mod cases;
 mod count;
 
-pub use count::{callgrind_is_there, instructions_of_run};
+pub use count::{callgrind_is_there, counted_part, instructions_of_parts, instructions_of_run};
 
 use anyhow::{Context, Result, ensure};
 use clap::Parser;

@@ -2,9 +2,10 @@
 
 mod buzz;
 mod sharing;
+mod timed;
 
-use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::SystemTime;
 
 use anyhow::{Context, Result, ensure};
 use clap::Parser;
@@ -12,6 +13,8 @@ use clap::Parser;
 use super::features::callgrind_is_there;
 use super::page;
 use crate::repository::root;
+use buzz::SUSPECTS;
+use timed::Timed;
 
 /// Where the table stands.
 const PAGE: &str = "docs/speed.md";
@@ -23,77 +26,89 @@ const PAGE: &str = "docs/speed.md";
     after_help = "Examples:\n  cargo xtask measure speed            times everything and prints the table (a few minutes)\n  \
                   cargo xtask measure speed --write    puts it into docs/speed.md\n  \
                   cargo xtask measure speed --last     makes the table of the last run again\n  \
-                  cargo xtask measure speed --songs    times only songs, by one thread and by several"
+                  cargo xtask measure speed --songs    times only songs, by one thread and by several\n  \
+                  cargo xtask measure speed --buzz     counts only the work of a chord that buzzes"
 )]
 struct Arguments {
     /// Put the table into docs/speed.md.
     #[arg(long)]
     write: bool,
-    /// Do not run the benchmarks, take what the last run found.
+    /// Do not run the benchmarks, take what the last run found. Songs and the chord that buzzes are measured anew.
     #[arg(long)]
     last: bool,
     /// Only time songs by one thread and by as many as there are processors, and put only that row into docs/speed.md.
     #[arg(long, conflicts_with = "last")]
     songs: bool,
-    /// Play so many samples of the chord that buzzes, as callgrind is told to.
+    /// Only count iterations and instructions of the chord that buzzes, and put only those rows into docs/speed.md.
+    #[arg(long, conflicts_with_all = ["last", "songs"])]
+    buzz: bool,
+    /// Play so many samples of that chord, as callgrind is told to.
     #[arg(long, hide = true)]
-    buzz: Option<usize>,
+    play_buzz: Option<usize>,
+    /// Which of them are counted by themselves.
+    #[arg(long, hide = true, value_delimiter = ',')]
+    counted: Vec<usize>,
 }
+
+/// Rows of the table, each with how it begins there.
+type Rows = Vec<(&'static str, String)>;
 
 /// Runs the measurement.
 pub fn run(arguments: Vec<String>) -> Result<()> {
     let Some(arguments) = super::parse::<Arguments>(arguments)? else { return Ok(()) };
-    if let Some(samples) = arguments.buzz {
-        return buzz::play(samples);
+    if let Some(samples) = arguments.play_buzz {
+        return buzz::play(samples, &arguments.counted);
     }
-    if arguments.songs {
-        let row = songs()?;
-        print!("{row}");
-        if arguments.write {
-            let marks = page::marks("speed");
-            page::write(PAGE, &marks, &with_songs(&page::read(PAGE, &marks)?, &row))?;
+    let (songs, buzz) = (!arguments.buzz, !arguments.songs);
+    if arguments.write {
+        // What cannot be measured here would take the place of what was measured elsewhere.
+        ensure!(
+            !buzz || callgrind_is_there(),
+            "--write: valgrind is not there, and it counts the instructions"
+        );
+        ensure!(!songs || sharing::processors() > 1, "--write: songs want several processors, here is 1");
+    }
+    let marks = page::marks("speed");
+    let table = if arguments.songs || arguments.buzz {
+        page::read(PAGE, &marks)?
+    } else {
+        let started = (!arguments.last).then(SystemTime::now);
+        if started.is_some() {
+            benchmark()?;
         }
-        return Ok(());
+        timed(&Timed::since(started))?
+    };
+    let mut rows = if buzz { self::buzz()? } else { Rows::new() };
+    if songs {
+        rows.push(self::songs()?);
     }
-    if !arguments.last {
-        let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-            .args(["bench", "--package", "low-action-dsp"])
-            .current_dir(root())
-            .status()
-            .context("cargo cannot be run")?;
-        ensure!(status.success(), "the benchmarks failed");
-    }
-    let table = table()?;
+    let table = with_rows(&table, &rows);
     println!("{table}");
     if arguments.write {
-        page::write(PAGE, &page::marks("speed"), &table)?;
+        page::write(PAGE, &marks, &table)?;
     }
     Ok(())
 }
 
-/// Median time of a benchmark's iterations in the last run, ns: neighbours on the machine move it less than the mean.
-fn median(group: &str, name: &str) -> Result<f64> {
-    let file = criterion_folder().join(group).join(name).join("new/estimates.json");
-    let text = std::fs::read_to_string(&file)
-        .with_context(|| format!("`{group}/{name}` has not been timed: {} cannot be read", file.display()))?;
-    let estimates: serde_json::Value = serde_json::from_str(&text)?;
-    let point = estimates["median"]["point_estimate"].as_f64();
-    point.with_context(|| format!("{} has no median", file.display()))
-}
-
-fn criterion_folder() -> PathBuf {
-    let target =
-        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| Path::new("target").into(), PathBuf::from);
-    root().join(target).join("criterion")
+/// Runs the benchmarks.
+fn benchmark() -> Result<()> {
+    let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        .args(["bench", "--package", "low-action-dsp"])
+        .current_dir(root())
+        .status()
+        .context("cargo cannot be run")?;
+    ensure!(status.success(), "the benchmarks failed");
+    Ok(())
 }
 
 /// Samples of one iteration.
 const SAMPLES: f64 = 4800.0;
 
-fn table() -> Result<String> {
+/// The table of what criterion found.
+fn timed(found: &Timed) -> Result<String> {
     let mut text = String::from("| measure | found | aim |\n|---|--:|--:|\n");
-    let mut row = |name: &str, found: String, aim: &str| text += &format!("| {name} | {found} | {aim} |\n");
-    let chord = |name: &str| Ok::<_, anyhow::Error>(median("chord", name)? / SAMPLES);
+    let mut row = |name: &str, found: String, aim: &str| text += &self::row(name, &found, aim);
+    let chord = |name: &str| Ok::<_, anyhow::Error>(found.median("chord", name)? / SAMPLES);
     let real_time = |time: f64, rate: f64| format!("{:.1} × real time", 1e9 / (time * rate));
     row("six strings fretted and ringing, `live`, 48 kHz", real_time(chord("48 kHz")?, 48e3), "10 ×");
     for (rate, khz, aim) in [(48e3, "48 kHz", "10 ×, 350 ns"), (96e3, "96 kHz", "3.5 ×")] {
@@ -101,7 +116,7 @@ fn table() -> Result<String> {
         let found = format!("{:.0} ns a string-sample, {}", time / 6.0, real_time(time, rate));
         row(&format!("… every string at {khz}"), found, aim);
     }
-    let string = |name: &str| median("string", name);
+    let string = |name: &str| found.median("string", name);
     let (copy, bare, free) = (string("copy")?, string("bare")?, string("free")?);
     let fretted = string("fretted")?;
     let times = |a: f64, b: f64| format!("{:.2} ×", a / b);
@@ -113,56 +128,75 @@ fn table() -> Result<String> {
     row("free string without vectors over with", scalar, "4 ×");
     let scalar = times(string("fretted, without vectors")?, fretted);
     row("fretted string without vectors over with", scalar, "4 ×");
-    let points = |count: &str| median("points", count);
-    let growth = points("691")? / points("151")?;
-    row("free string of 691 points over one of 151 (4.58 times as many)", format!("{growth:.2} ×"), "linear");
-    row("six ringing strings over one", times(median("strings", "6")?, median("strings", "1")?), "6 ×");
-    row(
-        "six silent strings over one that rings",
-        times(median("strings", "6 silent")?, median("strings", "1")?),
-        "",
-    );
-    row(
-        "100 frets that nothing touches over one",
-        times(median("frets", "100")?, median("frets", "1")?),
-        "1 ×",
-    );
+    // Each is measured by the points it moves.
+    let [few, many] = ["48 kHz", "192 kHz"].map(|rate| -> Result<(f64, f64)> {
+        Ok((found.elements("points", rate)? / SAMPLES, found.median("points", rate)?))
+    });
+    let ((few, short), (many, long)) = (few?, many?);
+    let name = format!("free string of {many} points over one of {few} ({:.2} times as many)", many / few);
+    row(&name, times(long, short), "linear");
+    let strings = |name: &str| found.median("strings", name);
+    row("six ringing strings over one", times(strings("6")?, strings("1")?), "6 ×");
+    row("six silent strings over one that rings", times(strings("6 silent")?, strings("1")?), "");
+    let frets = |name: &str| found.median("frets", name);
+    row("100 frets that nothing touches over one", times(frets("100")?, frets("1")?), "1 ×");
+    Ok(text)
+}
+
+fn row(name: &str, found: &str, aim: &str) -> String {
+    format!("| {name} | {found} | {aim} |\n")
+}
+
+/// The rows of the chord that buzzes.
+fn buzz() -> Result<Rows> {
+    const ITERATIONS: &str = "heavy buzzing chord: Newton iterations of the worst sample over the mean";
+    const INSTRUCTIONS: &str = "… instructions";
     let times = |work: &buzz::Work| format!("{:.1} ×", work.most / work.mean);
-    let buzz = buzz::iterations()?;
-    let found = format!("{} ({} and {:.2})", times(&buzz), buzz.most, buzz.mean);
-    row("heavy buzzing chord: Newton iterations of the worst sample over the mean", found, "6 ×");
-    let found = if callgrind_is_there() {
-        let buzz = buzz::instructions()?;
-        format!("{} ({:.0} and {:.0})", times(&buzz), buzz.most, buzz.mean)
+    let work = buzz::iterations()?;
+    let iterations = format!("{} ({} and {:.2})", times(&work), work.most, work.mean);
+    let instructions = if callgrind_is_there() {
+        let work = buzz::instructions()?;
+        format!("{} ({:.0} and {:.0})", times(&work), work.most, work.mean)
     } else {
         "not counted: valgrind is not there".into()
     };
-    row("… instructions", found, "6 ×");
-    Ok(with_songs(&text, &songs()?))
+    let name = format!("{INSTRUCTIONS}, the worst of the {SUSPECTS} likeliest samples");
+    Ok(vec![
+        (ITERATIONS, row(ITERATIONS, &iterations, "6 ×")),
+        (INSTRUCTIONS, row(&name, &instructions, "6 ×")),
+    ])
 }
 
 /// The row of songs.
-fn songs() -> Result<String> {
+fn songs() -> Result<(&'static str, String)> {
     let (name, found) = sharing::row()?;
-    Ok(format!("| {name} | {found} |  |\n"))
+    Ok((sharing::NAME, row(&name, &found, "")))
 }
 
-/// A table with this row of songs at its end, instead of the one it may have.
-fn with_songs(table: &str, row: &str) -> String {
-    let others = table.lines().filter(|line| !line.contains(sharing::NAME));
-    others.map(|line| format!("{line}\n")).collect::<String>() + row
+/// A table with these rows in the places of those that begin like them, and at its end where there are none.
+fn with_rows(table: &str, rows: &Rows) -> String {
+    let mut lines: Vec<String> = table.lines().map(|line| format!("{line}\n")).collect();
+    for (name, row) in rows {
+        match lines.iter_mut().find(|line| line.starts_with(&format!("| {name}"))) {
+            Some(line) => line.clone_from(row),
+            None => lines.push(row.clone()),
+        }
+    }
+    lines.concat()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{sharing, with_songs};
+    use super::{row, with_rows};
 
     #[test]
-    fn the_row_of_songs_is_put_in_place_of_the_one_before() {
-        let row = |found| format!("| {}, 2 threads over one | {found} |  |\n", sharing::NAME);
+    fn rows_are_put_in_place_of_those_before() {
+        let songs = |found| vec![("songs", row("songs, 2 threads over one", found, ""))];
         let table = "| measure | found | aim |\n| free string | 1 | 2 |\n";
-        let once = with_songs(table, &row("1.5"));
-        assert_eq!(once, format!("{table}{}", row("1.5")));
-        assert_eq!(with_songs(&once, &row("1.6")), format!("{table}{}", row("1.6")));
+        let once = with_rows(table, &songs("1.5"));
+        assert_eq!(once, format!("{table}| songs, 2 threads over one | 1.5 |  |\n"));
+        assert_eq!(with_rows(&once, &songs("1.6")), once.replace("1.5", "1.6"));
+        let free = vec![("free string", row("free string, now", "3", "4"))];
+        assert_eq!(with_rows(&once, &free), once.replace("string | 1 | 2", "string, now | 3 | 4"));
     }
 }

@@ -9,6 +9,9 @@ use low_action_dsp::{
 
 use crate::measure::chord;
 
+/// Samples that an instrument runs at once: of any case only so many or a multiple are run.
+pub const BLOCK: usize = 64;
+
 /// Something that runs sample by sample.
 pub struct Case {
     /// What it is called, in the table and on the command line.
@@ -186,9 +189,10 @@ fn prepare_instrument(strings: usize, ringing: usize, fretted: bool) -> Result<B
         let gesture = Gesture::Pluck { position: 0.52, force: 0.4, duration: 0.003, release: 0.0 };
         instrument.schedule(TimedGesture { time: 0, string, gesture })?;
     }
-    let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
+    let (mut left, mut right) = ([0.0; BLOCK], [0.0; BLOCK]);
     Ok(Box::new(move |samples| {
-        for _ in 0..samples / left.len() {
+        assert_eq!(samples % BLOCK, 0, "an instrument runs whole blocks");
+        for _ in 0..samples / BLOCK {
             instrument.process(&mut left, &mut right);
         }
         std::hint::black_box((&left, &right));

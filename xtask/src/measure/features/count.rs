@@ -2,20 +2,23 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::cases::Case;
+use super::cases::{BLOCK, Case};
 
 /// Samples run before anything is counted: contacts have settled, waves have crossed the string.
 pub const WARM_UP: usize = 4800;
 /// Samples counted.
 const COUNTED: usize = 4800;
 /// Samples of which the time is taken at once, how many such pieces a run has, and how many runs there are.
-const PIECE: usize = 2400;
+const PIECE: usize = 38 * BLOCK;
 const PIECES: usize = 28;
 const RUNS: usize = 15;
+// Instruments run whole blocks, and what they leave out would be counted as run.
+const _: () = assert!(WARM_UP % BLOCK == 0 && COUNTED % BLOCK == 0 && PIECE % BLOCK == 0);
 
 /// Runs a case for what is counted in it: nothing but the warm-up, or the samples to count as well.
 pub fn child(name: &str, count: bool) -> Result<()> {
@@ -59,28 +62,66 @@ pub fn instructions_of(program: &Path, case: &Case) -> Result<f64> {
 /// Instructions of a whole run of this program.
 fn total_instructions(program: &Path, name: &str, count: bool) -> Result<f64> {
     let mode = if count { "counted" } else { "warm-up" };
-    instructions_of_run(program, None, &["measure", "features", "--case", name, "--part", mode])
+    instructions_of_run(program, &["measure", "features", "--case", name, "--part", mode])
 }
 
-/// Instructions of a run of a program, or of what runs in a function of it whose name contains a word.
-pub fn instructions_of_run(program: &Path, within: Option<&str>, arguments: &[&str]) -> Result<f64> {
-    let out = scratch_file(&arguments.concat());
+/// Instructions of a run of a program.
+pub fn instructions_of_run(program: &Path, arguments: &[&str]) -> Result<f64> {
+    let files = callgrind(program, &[], arguments)?;
+    summary(&files.join("out"))
+}
+
+/// Instructions of each [part](counted_part) of a run of a program, in their order.
+pub fn instructions_of_parts(program: &Path, arguments: &[&str]) -> Result<Vec<f64>> {
+    // The name, whatever its crate and type parameters.
+    let options = ["--toggle-collect=*counted_part*", "--dump-after=*counted_part*"];
+    let files = callgrind(program, &options, arguments)?;
+    let parts = (1..).map(|number| files.join(format!("out.{number}"))).take_while(|file| file.exists());
+    parts.map(|file| summary(&file)).collect()
+}
+
+/// Does what callgrind counts by itself where it is asked for [parts](instructions_of_parts).
+#[inline(never)]
+pub fn counted_part(part: impl FnOnce()) {
+    std::hint::black_box(part)();
+}
+
+/// Has callgrind run a program; the folder of what it wrote, `out` and what was dumped on the way.
+fn callgrind(program: &Path, options: &[&str], arguments: &[&str]) -> Result<Scratch> {
+    let files = Scratch::new()?;
     let run = Command::new("valgrind")
-        .args(["--tool=callgrind", &format!("--callgrind-out-file={}", out.display())])
-        .args(within.map(|word| format!("--toggle-collect=*{word}*")))
+        .args(["--tool=callgrind", &format!("--callgrind-out-file={}", files.join("out").display())])
+        .args(options)
         .arg(program)
         .args(arguments)
         .output()
         .context("valgrind cannot be run")?;
     ensure!(run.status.success(), "callgrind failed: {}", String::from_utf8_lossy(&run.stderr));
-    let total = summary(&out);
-    std::fs::remove_file(&out).ok();
-    total
+    Ok(files)
 }
 
-fn scratch_file(name: &str) -> PathBuf {
-    let word: String = name.chars().filter(char::is_ascii_alphanumeric).collect();
-    std::env::temp_dir().join(format!("low-action-{}-{word}.callgrind", std::process::id()))
+/// A folder that goes with this.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new() -> Result<Scratch> {
+        static NUMBER: AtomicUsize = AtomicUsize::new(0);
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let folder =
+            std::env::temp_dir().join(format!("low-action-callgrind-{}-{number}", std::process::id()));
+        std::fs::create_dir(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        Ok(Scratch(folder))
+    }
+
+    fn join(&self, name: impl AsRef<Path>) -> PathBuf {
+        self.0.join(name)
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        std::fs::remove_dir_all(&self.0).ok();
+    }
 }
 
 /// The total of a callgrind file.

@@ -26,10 +26,15 @@ const ROUNDS: usize = 3;
 /// The name of the row, whatever the number of threads.
 pub const NAME: &str = "songs of `docs/pieces` by `low-action render`";
 
+/// Processors that can share strings, and no more than threads that can.
+pub fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from).min(64)
+}
+
 /// The row of the table: its name, and how many times as soon as by one thread the pieces are done by as many as there are
 /// processors.
 pub fn row() -> Result<(String, String)> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(64);
+    let threads = processors();
     if threads == 1 {
         return Ok((format!("{NAME}, several threads over one"), "not timed: one processor".into()));
     }

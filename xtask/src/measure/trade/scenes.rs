@@ -151,6 +151,13 @@ const SLIDE: [f64; 2] = [0.25, 0.55];
 const SAME_AT: f64 = 1e-6;
 
 impl Playing {
+    /// All strings of an instrument, open, plucked at once with one force.
+    pub fn plucked_at_once(instrument: &'static str, force: f64) -> Result<Playing> {
+        let setup = Setup::builtin(instrument).context("a built-in instrument")?;
+        let parts = (0..setup.string.len()).map(|string| part(string, Hand::Open, force, 0.0)).collect();
+        Ok(playing("plucked at once", Kind::Mixed, instrument, parts))
+    }
+
     /// Its strings as a setting computes them, each a scene of its own at its own rate: strings do not hear
     /// each other.
     pub fn scenes(&self, setting: &Setting) -> Result<Vec<Scene>> {

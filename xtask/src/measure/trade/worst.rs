@@ -7,7 +7,7 @@ use super::Outcome;
 use super::rival::Rival;
 use super::scenes::SCENES;
 use super::settings::{Law, all};
-use crate::measure::features::instructions_of_run;
+use crate::measure::features::{counted_part, instructions_of_parts};
 
 /// Which sample: setting, scene, string and step.
 type Place = (usize, usize, usize, u64);
@@ -29,7 +29,8 @@ pub fn count(outcomes: &mut [Outcome]) -> Result<()> {
 fn instructions((setting, scene, string, step): Place) -> Result<f64> {
     let program = std::env::current_exe().context("this program has no path")?;
     let sample = format!("{setting},{scene},{string},{step}");
-    instructions_of_run(&program, Some("the_worst_sample"), &["measure", "trade", "--sample", &sample])
+    let parts = instructions_of_parts(&program, &["measure", "trade", "--sample", &sample])?;
+    parts.first().copied().context("callgrind saw no sample")
 }
 
 /// Plays up to a sample, and the sample.
@@ -45,21 +46,15 @@ pub fn child(place: &str) -> Result<()> {
             (0..step).for_each(|_| {
                 simulation.step();
             });
-            the_worst_sample(|| {
+            counted_part(|| {
                 simulation.step();
             });
         }
         Law::Quadratised => {
             let mut rival = Rival::new(scene)?;
             (0..step).for_each(|_| rival.step());
-            the_worst_sample(|| rival.step());
+            counted_part(|| rival.step());
         }
     }
     Ok(())
-}
-
-/// What callgrind counts.
-#[inline(never)]
-fn the_worst_sample(step: impl FnOnce()) {
-    std::hint::black_box(step)();
 }
