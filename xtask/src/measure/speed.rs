@@ -67,6 +67,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
             "--write: valgrind is not there, and it counts the instructions"
         );
         ensure!(!songs || sharing::processors() > 1, "--write: songs want several processors, here is 1");
+        page::read(PAGE, &page::marks("speed"))?;
     }
     let marks = page::marks("speed");
     let table = if arguments.songs || arguments.buzz {

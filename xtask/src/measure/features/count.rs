@@ -73,16 +73,24 @@ pub fn instructions_of_run(program: &Path, arguments: &[&str]) -> Result<f64> {
 
 /// Instructions of each [part](counted_part) of a run of a program, in their order.
 pub fn instructions_of_parts(program: &Path, arguments: &[&str]) -> Result<Vec<f64>> {
-    // The name, whatever its crate and type parameters.
-    let options = ["--toggle-collect=*counted_part*", "--dump-after=*counted_part*"];
+    // Names of functions, whatever their crate and type parameters. One alone cannot do both.
+    let options = ["--toggle-collect=*collected_part*", "--dump-after=*counted_part*"];
     let files = callgrind(program, &options, arguments)?;
     let parts = (1..).map(|number| files.join(format!("out.{number}"))).take_while(|file| file.exists());
     parts.map(|file| summary(&file)).collect()
 }
 
-/// Does what callgrind counts by itself where it is asked for [parts](instructions_of_parts).
+/// Does what callgrind counts by itself where it is asked for [parts](instructions_of_parts): it collects while it is in the inner
+/// function, and writes down what it has when the outer one is left.
 #[inline(never)]
 pub fn counted_part(part: impl FnOnce()) {
+    collected_part(part);
+    // Not the last thing that is done, so that the inner function comes back here.
+    std::hint::black_box(());
+}
+
+#[inline(never)]
+fn collected_part(part: impl FnOnce()) {
     std::hint::black_box(part)();
 }
 
