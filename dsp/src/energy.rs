@@ -160,7 +160,11 @@ impl Ledger {
         self.put_in += k * input;
         self.put_in_gross += (k * input).max(0.0);
         self.residual_sum += residual;
-        self.worst_residual = self.worst_residual.max(residual.abs() / self.largest.max(f64::MIN_POSITIVE));
+        // What is not a number is the worst there is, and stays.
+        let open = residual.abs() / self.largest.max(f64::MIN_POSITIVE);
+        if open.is_nan() || open > self.worst_residual {
+            self.worst_residual = open;
+        }
         Entry { energies, power_loss: loss, losses, power_solver: solver, power_in: input, inputs, residual }
     }
 

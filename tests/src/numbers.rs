@@ -1,12 +1,7 @@
 //! What many numbers come to: extremes, for limits that are to hold for all of them, the mean size, and what it says of
 //! partials.
 
-/// The largest of some numbers. It is not a number as soon as one of them is none, or if there are none at all: then
-/// every comparison with a limit fails, where `f64::max` leaves out what is not a number.
-pub fn largest<T: Into<f64>>(numbers: impl IntoIterator<Item = T>) -> f64 {
-    let larger = |one: f64, other: f64| if one.is_nan() || one > other { one } else { other };
-    numbers.into_iter().map(Into::into).reduce(larger).unwrap_or(f64::NAN)
-}
+pub use xtask::numbers::largest;
 
 /// The smallest, in the same way.
 pub fn smallest<T: Into<f64>>(numbers: impl IntoIterator<Item = T>) -> f64 {

@@ -16,7 +16,7 @@ pub fn make(command: &str, arguments: &[String]) -> Result<()> {
     let text = notices::notices(&metadata)?;
     let words = std::iter::once(command.to_owned()).chain(arguments.iter().cloned());
     nice_plug_xtask::main_with_args("cargo xtask", words)?;
-    notices::write(&text, &folder_of(&metadata)?)
+    notices::write(text, &folder_of(&metadata)?)
 }
 
 /// The folder of the bundles: in cargo's target folder, wherever that has been put.

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
+use xtask::files;
 
 /// Name of the file, beside the bundles.
 const FILE: &str = "THIRD-PARTY.txt";
@@ -19,9 +20,9 @@ const BUNDLED: &str = "low-action";
 const BEGINNINGS: [&str; 7] = ["license", "licence", "copying", "copyright", "notice", "ofl", "ufl"];
 
 /// Writes the notices of everything that is linked into the plugin, beside its bundles.
-pub fn write(text: &str, folder: &Path) -> Result<()> {
+pub fn write(text: String, folder: &Path) -> Result<()> {
     let path = folder.join(FILE);
-    fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
+    files::write(&path, text)?;
     eprintln!("Created '{}'", path.display());
     Ok(())
 }

@@ -10,13 +10,15 @@ mod draw;
 #[cfg(test)]
 mod drawn;
 mod playing;
+mod progress;
 mod scenes;
 mod shrink;
 mod stream;
 mod tally;
 mod trial;
 
-use std::path::PathBuf;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Parser;
@@ -42,19 +44,19 @@ pub use trial::{Fault, Outcome, Record, TOLERANCE, Trial};
 )]
 struct Arguments {
     /// Trials to draw
-    #[arg(long, default_value_t = 100_000)]
+    #[arg(long, default_value_t = TRIALS, value_parser = clap::value_parser!(u64).range(1..))]
     trials: u64,
     /// Where the random numbers begin
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = SEED)]
     seed: u64,
     /// Threads at work [default: as many as the machine has]
     #[arg(long)]
-    threads: Option<usize>,
+    threads: Option<NonZeroUsize>,
     /// Seconds of hard playing through the engine, over all built-in instruments
-    #[arg(long, default_value_t = 600.0)]
+    #[arg(long, default_value_t = PLAYING, value_parser = seconds)]
     playing: f64,
     /// The first trials of seed 1 and a little playing; the tables must be those in docs/stability.md
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["trials", "seed", "playing", "fresh"])]
     quick: bool,
     /// Write the tables into docs/stability.md
     #[arg(long)]
@@ -63,8 +65,36 @@ struct Arguments {
     #[arg(long)]
     fresh: bool,
     /// Run one trial from its file and say what it comes to
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["trials", "seed", "threads", "playing", "quick", "write", "fresh"])]
     replay: Option<PathBuf>,
+}
+
+/// The run whose tables are on the page: trials, where random numbers begin, and seconds of playing.
+const TRIALS: u64 = 100_000;
+const SEED: u64 = 1;
+const PLAYING: f64 = 600.0;
+
+/// Reads a number of seconds.
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().map_err(|_| "must be a number of seconds".to_owned())?;
+    if (0.0..=1e6).contains(&seconds) { Ok(seconds) } else { Err("must be 0 to 1e6 seconds".into()) }
+}
+
+impl Arguments {
+    /// Refuses to write another run's tables than the page has.
+    fn check(&self) -> Result<()> {
+        if !self.write {
+            return Ok(());
+        }
+        for (name, value, wanted) in [
+            ("--trials", self.trials as f64, TRIALS as f64),
+            ("--seed", self.seed as f64, SEED as f64),
+            ("--playing", self.playing, PLAYING),
+        ] {
+            ensure!(value == wanted, "{name} {value} with --write: {PAGE} has the run with {wanted}");
+        }
+        Ok(())
+    }
 }
 
 /// Where the tables stand.
@@ -79,19 +109,20 @@ const QUICK: (u64, f64) = (1000, 8.0);
 pub fn run(arguments: Vec<String>) -> Result<()> {
     let Some(arguments) = super::parse::<Arguments>(arguments)? else { return Ok(()) };
     if let Some(file) = &arguments.replay {
-        let text = std::fs::read_to_string(file).with_context(|| format!("{}", file.display()))?;
-        println!("{:#?}", Trial::from_toml(&text)?.run());
-        return Ok(());
+        return replay(file);
     }
+    arguments.check()?;
+    let section = if arguments.quick { "quick" } else { "full" };
+    page::read(PAGE, &marks(section))?;
     let root = root();
     let (trials, playing) = if arguments.quick { QUICK } else { (arguments.trials, arguments.playing) };
-    let seed = if arguments.quick { 1 } else { arguments.seed };
-    let threads = arguments.threads.or_else(|| std::thread::available_parallelism().ok().map(Into::into));
+    let seed = if arguments.quick { SEED } else { arguments.seed };
+    let threads = arguments.threads.or_else(|| std::thread::available_parallelism().ok());
     println!("{trials} trials from seed {seed}, {playing} s of hard playing");
     let campaign = Campaign {
         seed,
         trials,
-        threads: threads.unwrap_or(1),
+        threads: threads.map_or(1, Into::into),
         kept: (!arguments.quick).then(|| root.join("target/extremes")),
         fresh: arguments.fresh,
         failures: root.join("tests/regressions/extremes/open"),
@@ -105,11 +136,24 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     playing::play_all(seed, playing, campaign.threads)?;
     // Before anything is written or compared: no page may make a broken promise the usual.
     refuse_faults(tally.faults.len())?;
-    let section = if arguments.quick { "quick" } else { "full" };
     if arguments.write {
         write_section(PAGE, section, &tables)?;
     } else if arguments.quick {
         compare_section(PAGE, section, &tables)?;
+    }
+    Ok(())
+}
+
+/// Runs one trial and says what it comes to.
+///
+/// # Errors
+/// When it cannot be read, or breaks a promise.
+fn replay(file: &Path) -> Result<()> {
+    let text = std::fs::read_to_string(file).with_context(|| format!("{}", file.display()))?;
+    let outcome = Trial::from_toml(&text)?.run();
+    println!("{outcome:#?}");
+    if let Outcome::Computed(Record { fault: Some(fault), .. }) = outcome {
+        bail!("{}: {fault}", file.display());
     }
     Ok(())
 }
@@ -146,6 +190,47 @@ mod tests {
         assert!(run(vec!["--help".into()]).is_ok());
         let message = run(vec!["--sead".into(), "3".into()]).expect_err("not an argument").to_string();
         assert!(message.contains("--sead"), "{message}");
+    }
+
+    #[test]
+    fn arguments_that_would_do_nothing_or_harm_are_refused() {
+        let refused = |line: &str| {
+            let words = line.split_whitespace().map(str::to_owned).collect();
+            run(words).expect_err(line).to_string()
+        };
+        for line in ["--trials 2", "--seed 2", "--playing 2", "--fresh"] {
+            let name = line.split(' ').next().expect("it has a name");
+            assert!(refused(&format!("--quick {line}")).contains(name), "{line}");
+            assert!(refused(&format!("--replay file {line}")).contains(name), "{line}");
+        }
+        for line in ["--trials 2", "--seed 2", "--playing 2"] {
+            let message = refused(&format!("--write {line}"));
+            assert!(message.starts_with(line) && message.contains("docs/stability.md"), "{message}");
+        }
+        for (line, range) in [
+            ("--playing nan", "0 to 1e6"),
+            ("--playing=-1", "0 to 1e6"),
+            ("--playing x", "a number of seconds"),
+            ("--trials 0", "1.."),
+            ("--threads 0", "non-zero"),
+        ] {
+            let message = refused(line);
+            let value = line.rsplit([' ', '=']).next().expect("it has a value");
+            assert!(message.contains(value) && message.contains(range), "{line}: {message}");
+        }
+    }
+
+    #[test]
+    fn a_trial_that_fails_is_an_error() {
+        let file = std::env::temp_dir().join(format!("low-action-trial-{}.toml", std::process::id()));
+        let replay = |text: &str| {
+            std::fs::write(&file, text).expect("it can be written");
+            run(vec!["--replay".into(), file.to_str().expect("it is text").into()])
+        };
+        // What is refused has kept every promise.
+        replay("sample_rate = -1").expect("it is refused");
+        assert!(replay("sample_rate = ").is_err());
+        std::fs::remove_file(&file).expect("it is there");
     }
 
     #[test]

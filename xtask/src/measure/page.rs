@@ -1,9 +1,11 @@
 //! Pages of the documentation that hold tables a command writes, each between two marks.
 
 use std::fs;
+use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 
+use crate::files;
 use crate::repository::root;
 
 /// The lines between which a measurement's table stands.
@@ -20,12 +22,17 @@ pub fn read(page: &str, marks: &[String; 2]) -> Result<String> {
 
 /// Puts a table into a page.
 pub fn write(page: &str, marks: &[String; 2], table: &str) -> Result<()> {
+    let (path, text) = with(page, marks, table)?;
+    files::write(&path, text)
+}
+
+/// Where a page is, and its text with a table in it.
+pub fn with(page: &str, marks: &[String; 2], table: &str) -> Result<(PathBuf, String)> {
     let path = root().join(page);
     let old = fs::read_to_string(&path).with_context(|| format!("cannot read {page}"))?;
     let [before, _, after] = split(page, &old, marks)?;
     let [begin, end] = marks;
-    let new = format!("{before}{begin}\n{table}{end}{after}");
-    fs::write(path, new).with_context(|| format!("cannot write {page}"))
+    Ok((path, format!("{before}{begin}\n{table}{end}{after}")))
 }
 
 /// What stands before, between and after two marks in the text of a page.

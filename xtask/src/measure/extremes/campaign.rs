@@ -9,11 +9,12 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::{Context, Result};
-use indicatif::{ProgressBar, ProgressStyle};
 
+use super::progress::Progress;
 use super::shrink::shrink;
 use super::tally::Tally;
 use super::trial::{Outcome, Trial};
+use crate::files;
 
 /// Trials whose tally is kept as one.
 const CHUNK: u64 = 250;
@@ -43,9 +44,9 @@ impl Campaign {
     pub fn run(&self) -> Result<Tally> {
         let folder = self.kept.as_ref().map(|kept| this_programs(kept, self.seed, self.fresh)).transpose()?;
         let chunks = self.trials.div_ceil(CHUNK);
-        let style =
-            ProgressStyle::with_template("{wide_bar} {pos}/{len} trials, {elapsed} of {duration}, {msg}")?;
-        let progress = ProgressBar::new(self.trials).with_style(style).with_message("no fault");
+        let look = "{wide_bar} {pos}/{len} trials, {elapsed} of {duration}, {msg}";
+        let progress = Progress::new(self.trials, "trials", look)?;
+        progress.set_message("no fault".into());
         let (next, faults) = (AtomicU64::new(0), AtomicU64::new(0));
         let tallies = Mutex::new(BTreeMap::new());
         let work = || -> Result<()> {
@@ -67,7 +68,7 @@ impl Campaign {
                         progress.inc(1);
                     }
                     if let Some(file) = &file {
-                        write(file, &toml::to_string(&tally)?)?;
+                        files::write(file, toml::to_string(&tally)?)?;
                     }
                 }
                 let count = tally.faults.len() as u64;
@@ -81,7 +82,7 @@ impl Campaign {
             let threads: Vec<_> = (0..self.threads.max(1)).map(|_| scope.spawn(work)).collect();
             threads.into_iter().try_for_each(|thread| thread.join().expect("trials catch their panics"))
         })?;
-        progress.finish_and_clear();
+        progress.finish();
         // In order, so that sums are the same whatever the threads did.
         let tallies = tallies.into_inner().expect("no thread panics with it");
         let mut sum = Tally::default();
@@ -99,7 +100,7 @@ impl Campaign {
             let small = shrink(&trial, fault);
             let text = format!("# Trial {number} of seed {}: {fault}.\n\n{}", self.seed, small.to_toml());
             fs::create_dir_all(&self.failures)?;
-            write(&self.failures.join(format!("seed-{}-trial-{number}.toml", self.seed)), &text)?;
+            files::write(&self.failures.join(format!("seed-{}-trial-{number}.toml", self.seed)), text)?;
         }
         Ok(outcome)
     }
@@ -120,12 +121,4 @@ fn this_programs(kept: &Path, seed: u64, fresh: bool) -> Result<PathBuf> {
 
 fn read(file: &Path) -> Option<Tally> {
     toml::from_str(&fs::read_to_string(file).ok()?).ok()
-}
-
-/// Writes beside and renames, so that a file is whole or not there.
-fn write(file: &Path, text: &str) -> Result<()> {
-    let beside = file.with_extension("part");
-    fs::write(&beside, text)
-        .and_then(|()| fs::rename(&beside, file))
-        .with_context(|| format!("{}", file.display()))
 }

@@ -5,11 +5,11 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::{Result, bail, ensure};
-use indicatif::{ProgressBar, ProgressStyle};
 use low_action_dsp::setup::{Bridge, Intonation};
 use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture};
 
 use super::draw::Draw;
+use super::progress::Progress;
 use super::scenes;
 use super::trial::TOLERANCE;
 
@@ -33,19 +33,16 @@ struct Seen {
 pub fn play_all(seed: u64, seconds: f64, threads: usize) -> Result<()> {
     let names = Setup::BUILTIN;
     let each = seconds / names.len() as f64;
-    let style =
-        ProgressStyle::with_template("{wide_bar} {percent} % of hard playing, {elapsed} of {duration}")?;
-    let progress = ProgressBar::new((seconds * RATE) as u64).with_style(style);
+    let look = "{wide_bar} {percent} % of hard playing, {elapsed} of {duration}";
+    let progress = Progress::new((seconds * RATE) as u64, "samples of hard playing", look)?;
     let next = AtomicUsize::new(0);
     let work = || -> Result<()> {
         while let Some(name) = names.get(next.fetch_add(1, Ordering::Relaxed)) {
             let Seen { loudest, exchanges, open } = play(name, seed, each, &progress)?;
-            progress.suspend(|| {
-                println!(
-                    "hard playing on {name}, {each} s: finite, loudest sample {loudest:.3e}; balance open by at \
-                     most {open:.0e} through {exchanges} exchanged set-ups"
-                );
-            });
+            progress.println(&format!(
+                "hard playing on {name}, {each} s: finite, loudest sample {loudest:.3e}; balance open by at \
+                 most {open:.0e} through {exchanges} exchanged set-ups"
+            ));
         }
         Ok(())
     };
@@ -53,7 +50,7 @@ pub fn play_all(seed: u64, seconds: f64, threads: usize) -> Result<()> {
         let threads: Vec<_> = (0..threads.clamp(1, names.len())).map(|_| scope.spawn(work)).collect();
         threads.into_iter().try_for_each(|thread| thread.join().expect("playing does not panic"))
     })?;
-    progress.finish_and_clear();
+    progress.finish();
     Ok(())
 }
 
@@ -61,7 +58,7 @@ pub fn play_all(seed: u64, seconds: f64, threads: usize) -> Result<()> {
 ///
 /// # Errors
 /// When a sample or a string is not finite, energy is above what was put in, or a balance is open.
-fn play(name: &str, seed: u64, seconds: f64, progress: &ProgressBar) -> Result<Seen> {
+fn play(name: &str, seed: u64, seconds: f64, progress: &Progress) -> Result<Seen> {
     let mut draw = Draw::new(seed, name.len() as u64);
     let mut seen = Seen { loudest: 0.0, exchanges: 0, open: 0.0 };
     let mut setup = other_setup(name, &mut draw)?;
