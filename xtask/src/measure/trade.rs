@@ -19,10 +19,12 @@ mod spectrum;
 mod table;
 mod worst;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use clap::Parser;
 
+use super::features::callgrind_is_there;
 use super::{page, threads};
+use crate::files;
 use crate::repository::root;
 use errors::{Errors, Reference};
 use filter::LowPass;
@@ -40,10 +42,10 @@ const PICTURE: &str = "docs/figures/trade.svg";
     name = "cargo xtask measure trade",
     after_help = "Examples:\n  cargo xtask measure trade            measures and prints the tables (some minutes)\n  \
                   cargo xtask measure trade --write    puts them and the picture into docs/\n  \
-                  cargo xtask measure trade --quick    the rows at 48 kHz, without times, compared with docs/trade.md"
+                  cargo xtask measure trade --quick    draft, live and all stencils at 48 kHz, without times, compared with docs/trade.md"
 )]
 struct Arguments {
-    /// Measure the errors at 48 kHz only, and compare them with the table in docs/trade.md.
+    /// Measure only the errors of `draft`, `live` and all stencils at 48 kHz, and compare them with the tables in docs/trade.md.
     #[arg(long, conflicts_with = "write")]
     quick: bool,
     /// Put the tables into docs/trade.md and draw docs/figures/trade.svg.
@@ -67,8 +69,8 @@ struct Outcome {
     penetration: [f64; 2],
     /// Strongest pull of a contact, N.
     pull: f64,
-    /// Energy booked to the solver, as a part of the largest energy.
-    booked: f64,
+    /// Energy booked to the solver, as a part of the largest energy; only of Newton's method.
+    booked: Option<f64>,
     /// Most iterations in a sample.
     iterations: u32,
     /// Part of the samples with contact that took the fallback.
@@ -134,10 +136,19 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
         }
         return Ok(());
     }
+    let marks = page::marks("trade");
+    if arguments.write {
+        // What cannot be measured or written is not measured for nothing, nor put in the place of what was measured elsewhere.
+        ensure!(
+            callgrind_is_there(),
+            "--write: valgrind is not there, and it counts the instructions of worst samples"
+        );
+        page::read(PAGE, &marks)?;
+    }
     let mut outcomes = measure(&settings::all(), |_| true)?;
     time(&mut outcomes)?;
     let chords = chords()?;
-    if super::features::callgrind_is_there() {
+    if callgrind_is_there() {
         eprintln!("instructions");
         worst::count(&mut outcomes)?;
     } else {
@@ -146,10 +157,8 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     let tables = qualities::tables(&outcomes, &chords)? + &table::all(&outcomes);
     println!("{tables}");
     if arguments.write {
-        let picture = picture::draw(&outcomes)?;
-        let path = root().join(PICTURE);
-        std::fs::write(&path, picture).with_context(|| format!("cannot write {PICTURE}"))?;
-        page::write(PAGE, &page::marks("trade"), &tables)?;
+        let picture = (root().join(PICTURE), picture::draw(&outcomes)?);
+        files::write_all(&[picture, page::with(PAGE, &marks, &tables)?])?;
     }
     Ok(())
 }
@@ -157,11 +166,10 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
 /// Measures scenes of some kinds under all settings that are for them, on as many threads as there are
 /// processors.
 fn measure(settings: &[Setting], kinds: fn(Kind) -> bool) -> Result<Vec<Outcome>> {
-    let found = threads::each(&SCENES, |index, playing| {
-        if !kinds(playing.kind) {
-            return Ok(Vec::new());
-        }
-        eprintln!("{} of {}: {}", index + 1, SCENES.len(), playing.name);
+    let scenes: Vec<usize> = (0..SCENES.len()).filter(|&index| kinds(SCENES[index].kind)).collect();
+    let found = threads::each(&scenes, |number, &index| {
+        let playing = &SCENES[index];
+        eprintln!("{} of {}: {}", number + 1, scenes.len(), playing.name);
         observe(index, playing, settings).with_context(|| playing.name.clone())
     });
     let mut outcomes = Vec::new();
@@ -194,7 +202,7 @@ fn observe(index: usize, playing: &Playing, settings: &[Setting]) -> Result<Vec<
             errors,
             penetration: [run.penetration, reference.record().penetration],
             pull: run.pull,
-            booked: run.booked[0] / run.booked[1].max(f64::MIN_POSITIVE),
+            booked: run.booked.map(|[sum, largest]| sum / largest.max(f64::MIN_POSITIVE)),
             iterations: run.iterations,
             fallbacks: run.contacts[1] as f64 / run.contacts[0].max(1) as f64,
             worst: run.worst,

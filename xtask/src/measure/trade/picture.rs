@@ -7,7 +7,7 @@ use low_action_figures::{Axis as Scale, Layer, Panel, Sheet, Stroke};
 
 use super::scenes::Kind;
 use super::settings::{Axis, BASE, Setting, quality, settings, stencil_name};
-use super::table::{mean_load, of};
+use super::table::{self, mean_load, of};
 use super::{Outcome, percent};
 
 /// The stencils with their lines.
@@ -144,8 +144,7 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
 fn energy(outcomes: &[Outcome]) -> Panel {
     let x = Scale::log("energy booked to the solver, part of the largest energy", 1e-15..1.0).ticks(8);
     let y = Scale::log("largest error of the waveform, %", 1.0..1e2).ticks(3);
-    let booked =
-        |setting: &Setting| of(setting, outcomes).map(|outcome| outcome.booked.abs()).fold(1e-14, f64::max);
+    let booked = |setting: &Setting| table::booked(setting, outcomes).unwrap_or(0.0).max(1e-15);
     let place = |setting: &Setting| (booked(setting), largest(&ERRORS[1], setting, outcomes));
     let mut panel = Panel::new("Energy conserved is not accuracy", x, y);
     for (axis, name, stroke) in [

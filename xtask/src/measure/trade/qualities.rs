@@ -54,9 +54,14 @@ fn aims(outcomes: &[Outcome]) -> String {
             largest(live, &[Kind::Open, Kind::EachOpen], outcomes, |one| one.errors.partials()),
         ),
         (
-            "`live`: pitch of stopped strings, cents",
+            "`live`: pitch of stopped strings before they are put in tune, cents",
             1.0,
             largest(live, &[Kind::Pressed], outcomes, |one| one.errors.pitch()),
+        ),
+        (
+            "`live`: pitch of light strings stopped high on the neck, before they are put in tune, cents",
+            1.0,
+            largest(live, &[Kind::High], outcomes, |one| one.errors.pitch()),
         ),
         ("`live`: forces of pressed strings, %", 3.0, largest(live, &[Kind::Pressed], outcomes, impulses)),
         ("`live`: buzz, %", 25.0, largest(live, BUZZING, outcomes, impulses)),

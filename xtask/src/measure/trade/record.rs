@@ -29,8 +29,8 @@ pub struct Record {
     pub penetration: f64,
     /// Strongest pull of a contact, which should only push, N.
     pub pull: f64,
-    /// Energy booked to the solver, in sum, and the sum of the strings' largest energies, J.
-    pub booked: [f64; 2],
+    /// Energy booked to the solver, in sum, and the sum of the strings' largest energies, J; none where no equation is solved.
+    pub booked: Option<[f64; 2]>,
     /// Most iterations in one sample of one string.
     pub iterations: u32,
     /// Samples of a string with contact, and those of them in which the secant fallback took over.
@@ -109,8 +109,8 @@ pub fn record(playing: &Playing, setting: &Setting, with_ledger: bool) -> Result
         match setting.law {
             Law::Newton => {
                 let booked = by_newton(scene, &mut Watch::new(&mut record, string, scene), with_ledger)?;
-                record.booked[0] += booked[0];
-                record.booked[1] += booked[1];
+                let sums = record.booked.get_or_insert_default();
+                sums.iter_mut().zip(booked).for_each(|(sum, booked)| *sum += booked);
             }
             Law::Quadratised => {
                 let mut rival = Rival::new(scene)?;
@@ -126,7 +126,7 @@ pub fn record(playing: &Playing, setting: &Setting, with_ledger: bool) -> Result
     }
     record.add_up();
     let forces = record.bridge.iter().flat_map(|(_, forces)| forces);
-    let mut kept = forces.chain(&record.impulses).chain(&record.booked);
+    let mut kept = forces.chain(&record.impulses).chain(record.booked.iter().flatten());
     ensure!(kept.all(|value| value.is_finite()), "not finite under {setting:?}");
     Ok(record)
 }
