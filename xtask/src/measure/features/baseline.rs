@@ -78,7 +78,11 @@ fn build(version: &str) -> Result<PathBuf> {
 /// What an earlier version takes for the cases that it knows; `count` is how it counts one.
 fn earlier(rows: &[Row], count: impl Fn(&Case) -> Result<f64> + Sync) -> Result<Vec<(&Row, f64)>> {
     let mut counted = Vec::new();
-    for (row, count) in rows.iter().zip(threads::each(rows, |_, row| count(row.case))) {
+    let counts = threads::each(rows, |number, row| {
+        eprintln!("{} of {} as before: {}", number + 1, rows.len(), row.case.name);
+        count(row.case)
+    });
+    for (row, count) in rows.iter().zip(counts) {
         let name = row.case.name;
         match count {
             Ok(before) => counted.push((row, before)),
