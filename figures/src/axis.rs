@@ -17,7 +17,7 @@ pub struct Axis {
     pub bare: bool,
     /// Words that stand at 0, 1, 2, … in the place of numbers, if there are any.
     pub names: Vec<String>,
-    /// Whether lines may leave the range; they run along its edge then.
+    /// Whether lines and dots may leave the range; lines run along its edge then, and dots are left out.
     pub cut: bool,
 }
 
@@ -63,7 +63,7 @@ impl Axis {
         Axis { ticks: names.len() + 1, names, ..self }
     }
 
-    /// The same with lines that may leave it.
+    /// The same with lines and dots that may leave it.
     pub fn cut(self) -> Axis {
         Axis { cut: true, ..self }
     }
@@ -74,6 +74,11 @@ impl Axis {
         let slack = 1e-9 * (self.range.end - self.range.start);
         let shown = self.range.start - slack..=self.range.end + slack;
         !self.cut && !self.log && value.is_finite() && !shown.contains(&value)
+    }
+
+    /// Whether a value lies within the range.
+    pub fn shows(&self, value: f64) -> bool {
+        (self.range.start..=self.range.end).contains(&value)
     }
 
     /// Where a value stands between the ends of [`Axis::span`]; what lies beyond the range stands on its edge.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail};
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
@@ -136,18 +136,10 @@ impl Panel {
     /// Draws it into part of a page.
     ///
     /// # Errors
-    /// When a line would be drawn where it is not: beyond the vertical range, unless that is [cut](Axis::cut).
+    /// When a line would be drawn where it is not: beyond the vertical range, unless that is [cut](Axis::cut); or a dot not
+    /// at all, since it lies beyond one of the ranges that are not.
     pub(crate) fn draw(&self, area: &Area) -> Result<()> {
-        for layer in &self.layers {
-            let Layer::Line { points, name, .. } = layer else { continue };
-            let across = self.x.range.start..=self.x.range.end;
-            let beyond = points.iter().find(|(x, y)| across.contains(x) && self.y.hides(*y));
-            let (title, label, range) = (&self.title, &self.y.label, &self.y.range);
-            ensure!(
-                beyond.is_none(),
-                "the line {name:?} of {title:?} at {beyond:?}: {label} must be {range:?}"
-            );
-        }
+        self.layers.iter().try_for_each(|layer| self.check(layer))?;
         let (width, height) = area.dim_in_pixel();
         let mut top = 0;
         if !self.title.is_empty() {
@@ -171,6 +163,33 @@ impl Panel {
             self.draw_layer(&mut chart, layer)?;
         }
         Ok(())
+    }
+
+    /// Refuses what would not be seen where it is.
+    fn check(&self, layer: &Layer) -> Result<()> {
+        let refuse = |what: &str, name: &str, at: &(f64, f64), axis: &Axis| {
+            let (title, label, range) = (&self.title, &axis.label, &axis.range);
+            bail!("the {what} {name:?} of {title:?} at {at:?}: {label} must be {range:?}")
+        };
+        match layer {
+            Layer::Line { points, name, .. } => {
+                let beyond = points.iter().find(|(x, y)| self.x.shows(*x) && self.y.hides(*y));
+                beyond.map_or(Ok(()), |at| refuse("line", name, at, &self.y))
+            }
+            Layer::Dots { points, name, .. } => {
+                let beyond = |axis: &Axis, value: f64| !axis.cut && !axis.shows(value);
+                for at in points {
+                    if beyond(&self.x, at.0) {
+                        return refuse("dot", name, at, &self.x);
+                    }
+                    if beyond(&self.y, at.1) {
+                        return refuse("dot", name, at, &self.y);
+                    }
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        }
     }
 
     fn draw_axes(&self, chart: &mut Chart) -> Result<()> {
@@ -198,7 +217,7 @@ impl Panel {
 
     /// Points as drawn: those within the horizontal range, at their places.
     fn places(&self, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-        let seen = points.iter().filter(|(x, _)| (self.x.range.start..=self.x.range.end).contains(x));
+        let seen = points.iter().filter(|(x, _)| self.x.shows(*x));
         seen.map(|&(x, y)| (self.x.place(x), self.y.place(y))).collect()
     }
 
@@ -213,7 +232,7 @@ impl Panel {
             }
             Layer::Dots { points, stroke, .. } => {
                 let dot = |place| Circle::new(place, DOT, stroke.filled());
-                let seen = points.iter().filter(|(_, y)| (self.y.range.start..=self.y.range.end).contains(y));
+                let seen = points.iter().filter(|(_, y)| self.y.shows(*y));
                 let seen: Vec<_> = seen.copied().collect();
                 chart.draw_series(self.places(&seen).into_iter().map(dot))?;
             }

@@ -144,6 +144,23 @@ mod tests {
     }
 
     #[test]
+    fn a_dot_that_would_not_be_seen_is_refused() {
+        let drawn = |x: Axis, y: Axis, place| {
+            let dots = Layer::dots("dot", Stroke::new(colour::BLUE), vec![(0.5, 0.5), place]);
+            Sheet::new("title", "caption").row(900, vec![Panel::new("panel", x, y).with(dots)]).draw()
+        };
+        let x = || Axis::linear("x, m", 0.0..1.0);
+        let y = || Axis::log("y, J", 1e-3..1.0);
+        assert!(drawn(x(), y(), (1.0, 1e-3)).is_ok());
+        for place in [(2.0, 0.5), (0.5, 2.0), (0.5, 0.0), (0.5, f64::NAN)] {
+            let error = drawn(x(), y(), place).unwrap_err().to_string();
+            assert!(error.contains("\"dot\"") && error.contains("must be"), "{error}");
+            assert!(drawn(x().cut(), y().cut(), place).is_ok(), "{place:?}");
+        }
+        assert!(drawn(x().cut(), y(), (0.5, 2.0)).is_err());
+    }
+
+    #[test]
     fn a_page_is_svg_with_its_words_escaped() {
         let panel = Panel::new("a < b & c", Axis::linear("x, m", 0.0..1.0), Axis::log("y, J", 1e-3..1.0))
             .with(Layer::line("line", Stroke::new(colour::BLUE), vec![(0.0, 0.0), (0.5, 1e9), (2.0, 0.1)]));

@@ -75,8 +75,8 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "figures",
         arguments: "[--quick] [NAME ...]",
-        summary: "draws the pictures of the documentation, or those named, and writes docs/paper.md; \
-                  with --quick compares them with what is there",
+        summary: "draws the pictures of the documentation but trade.svg (which `measure trade` draws), or those named, and writes \
+                  docs/paper.md; with --quick compares them with what is there",
         examples: &["--quick", "paper_figure_2 paper_figure_3"],
         names: figures::names,
         run: |arguments| figures::run(&arguments),

@@ -1,11 +1,12 @@
 //! Beyond the paper: how long two runs that begin almost alike stay together.
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use low_action_dsp::{Scene, Simulation};
 use low_action_figures::course::BINS;
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;
 use low_action_figures::{Axis, Course, Layer, Panel, Sheet, Stroke};
+use xtask::numbers::largest;
 
 use super::Made;
 use super::figure_2::{SCENE, plucked};
@@ -65,16 +66,17 @@ fn observe(scene: &Scene) -> Result<Divergence> {
         apart: None,
         largest: 0.0,
     };
-    let mut largest = f64::MIN_POSITIVE;
+    let mut highest = f64::MIN_POSITIVE;
     while one.steps() < one.samples() {
         one.step();
         other.step();
         let time = one.steps() as f64 / scene.sample_rate;
         let (a, b) = (one.string(0), other.string(0));
         let heights = a.state.displacement();
-        largest = heights.clone().fold(largest, |most, u| most.max(u.abs()));
+        highest = largest([highest, largest(heights.clone().map(f64::abs))]);
         let pairs = heights.zip(b.state.displacement());
-        let part = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest;
+        let part = largest(pairs.map(|(a, b)| (a - b).abs())) / highest;
+        ensure!(part.is_finite(), "after {time} s two strings differ by {part} of the displacement");
         divergence.course.add(part);
         divergence.largest = divergence.largest.max(part);
         if a.convergence.active > 0 {
@@ -134,7 +136,11 @@ fn section(runs: &[Divergence]) -> Section {
     let claims = vec![
         Claim::ours(
             "A string that touches nothing keeps what it was given",
-            format!("0.5 N: the difference stays below {}", significant(free.largest, 2)),
+            format!(
+                "0.5 N: the difference is at most {}; anything below {} is taken as kept",
+                significant(free.largest, 2),
+                significant(GROWTH * DIFFERENCE, 1)
+            ),
             free.largest < GROWTH * DIFFERENCE,
         ),
         Claim::ours(

@@ -8,6 +8,7 @@ use low_action_figures::course::BINS;
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;
 use low_action_figures::{Axis, Course, Layer, Panel, Sheet, Stroke};
+use xtask::numbers::largest;
 
 use super::Made;
 use super::figure_2::SCENE;
@@ -81,7 +82,7 @@ fn observe(scene: &Scene, stiffness: f64, exponent: f64) -> Result<Outcome> {
         let most = libm::pow(2.0 * (exponent + 1.0) * energy / stiffness, 1.0 / (exponent + 1.0));
         bound.add(most);
         if deepest > 0.0 {
-            closest = closest.max(deepest / most);
+            closest = largest([closest, deepest / most]);
         }
         let convergence = &string.convergence;
         if convergence.active > 0 {
@@ -163,9 +164,10 @@ fn draw(scene: &Scene, exponent: f64, outcomes: &[Outcome]) -> Result<String> {
 fn section(scene: &Scene, outcomes: &[Outcome]) -> Result<Section> {
     let said = outcomes.iter().find(|o| o.stiffness == 1e15).context("the paper's K is among those tried")?;
     let depths: Vec<_> = outcomes.iter().map(|outcome| outcome.depth.largest()).collect();
-    let closest = outcomes.iter().map(|outcome| outcome.closest).fold(0.0, f64::max);
+    let closest = largest(outcomes.iter().map(|outcome| outcome.closest));
     let (first, last) =
         (outcomes.first().context("there are some")?, outcomes.last().context("there are some")?);
+    let less = depths.windows(2).all(|pair| pair[1] < pair[0]);
     let claims = vec![
         Claim::new(
             "The penetration for the pluck of Figure 2 “takes on values under 10⁻⁹ m” at K = 10¹⁵",
@@ -175,11 +177,12 @@ fn section(scene: &Scene, outcomes: &[Outcome]) -> Result<Section> {
         Claim::new(
             "“the larger [K] is, the less the penetration”",
             format!(
-                "from {} m at K = 10⁹ to {} m at 10²⁰, less at every step",
+                "from {} m at K = 10⁹ to {} m at 10²⁰, {} at every step",
                 significant(first.depth.largest(), 3),
-                significant(last.depth.largest(), 3)
+                significant(last.depth.largest(), 3),
+                if less { "less" } else { "not less" }
             ),
-            depths.windows(2).all(|pair| pair[1] < pair[0]),
+            less,
         ),
         Claim::new(
             "“with the side effect that the number of iterations required in Newton’s method tends to increase”",
@@ -241,13 +244,14 @@ fn section(scene: &Scene, outcomes: &[Outcome]) -> Result<Section> {
         .text(&format!(
             "**Nearest set-up at which it holds.** No wall of the engine grows steeper than doubles can tell \
              ([solver.md](solver.md#how-stiff-is-allowed)), which on this string is {} N/m, whatever its exponent and K. Into the \
-             steepest the string sinks by {} m, at four times the rate, where walls may be steeper, by {} m: there it holds. \
+             steepest the string sinks by {} m, at four times the rate, where walls may be steeper, by {} m: there it {}. \
              (With α = 1 the depth goes as 1/√K. Without that limit K = 10¹⁵ would come to {} m at the paper’s rate.) For each \
              exponent, the deepest penetration at K = 10¹⁵ and at the largest power of ten with which the law is nowhere so \
              steep as that:",
             significant(steepest, 2),
             significant(linear.depth.largest(), 3),
             significant(finer.depth.largest(), 3),
+            if finer.depth.largest() < SAID { "holds" } else { "fails as well" },
             significant(linear.depth.largest() * (steepest / linear.stiffness).sqrt(), 2)
         ))
         .table("exponent α | at K = 10¹⁵, m | largest K | there, m", &table))

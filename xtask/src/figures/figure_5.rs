@@ -7,6 +7,7 @@ use low_action_dsp::{Scene, State};
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;
 use low_action_figures::{Axis, Layer, Panel, Sheet, Stroke};
+use xtask::numbers::largest;
 
 use super::Made;
 use super::figure_4::tap;
@@ -18,6 +19,13 @@ pub const SCENE: &str = "scenes/paper/figure_5.toml";
 
 /// Time shown of the partition, ms.
 const SHOWN: f64 = 5.0;
+
+/// What is taken as identical, as a part of the speed, and as fully, as a part of the energy.
+const IDENTICAL: f64 = 0.01;
+const FULLY: f64 = 0.99;
+
+/// Parts of the energy that count as transferred: to the string, to its stretching, to the collision.
+const TRANSFERRED: [f64; 3] = [0.1, 0.01, 1e-4];
 
 /// Energies in the paper's partition, in the order of its caption, with their lines.
 const PARTS: [(&str, Stroke); 5] = [
@@ -88,9 +96,9 @@ fn observe(scene: &Scene) -> Result<Partition> {
         if string.fingers().any(|finger| finger.force > 0.0) {
             partition.met = if partition.left == 0.0 { time } else { partition.met };
             partition.left = time;
-            partition.largest.0 = partition.largest.1.max(variation.abs());
+            partition.largest.0 = largest([partition.largest.1, variation.abs()]);
         }
-        partition.largest.1 = partition.largest.1.max(variation.abs());
+        partition.largest.1 = largest([partition.largest.1, variation.abs()]);
         let in_contact = string.fret_forces().any(|fret| fret.1 > 0.0) || string.board_force() > 0.0;
         if in_contact && !was_in_contact {
             partition.contacts.push(time);
@@ -158,7 +166,7 @@ fn section(scene: &Scene, partition: &Partition) -> Result<Section> {
                 percent(stretching.0),
                 significant(stretching.1, 3)
             ),
-            string.0 > 0.1 && stretching.0 > 0.01 && first_contact > partition.met,
+            string.0 > TRANSFERRED[0] && stretching.0 > TRANSFERRED[1] && first_contact > partition.met,
         ),
         Claim::new(
             "“then to the stored energy of the collision, when the string is in contact with the fretboard”",
@@ -168,17 +176,17 @@ fn section(scene: &Scene, partition: &Partition) -> Result<Section> {
                 percent(fretboard.0),
                 significant(fretboard.1, 3)
             ),
-            fretboard.0 > 1e-4,
+            fretboard.0 > TRANSFERRED[2],
         ),
         Claim::new(
             "The energy goes “finally fully back to the finger”",
             format!("{} come back; the string keeps the rest and rings on", percent(partition.returned)),
-            partition.returned > 0.99,
+            comes_back(partition.returned),
         ),
         Claim::new(
             "The finger “rebounds with a speed identical to its initial speed”",
             format!("{} m/s of {speed} m/s", significant(tap.rebound, 4)),
-            (tap.rebound - speed).abs() < 0.01 * speed,
+            is_identical(tap.rebound, speed),
         ),
         Claim::new(
             "“contact/recontact phenomena visible in the energy of the string/fretboard collision”",
@@ -198,17 +206,27 @@ fn section(scene: &Scene, partition: &Partition) -> Result<Section> {
         ),
     ];
     let mut rows = Vec::new();
+    // Set-ups in which both statements about the rebound hold, without and with pinning.
+    let mut both = [Vec::new(), Vec::new()];
     for (name, scene) in nearer(scene) {
         let tap = self::tap(&scene)?;
         let share = observe(&scene)?.returned;
+        if comes_back(share) && is_identical(tap.rebound, speed) {
+            both[usize::from(tap.pinned > 0.0)].push(name);
+        }
         let (pinned, rebound) = (significant(tap.pinned, 3), significant(tap.rebound, 4));
         rows.push(format!("{name} | {pinned} | {rebound} | {}", percent(share)));
     }
     Ok(Section::new("Figure 5: energy partition")
         .text(&format!(
             "Scene: [`figure_5.toml`](../{SCENE}), the tap of Figure 4 without losses. As in the paper, the energy of the \
-             pad is counted to the finger. “Identical” is taken as within 1 % of the speed, “fully” as 99 % of the \
-             energy.",
+             pad is counted to the finger. “Identical” is taken as within {} of the speed, “fully” as {} of the \
+             energy; as transferred counts over {} of it in the string, over {} in its stretching, over {} in the collision.",
+            percent(IDENTICAL),
+            percent(FULLY),
+            percent(TRANSFERRED[0]),
+            percent(TRANSFERRED[1]),
+            percent(TRANSFERRED[2])
         ))
         .picture("Energies of string, stretching, fretboard and finger over time, and how little their sum varies")
         .claims(claims)
@@ -219,10 +237,26 @@ fn section(scene: &Scene, partition: &Partition) -> Result<Section> {
              it has to move. **Nearest set-ups** on the way there:",
         )
         .table("set-up | pinned, ms | rebound, m/s | finger’s share of the energy at the end", &rows)
-        .text(
-            "So both statements hold, for the paper’s string, with a pad a hundred thousand times softer than the paper’s and no \
-             pinning, or with pinning for a softer pad and either a heavier finger or a board just under the string.",
-        ))
+        .text(&format!(
+            "So for the paper’s string both statements hold {} without pinning, and {} with it.",
+            where_both_hold(&both[0]),
+            where_both_hold(&both[1])
+        )))
+}
+
+/// In which of some set-ups they do, in words.
+fn where_both_hold(names: &[&str]) -> String {
+    if names.is_empty() { "nowhere".to_owned() } else { format!("at {}", names.join("; ")) }
+}
+
+/// Whether all energy is with the finger again.
+fn comes_back(returned: f64) -> bool {
+    returned > FULLY
+}
+
+/// Whether a finger leaves as fast as it came.
+fn is_identical(rebound: f64, speed: f64) -> bool {
+    (rebound - speed).abs() < IDENTICAL * speed
 }
 
 /// Set-ups that come nearer and nearer to an elastic rebound.

@@ -5,6 +5,7 @@ use low_action_dsp::Scene;
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;
 use low_action_figures::{Axis, Ground, Layer, Panel, Profile, Sheet, Stroke};
+use xtask::numbers::largest;
 
 use super::Made;
 use super::page::{Claim, Section};
@@ -24,6 +25,17 @@ const PLACES: std::ops::Range<f64> = 0.1..0.25;
 
 /// The fret that is crossed, from 1.
 const FRET: usize = 5;
+
+/// What is taken as a semitone, cents more or less, and as a strong variation, times what there is elsewhere.
+const SEMITONE: f64 = 20.0;
+const STRONG: f64 = 3.0;
+
+/// What is taken as shifted, m, and as the same shift on two grids, as a part of it.
+const SHIFTED: f64 = 2e-4;
+const ALIKE: f64 = 0.2;
+
+/// A finger nearer to the crown than this is beside it, m.
+const BESIDE: f64 = 0.004;
 
 /// How the slide went.
 #[derive(Default)]
@@ -135,14 +147,14 @@ fn section(scene: &Scene, ground: &Ground, slide: &Slide, pitches: &[(f64, f64)]
         clear(finger) && ground.crowns.iter().all(|crown| clear(crown.0)) || *x > 0.35
     });
     let elsewhere = elsewhere.map(|turn| turn.1.abs()).fold(0.0, f64::max);
-    // Only while it slides and is clear of the crown itself.
-    let offset = slide
-        .finger
-        .iter()
-        .zip(&slide.lowest)
-        .filter(|((time, place), _)| (0.5..0.75).contains(time) && (place - crown).abs() > 0.004)
-        .map(|((_, finger), (_, lowest))| 1e3 * (finger - lowest).abs());
-    let most_offset = offset.fold(0.0, f64::max);
+    // While it slides; beside the crown the string is lowest on one side of it or the other.
+    let sliding =
+        || slide.finger.iter().zip(&slide.lowest).filter(|((time, _), _)| (0.5..0.75).contains(time));
+    let is_beside = |place: f64| (place - crown).abs() <= BESIDE;
+    let most_offset = |beside: bool| {
+        let those = sliding().filter(|((_, place), _)| is_beside(*place) == beside);
+        largest(those.map(|((_, finger), (_, lowest))| 1e3 * (finger - lowest).abs()))
+    };
     // Grid points lie farther apart than the minimum is shifted, so that a finer grid has to agree.
     let at_rest = shift_at_rest(scene, scene.sample_rate)?;
     let at_rest_finely = shift_at_rest(scene, 4.0 * scene.sample_rate)?;
@@ -150,12 +162,12 @@ fn section(scene: &Scene, ground: &Ground, slide: &Slide, pitches: &[(f64, f64)]
         Claim::new(
             "The finger “slides across a single fret, effecting a pitch change”",
             format!(
-                "from {} to {} Hz, {} cents; equal temperament says 100",
+                "from {} to {} Hz, {} cents; equal temperament says 100, and {SEMITONE} more or less is taken as that",
                 significant(before, 4),
                 significant(after, 4),
                 significant(rise, 3)
             ),
-            (rise - 100.0).abs() < 20.0,
+            (rise - 100.0).abs() < SEMITONE,
         ),
         Claim::ours(
             "Under that force the finger stays on the string",
@@ -171,23 +183,27 @@ fn section(scene: &Scene, ground: &Ground, slide: &Slide, pitches: &[(f64, f64)]
              location”",
             format!(
                 "with the finger {} mm past the fret the slope changes by {} within a grid spacing of the fret, by at \
-                 most {} away from frets and finger",
+                 most {} away from frets and finger; over {STRONG} times as much is taken as strong",
                 significant(1e3 * (finger - crown), 2),
                 significant(at_fret, 2),
                 significant(elsewhere, 2)
             ),
-            at_fret > 3.0 * elsewhere,
+            at_fret > STRONG * elsewhere,
         ),
         Claim::new(
             "“the minimum may occur at a location slightly shifted from that of the finger”",
             format!(
-                "with the finger at rest behind fret 5 by {} mm, at four times the rate by {} mm; at most {} mm during \
-                 the slide",
+                "with the finger at rest behind fret 5 by {} mm, at four times the rate by {} mm (over {} mm and within \
+                 {} % of each other counts); during the slide by at most {} mm, and {} mm within {} mm of the crown",
                 significant(1e3 * at_rest, 2),
                 significant(1e3 * at_rest_finely, 2),
-                significant(most_offset, 2)
+                1e3 * SHIFTED,
+                100.0 * ALIKE,
+                significant(most_offset(false), 2),
+                significant(most_offset(true), 2),
+                1e3 * BESIDE
             ),
-            at_rest > 2e-4 && (at_rest / at_rest_finely - 1.0).abs() < 0.2,
+            at_rest > SHIFTED && (at_rest / at_rest_finely - 1.0).abs() < ALIKE,
         ),
     ];
     Ok(Section::new("Figure 6: time-varying finger position")

@@ -133,8 +133,9 @@ fn section(scenes: &[Scene], runs: &[Vec<Run>], coarse: &[f64]) -> Section {
             "“50 iterations have been employed, for results to machine accuracy, though this can be significantly \
              reduced”",
             format!(
-                "{} on average, at most {most}; a cap of 20 gives the same as 50",
-                listed(&|run| significant(run.mean, 2), 50)
+                "{} on average, at most {most}; a cap of 20 gives {} as 50",
+                listed(&|run| significant(run.mean, 2), 50),
+                if same { "the same" } else { "not the same" }
             ),
             same,
         ),

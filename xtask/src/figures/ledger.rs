@@ -5,6 +5,7 @@ use low_action_figures::course::BINS;
 use low_action_figures::describe::{describe, significant};
 use low_action_figures::style::colour;
 use low_action_figures::{Axis, Course, Layer, Panel, Sheet, Stroke};
+use xtask::numbers;
 
 use super::Made;
 use super::page::{Claim, Section};
@@ -30,7 +31,7 @@ pub fn make(repository: &Repository) -> Result<Made> {
         put_in += step * entry.power_in;
         lost += step * (entry.power_loss + entry.power_solver);
         open += entry.residual;
-        widest = widest.max(f64::abs(open));
+        widest = numbers::largest([widest, f64::abs(open)]);
         let parts = [put_in, lost, stored, entry.residual.abs() / largest, open.abs() / largest];
         courses.iter_mut().zip(parts).for_each(|(course, part)| course.add(part));
     })?;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use low_action_dsp::{Entry, Scene, Simulation};
 use low_action_figures::Ground;
 use xtask::repository::root;
@@ -44,11 +44,20 @@ pub fn ground(scene: &Scene) -> Result<Ground> {
 }
 
 /// Runs a scene with its ledger open, and shows every step that has been taken.
+///
+/// # Errors
+/// When the scene is refused, or what it holds is not finite after a step: no verdict is worth anything then.
 pub fn run(scene: &Scene, mut look: impl FnMut(&Simulation, &Entry)) -> Result<Simulation> {
     let mut simulation = Simulation::new(scene)?;
     simulation.open_ledger();
     while simulation.steps() < simulation.samples() {
         let entry = simulation.step().unwrap_or_default();
+        let (energy, residual) = (entry.energies.total(), entry.residual);
+        ensure!(
+            energy.is_finite() && residual.is_finite(),
+            "step {}: the energy is {energy} J and the balance open by {residual} J, which must be finite",
+            simulation.steps()
+        );
         look(&simulation, &entry);
     }
     Ok(simulation)
