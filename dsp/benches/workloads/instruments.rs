@@ -15,6 +15,11 @@ fn instrument(setup: &Setup, settings: &EngineSettings) -> Instrument {
     Instrument::new(setup, settings).expect("it can be built")
 }
 
+/// The lowest string by itself.
+pub fn lowest_alone() -> Instrument {
+    instrument(&lowest_strings(1), &alike(48e3))
+}
+
 /// Frets (0: none) and plucks every string, and plays on for a tenth of a second.
 fn begin(setup: &Setup, instrument: &mut Instrument, rate: f64, behind: impl Fn(usize) -> usize) {
     for string in 0..instrument.string_count() {

@@ -5,10 +5,11 @@ use std::hint::black_box;
 use low_action_dsp::drive::Push;
 use low_action_dsp::neck::Neck;
 use low_action_dsp::{
-    Barrier, Drive, Model, Scratch, Setup, SolverSettings, State, Stencil, StringParameters,
+    Barrier, Drive, Model, Quality, Scratch, Setup, SolverSettings, State, Stencil, StringParameters,
 };
 
 use super::SAMPLES;
+use super::instruments::lowest_alone;
 
 /// A string under way.
 #[derive(Clone)]
@@ -20,17 +21,10 @@ pub struct OneString {
     drive: Drive,
 }
 
-const LOW_E: StringParameters = StringParameters {
-    length: 0.6477,
-    linear_density: 6.8246e-3,
-    tension: 77.8,
-    tension_limit: 110.0,
-    youngs_modulus: 2.07e11,
-    core_radius: 2.286e-4,
-    loss_0: 0.285,
-    loss_1: 5.38e-4,
-    tension_modulation: true,
-};
+/// The lowest string as its instrument tunes it.
+fn low_e() -> StringParameters {
+    lowest_alone().model(0).string.clone()
+}
 
 impl OneString {
     /// Plucked and ringing, with nothing to touch.
@@ -43,8 +37,7 @@ impl OneString {
     /// Stopped by a finger behind the fifth fret, plucked and ringing: a finger and two frets in contact.
     pub fn fretted(rate: f64) -> Self {
         let setup = Setup::builtin("electric").expect("it is built in");
-        let frets: Vec<f64> =
-            (1..=22).map(|fret| LOW_E.length * (1.0 - 0.5f64.powf(f64::from(fret) / 12.0))).collect();
+        let frets = setup.neck.equal_places();
         let barrier = setup.neck.barrier(&frets).expect("its values are in range");
         let mut string = Self::new(rate, Stencil::Wide, Some(&barrier), 1);
         let fretting = setup.player.fretting;
@@ -61,8 +54,10 @@ impl OneString {
     }
 
     fn new(rate: f64, stencil: Stencil, barrier: Option<&Barrier>, fingers: usize) -> Self {
-        let settings = SolverSettings { stencil, max_iterations: 20, tolerance: 1e-9 };
-        let model = Model::new(LOW_E, barrier, fingers, settings, rate).expect("it can be built");
+        let live = Quality::Live.settings(rate);
+        let settings =
+            SolverSettings { stencil, max_iterations: live.max_iterations, tolerance: live.tolerance };
+        let model = Model::new(low_e(), barrier, fingers, settings, rate).expect("it can be built");
         let (state, scratch, drive) = (State::new(&model), Scratch::new(&model), Drive::new(&model));
         OneString { model, state, scratch, drive }
     }
@@ -98,7 +93,8 @@ impl OneString {
 pub fn over_frets(count: usize) -> OneString {
     let setup = Setup::builtin("electric").expect("it is built in");
     let neck = Neck { fret_height: 1e-3, ..setup.neck };
-    let frets: Vec<f64> = (1..=count).map(|fret| 0.5 * LOW_E.length * fret as f64 / count as f64).collect();
+    let half = 0.5 * neck.scale_length;
+    let frets: Vec<f64> = (1..=count).map(|fret| half * fret as f64 / count as f64).collect();
     let mut barrier = neck.barrier(&frets).expect("its values are in range");
     barrier.board = None;
     for fret in &mut barrier.frets {

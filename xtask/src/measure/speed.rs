@@ -130,7 +130,7 @@ fn timed(found: &Timed) -> Result<String> {
     let scalar = times(string("fretted, without vectors")?, fretted);
     row("fretted string without vectors over with", scalar, "4 ×");
     // Each is measured by the points it moves.
-    let [few, many] = ["48 kHz", "192 kHz"].map(|rate| -> Result<(f64, f64)> {
+    let [few, many] = ["48 kHz", "768 kHz"].map(|rate| -> Result<(f64, f64)> {
         Ok((found.elements("points", rate)? / SAMPLES, found.median("points", rate)?))
     });
     let ((few, short), (many, long)) = (few?, many?);
