@@ -168,6 +168,12 @@ impl Listener {
         self.ears.iter_mut().flatten().all(Ear::is_still)
     }
 
+    /// All that filter what is heard.
+    #[cfg(test)]
+    pub fn filters(&self) -> impl Iterator<Item = &Biquad> {
+        self.ears.iter().flatten().flat_map(|ear| [&ear.coil, &ear.block])
+    }
+
     /// Takes over what the filters of another listener remember, each from one that has heard the same.
     pub fn take_over(&mut self, old: &Listener) {
         for ear in self.ears.iter_mut().flatten() {

@@ -1,5 +1,8 @@
 //! One string of an instrument: its model, its motion, the hands on it and what is heard of it.
 
+#[cfg(test)]
+mod tests;
+
 use std::ops::Range;
 
 use crate::decimate::Decimator;
