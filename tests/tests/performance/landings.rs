@@ -108,9 +108,11 @@ fn a_finger_that_lands_is_hardly_heard_by_itself() {
 #[test]
 fn a_finger_comes_down_once() {
     for (setup, string, open) in STRINGS {
+        let frets = Setup::shipped(setup).expect("it comes with the program").neck.frets;
         let mut stage = Stage::alone(setup, string);
-        for fret in FRETS {
-            for velocity in [1, 64, 127] {
+        for fret in FRETS.into_iter().filter(|&fret| usize::from(fret) <= frets) {
+            // (Harder notes swing by as much as they are pressed down.)
+            for velocity in [1, 64] {
                 let mut depths = Vec::new();
                 stage.watch(&[(0.0, on(open + fret, velocity))], 0.2, |_, instrument| {
                     let crown = instrument.geometry(0).frets[usize::from(fret) - 1];
@@ -120,7 +122,8 @@ fn a_finger_comes_down_once() {
                 let stays = depths[depths.len() - 100..].iter().sum::<f64>() / 100.0;
                 let there = depths.iter().position(|depth| *depth >= 0.98 * stays).expect("it comes down");
                 let lifted = 1.0 - depths[there..].iter().copied().fold(f64::INFINITY, f64::min) / stays;
-                println!("{setup} {string} fret {fret} at {velocity}: {lifted:.3}");
+                // At most 0.07 of the way; a bounce would be most of it.
+                assert!(lifted < 0.15, "{setup} {string}, fret {fret}, velocity {velocity}: {lifted}");
             }
         }
     }
