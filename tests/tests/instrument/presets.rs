@@ -229,9 +229,8 @@ fn a_curved_bridge_makes_the_sound_bloom() {
     }
 }
 
-/// What wraps over the bridge is heard, and stopped notes are in tune up to the twelfth fret of every string. What the bridge
-/// swallows of high notes makes them up to 11.0 dB softer (10.6 where the finger has been down); heard at its end alone they would
-/// be up to 50 dB softer.
+/// What wraps over the bridge is heard, and stopped notes are in tune. What the bridge swallows of high notes makes them softer;
+/// heard at its end alone they would be up to 50 dB softer.
 #[test]
 fn a_sitar_is_heard_up_the_neck() {
     let setup = shipped("sitar");
@@ -246,10 +245,96 @@ fn a_sitar_is_heard_up_the_neck() {
             assert!((-1.0..11.5).contains(&softer), "string {string}, fret {fret}: {softer} dB softer");
             let expected = hertz(f64::from(key));
             let off = cents(frequency_near(&sound[4800..48_000], RATE, expected), expected);
-            // While it swings a string holds less of the bridge than at rest, which is what fingers are placed for: it sounds
-            // lower, by up to 13 cents on the grid of `reference`. On that of `live`, up to 6 mm from point to point, what it
-            // leaves goes in steps: by up to 18.
+            // While it swings a string holds less of the bridge than at rest, which is what fingers are placed for: it sounds lower.
             assert!(off.abs() < 20.0, "string {string}, fret {fret}: {off} cents");
+        }
+    }
+}
+
+/// Notes of one fret after another ring as long. (On a bridge of 4 cm E4 and B3 lost 8 to 30 dB more than beside it at some
+/// frets, at `live`, and were 20 dB under the same note of `studio`. On one of 5 mm by 2.1 dB at most: by hand, all strings and
+/// frets to the nineteenth.)
+#[test]
+fn no_note_of_a_sitar_chokes() {
+    let setup = shipped("sitar");
+    for (string, open) in open_keys(&setup).into_iter().take(2) {
+        let levels: Vec<f64> = (1..=19)
+            .map(|fret| {
+                let sound = play_as_hard(&setup, &[(string, open + fret)], 80, 0.4);
+                decibels(rms(&sound[14_400..]))
+            })
+            .collect();
+        println!("string {string}: {levels:.1?}");
+        for (fret, three) in (2..).zip(levels.windows(3)) {
+            let under = 0.5 * (three[0] + three[2]) - three[1];
+            assert!(under < 3.5, "string {string}, fret {fret}: {under} dB under its neighbours");
+        }
+    }
+}
+
+/// Plucks that leave high notes alone were softer than the fingers that land for them: by 6 dB on average, and 13 to 18 at
+/// frets 12 to 18.
+#[test]
+fn a_thumb_is_heard_on_high_frets() {
+    let setup = shipped("flatwound-jazz");
+    for (string, key) in [(0, 64 + 12), (1, 59 + 12), (2, 55 + 15)] {
+        let [low, high] = [key - 10, key].map(|key| {
+            let sound = play_as_hard(&setup, &[(string, key)], 64, 0.3);
+            decibels(amplitude(&sound[2_400..], RATE, hertz(f64::from(key))))
+        });
+        println!("string {string}: {:.1} dB softer up the neck", low - high);
+        assert!(low - high < 9.0, "string {string}: {low}, {high} dB");
+    }
+}
+
+/// The hardest pop on one string stays below full scale.
+#[test]
+fn the_hardest_pop_does_not_clip() {
+    for name in ["bass", "slap-bass", "buzzing-bass", "five-string-bass"] {
+        let setup = shipped(name);
+        for (string, key) in open_keys(&setup) {
+            for fret in [0, 7] {
+                let options = EngineOptions { variation: 0.0, ..EngineOptions::new(setup.clone(), RATE) };
+                let mut engine = Engine::new(&options).expect("the set-up can be built");
+                engine.set_input(InputMode::Strings { first: 0, from_last: false });
+                let stroke = PlayerEvent::Controller { channel: string, number: 22, value: 5.0 / 127.0 };
+                engine.event(0, stroke);
+                engine.event(0, PlayerEvent::NoteOn { channel: string, key: key + fret, velocity: 1.0 });
+                let (mut left, mut right) = (vec![0.0; 24_000], vec![0.0; 24_000]);
+                engine.process(&mut left, &mut right);
+                let level = decibels(peak(&left).max(peak(&right)));
+                println!("{name}, string {string}, fret {fret}: {level:.1} dBFS");
+                assert!(level < -0.5, "{name}, string {string}, fret {fret}: {level} dBFS");
+            }
+        }
+    }
+}
+
+/// After its key is up a note falls by 40 dB within 150 ms. (The low B fell by 34 dB under a finger, and a sitar's by 26 where a
+/// partial had a node wherever the hand lay.)
+#[test]
+fn low_strings_and_a_sitar_s_are_silent_soon() {
+    for (name, string, open, frets) in [
+        ("five-string-bass", 4, 23, [0, 1, 3]),
+        ("sitar", 5, 40, [1, 2, 4]),
+        ("sitar", 4, 45, [2, 4, 6]),
+    ] {
+        let setup = shipped(name);
+        for fret in frets {
+            let options = EngineOptions { variation: 0.0, ..EngineOptions::new(setup.clone(), RATE) };
+            let mut engine = Engine::new(&options).expect("the set-up can be built");
+            engine.set_input(InputMode::Strings { first: 0, from_last: false });
+            let (channel, key) = (string, open + fret);
+            engine.event(0, PlayerEvent::NoteOn { channel, key, velocity: 100.0 / 127.0 });
+            let (mut left, mut right) = (vec![0.0; 24_000], vec![0.0; 24_000]);
+            engine.process(&mut left, &mut right);
+            let before = decibels(rms(&left[19_200..]));
+            engine.event(0, PlayerEvent::NoteOff { channel, key });
+            let (mut left, mut right) = (vec![0.0; 9_600], vec![0.0; 9_600]);
+            engine.process(&mut left, &mut right);
+            let fall = before - decibels(rms(&left[6_240..8_160]));
+            println!("{name}, string {string}, fret {fret}: {fall:.1} dB");
+            assert!(fall > 40.0, "{name}, string {string}, fret {fret}: {fall} dB");
         }
     }
 }
