@@ -242,11 +242,11 @@ fn a_sitar_is_heard_up_the_neck() {
             let level = |sound: &[f32]| decibels(rms(&sound[960..24_000]));
             let softer = level(&note(&plain, string, key)) - level(&sound);
             println!("string {string}, fret {fret}: {softer:.1} dB softer");
-            assert!((-1.0..11.5).contains(&softer), "string {string}, fret {fret}: {softer} dB softer");
+            assert!((-2.5..3.5).contains(&softer), "string {string}, fret {fret}: {softer} dB softer");
             let expected = hertz(f64::from(key));
             let off = cents(frequency_near(&sound[4800..48_000], RATE, expected), expected);
             // While it swings a string holds less of the bridge than at rest, which is what fingers are placed for: it sounds lower.
-            assert!(off.abs() < 20.0, "string {string}, fret {fret}: {off} cents");
+            assert!(off.abs() < 16.0, "string {string}, fret {fret}: {off} cents");
         }
     }
 }
@@ -272,18 +272,28 @@ fn no_note_of_a_sitar_chokes() {
     }
 }
 
-/// Plucks that leave high notes alone were softer than the fingers that land for them: by 6 dB on average, and 13 to 18 at
-/// frets 12 to 18.
+/// A thumb is heard where the finger is down already, and not only the finger that lands. (Plucks that left high notes alone were
+/// 14 to 18 dB softer at these frets; now they are by 2 to 4.)
 #[test]
 fn a_thumb_is_heard_on_high_frets() {
     let setup = shipped("flatwound-jazz");
-    for (string, key) in [(0, 64 + 12), (1, 59 + 12), (2, 55 + 15)] {
-        let [low, high] = [key - 10, key].map(|key| {
-            let sound = play_as_hard(&setup, &[(string, key)], 64, 0.3);
-            decibels(amplitude(&sound[2_400..], RATE, hertz(f64::from(key))))
-        });
-        println!("string {string}: {:.1} dB softer up the neck", low - high);
-        assert!(low - high < 9.0, "string {string}: {low}, {high} dB");
+    for (string, key) in [(0, 64 + 18), (1, 59 + 12), (2, 55 + 15)] {
+        let lands = play_as_hard(&setup, &[(string, key)], 45, 0.15);
+        let options = EngineOptions { variation: 0.0, ..EngineOptions::new(setup.clone(), RATE) };
+        let mut engine = Engine::new(&options).expect("the set-up can be built");
+        engine.set_input(InputMode::Strings { first: 0, from_last: false });
+        let mut stays = Vec::new();
+        // One too soft to be heard has the finger put down half a second before.
+        for (velocity, samples) in [(1.0, 24_000), (45.0, 7_200)] {
+            engine.event(0, PlayerEvent::NoteOff { channel: string, key });
+            engine.event(0, PlayerEvent::NoteOn { channel: string, key, velocity: velocity / 127.0 });
+            let (mut left, mut right) = (vec![0.0; samples], vec![0.0; samples]);
+            engine.process(&mut left, &mut right);
+            stays = left;
+        }
+        let louder = decibels(rms(&lands[960..])) - decibels(rms(&stays[960..]));
+        println!("string {string}: {louder:.1} dB louder with the finger that lands");
+        assert!(louder.abs() < 8.0, "string {string}: {louder} dB louder");
     }
 }
 
@@ -314,11 +324,9 @@ fn the_hardest_pop_does_not_clip() {
 /// partial had a node wherever the hand lay.)
 #[test]
 fn low_strings_and_a_sitar_s_are_silent_soon() {
-    for (name, string, open, frets) in [
-        ("five-string-bass", 4, 23, [0, 1, 3]),
-        ("sitar", 5, 40, [1, 2, 4]),
-        ("sitar", 4, 45, [2, 4, 6]),
-    ] {
+    for (name, string, open, frets) in
+        [("five-string-bass", 4, 23, [0, 1, 3]), ("sitar", 5, 40, [1, 2, 4]), ("sitar", 4, 45, [2, 4, 6])]
+    {
         let setup = shipped(name);
         for fret in frets {
             let options = EngineOptions { variation: 0.0, ..EngineOptions::new(setup.clone(), RATE) };
