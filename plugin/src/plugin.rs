@@ -38,6 +38,7 @@ use level::Output;
 use meters::Meters;
 use order::Order;
 use playing::Playing;
+use vst3::Kept;
 
 /// Strings that have an output of their own, where a host asks for them.
 const STRING_OUTPUTS: usize = crate::params::TUNED_STRINGS;
@@ -60,6 +61,8 @@ pub struct LowAction {
     display: Writer,
     /// What is played in those pictures.
     played: Played,
+    /// What a VST3 host has sent without having anything played.
+    kept: Arc<Kept>,
     /// Blocks asked for so far, for whoever wants to know whether there are any.
     blocks: Arc<AtomicU64>,
     #[cfg(feature = "editor")]
@@ -82,6 +85,7 @@ impl Default for LowAction {
             transport_ran: false,
             display,
             played,
+            kept: Kept::of_the_new(),
             blocks: start().blocks,
         }
     }
@@ -170,6 +174,7 @@ impl Plugin for LowAction {
         self.output.activate(buffers.sample_rate, self.params.output.bypass.value());
         self.transport_ran = false;
         self.played.clear();
+        self.kept.make_room();
         self.announced = self.playing.as_ref().and_then(Playing::announced).or(self.announced);
         // A host that asks for another rate is better off with a silent instrument, which says so in the log, than with one that
         // cannot be activated.
@@ -206,8 +211,8 @@ impl Plugin for LowAction {
 
     fn reset(&mut self) {
         self.played.clear();
-        if let Some(playing) = &mut self.playing {
-            playing.begin_again();
+        if self.playing.as_mut().is_none_or(Playing::begin_again) {
+            self.kept.forget();
         }
     }
 
@@ -223,6 +228,7 @@ impl Plugin for LowAction {
         self.blocks.fetch_add(1, Ordering::Relaxed);
         let looked_at = self.is_looked_at();
         let Some(playing) = &mut self.playing else {
+            self.kept.forget();
             left.fill(0.0);
             right.fill(0.0);
             return ProcessStatus::Normal;
@@ -234,6 +240,7 @@ impl Plugin for LowAction {
         }
         playing.follow(&self.params);
         playing.take_up(&self.played);
+        self.kept.hand_over(|event| playing.event(event, &self.params));
         let is_vst3 = context.plugin_api() == PluginApi::Vst3;
         while let Some(event) = context.next_event() {
             playing.event(if is_vst3 { vst3::mended(event) } else { event }, &self.params);

@@ -114,11 +114,13 @@ impl Playing {
 
     /// The host begins to process again, or asks for silence: the framework tells of both in the same way. One that lets a
     /// plugin at rest sleep begins again with every first note, and is to lose nothing by it: where nothing sounds there is
-    /// nothing to silence, and pedals, wheels and keys are where they were.
-    pub fn begin_again(&mut self) {
-        if !self.engine.is_silent() {
+    /// nothing to silence, and pedals, wheels and keys are where they were. Says whether anything was.
+    pub fn begin_again(&mut self) -> bool {
+        let sounds = !self.engine.is_silent();
+        if sounds {
             self.reset_sound();
         }
+        sounds
     }
 
     /// Everything that sounds is damped.

@@ -2,10 +2,17 @@
 //!
 //! nice-plug 0.4.2 takes what a host says of its mode (real time or offline) for what it said the time before: the first
 //! bounce would be played as if live, and what is played after it would wait for coefficients on the audio thread. And it has the
-//! note expressions "expression" and "brightness" the wrong way round. So hosts are given a class of our own, in which the
-//! framework's is told everything twice that it takes late, and events pass [`mended`]. (`cargo xtask hosts` plays both.)
+//! note expressions "expression" and "brightness" the wrong way round. And where a call has nothing to play into, it loses the
+//! call's notes. So hosts are given a class of our own, in which the framework's is told everything twice that it takes late, what
+//! it loses is kept ([`Kept`]), and events pass [`mended`]. (`cargo xtask hosts` plays the first two.)
+
+mod heard;
+mod kept;
+#[cfg(test)]
+mod tests;
 
 use std::ffi::c_void;
+use std::sync::Arc;
 
 use nice_plug::prelude::*;
 use nice_plug::wrapper::setup_logger;
@@ -16,6 +23,8 @@ use nice_plug::wrapper::vst3::vst3::{Class, ComWrapper};
 use nice_plug::wrapper::vst3::{PluginInfo, Wrapper};
 
 use super::LowAction;
+use heard::Hidden;
+pub(super) use kept::Kept;
 
 /// An event as the host meant it.
 pub(super) fn mended(event: NoteEvent<()>) -> NoteEvent<()> {
@@ -31,7 +40,20 @@ pub(super) fn mended(event: NoteEvent<()>) -> NoteEvent<()> {
 }
 
 /// The plugin as hosts see it.
-struct Instance(Wrapper<LowAction>);
+struct Instance {
+    framework: Wrapper<LowAction>,
+    /// What the framework would lose, shared with the plugin in it.
+    kept: Arc<Kept>,
+    hidden: Hidden,
+}
+
+impl Instance {
+    fn new() -> Self {
+        let (framework, kept) = Kept::shared_with(Wrapper::new);
+        let hidden = Hidden::of(&framework);
+        Self { framework, kept, hidden }
+    }
+}
 
 impl Class for Instance {
     type Interfaces = (
@@ -51,7 +73,7 @@ macro_rules! passed_on {
     ($of:ident { $($name:ident($($given:ident: $what:ty),*) -> $answer:ty;)* }) => {
         $(unsafe fn $name(&self, $($given: $what),*) -> $answer {
             // SAFETY: what the host promises is what the framework asks for.
-            unsafe { $of::$name(&self.0, $($given),*) }
+            unsafe { $of::$name(&self.framework, $($given),*) }
         })*
     };
 }
@@ -107,7 +129,6 @@ impl IAudioProcessorTrait for Instance {
         canProcessSampleSize(size: int32) -> tresult;
         getLatencySamples() -> uint32;
         setProcessing(state: TBool) -> tresult;
-        process(data: *mut ProcessData) -> tresult;
         getTailSamples() -> uint32;
     } }
 
@@ -115,8 +136,18 @@ impl IAudioProcessorTrait for Instance {
         // The first time its mode is remembered, the second time it is used.
         // SAFETY: what the host promises is what the framework asks for, and it keeps nothing of the pointer.
         unsafe {
-            let said = self.0.setupProcessing(setup);
-            if said == kResultOk { self.0.setupProcessing(setup) } else { said }
+            let said = self.framework.setupProcessing(setup);
+            if said == kResultOk { self.framework.setupProcessing(setup) } else { said }
+        }
+    }
+
+    unsafe fn process(&self, data: *mut ProcessData) -> tresult {
+        self.kept.begin_call();
+        // SAFETY: what the host promises is what the framework asks for, and what it has sent stays until this returns.
+        unsafe {
+            let said = self.framework.process(data);
+            data.as_ref().into_iter().for_each(|data| self.kept.end_call(data, self.hidden));
+            said
         }
     }
 }
@@ -227,7 +258,7 @@ impl IPluginFactoryTrait for Factory {
         if unsafe { *class.cast::<[u8; 16]>() } != *self.0.cid {
             return kInvalidArgument;
         }
-        let Some(unknown) = ComWrapper::new(Instance(Wrapper::new())).to_com_ptr::<FUnknown>() else {
+        let Some(unknown) = ComWrapper::new(Instance::new()).to_com_ptr::<FUnknown>() else {
             return kInternalError;
         };
         let unknown = unknown.as_ptr();
@@ -300,54 +331,4 @@ extern "system" fn InitDll() -> bool {
 #[unsafe(no_mangle)]
 extern "system" fn ExitDll() -> bool {
     true
-}
-
-#[cfg(test)]
-mod tests {
-    use nice_plug::midi::{Channel, Key, VoiceID};
-    use nice_plug::wrapper::vst3::vst3::{ComPtr, Interface};
-
-    use super::*;
-
-    #[test]
-    fn expression_and_brightness_are_what_the_host_means() {
-        let (timing, voice_id) = (3, VoiceID::ID(7));
-        let (channel, key) = (Channel::Number(1), Key::Number(60));
-        let expression = NoteEvent::<()>::PolyExpression { timing, voice_id, channel, key, expression: 0.25 };
-        let brightness = NoteEvent::<()>::PolyBrightness { timing, voice_id, channel, key, brightness: 0.25 };
-        assert_eq!(mended(brightness), expression);
-        assert_eq!(mended(expression), brightness);
-        let pressure = NoteEvent::<()>::PolyPressure { timing, voice_id, channel, key, pressure: 0.25 };
-        assert_eq!(mended(pressure), pressure);
-    }
-
-    #[test]
-    fn the_factory_has_one_class_and_makes_it() {
-        // SAFETY: it gives an interface that is ours to keep.
-        let factory = unsafe { ComPtr::from_raw(GetPluginFactory().cast::<IPluginFactory>()) };
-        let factory = factory.expect("there is a factory");
-        // SAFETY: a class of plain numbers, of which all bits may be 0.
-        let mut class: PClassInfo = unsafe { std::mem::zeroed() };
-        let make = |class: [u8; 16]| {
-            let (mut object, id) = (std::ptr::null_mut(), IAudioProcessor::IID);
-            // SAFETY: both identifiers have 16 bytes, and there is room for a pointer.
-            let said =
-                unsafe { factory.createInstance(class.as_ptr().cast(), id.as_ptr().cast(), &mut object) };
-            // SAFETY: it is what was asked for, or null.
-            (said, unsafe { ComPtr::from_raw(object.cast::<IAudioProcessor>()) })
-        };
-        // SAFETY: there is room for what is told.
-        unsafe {
-            assert_eq!(factory.countClasses(), 1);
-            assert_eq!(factory.getClassInfo(0, &mut class), kResultOk);
-            assert_eq!(factory.getClassInfo(1, &mut class), kInvalidArgument);
-            assert_eq!(factory.getClassInfo(0, std::ptr::null_mut()), kInvalidArgument);
-        }
-        let (said, made) = make(class.cid.map(|byte| byte as u8));
-        let made = made.expect("it is made");
-        // SAFETY: nothing is asked for but a number.
-        assert!(said == kResultOk && unsafe { made.getLatencySamples() } < 1000);
-        let (said, made) = make(*b"somebody else's.");
-        assert!(said == kInvalidArgument && made.is_none());
-    }
 }
