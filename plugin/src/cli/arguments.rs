@@ -59,7 +59,7 @@ pub struct RenderArgs {
     #[arg(short, long, value_name = "16|24|32f", default_value_t = BitDepth::Int24, allow_hyphen_values = true)]
     pub bit_depth: BitDepth,
     /// How long to go on after the last event that is for the player, whenever the track itself ends: until it is quiet
-    /// (auto, 30 s at most), so many seconds, up to 3600, or not at all (none).
+    /// (auto, 30 to 120 s at most, by how long the instrument rings), so many seconds, up to 3600, or not at all (none).
     #[arg(long, value_name = "auto|SECONDS|none", default_value_t = Tail::Auto, allow_hyphen_values = true)]
     pub tail: Tail,
     /// Play only this track, 1 to 65535, counted from 1; tempo changes and registered parameters (bend ranges, MPE) of all tracks

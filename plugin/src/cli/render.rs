@@ -32,17 +32,13 @@ use files::{Files, stem_paths};
 use labels::Source;
 pub use options::Tail;
 pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
-use rendering::{Rendered, Rendering};
+use rendering::{Cut, Rendered, Rendering};
 
 /// Renders a song.
 pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let input = input_mode(arguments)?;
     let (setup, setup_file) = instrument::load(&arguments.instrument)?;
     let song = read_song(arguments)?;
-    check_length(arguments, &song).with_context(|| song_name(arguments))?;
-    for warning in &song.warnings {
-        warn(arguments, &warning.to_string());
-    }
     let bend_range = arguments.bend_range.unwrap_or(EngineOptions::BEND_RANGE);
     let options = EngineOptions {
         quality: arguments.quality,
@@ -52,6 +48,11 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         threads: threads(arguments),
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
+    let longest_tail = arguments.tail.longest(options.tail());
+    check_length(arguments, &song, longest_tail).with_context(|| song_name(arguments))?;
+    for warning in &song.warnings {
+        warn(arguments, &warning.to_string());
+    }
     let mut engine =
         Engine::new(&options).with_context(|| escaped(&arguments.instrument.to_string_lossy()))?;
     // (Of those that come with the program it is known, and what they are for.)
@@ -72,7 +73,8 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
 
     let source = Source { arguments, setup: &options.setup };
     let started = Instant::now();
-    let rendering = Rendering { engine, touching, begins_anew: false, song: &song, source, files };
+    let rendering =
+        Rendering { engine, touching, begins_anew: false, song: &song, source, files, longest_tail };
     let rendered = rendering.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
 }
@@ -141,12 +143,12 @@ fn read_song(arguments: &RenderArgs) -> Result<Song> {
 }
 
 /// Refuses music that would take hours, or more than a WAV file holds.
-fn check_length(arguments: &RenderArgs, song: &Song) -> Result<()> {
+fn check_length(arguments: &RenderArgs, song: &Song, longest_tail: f64) -> Result<()> {
     let minutes = song.duration() / 60.0;
     let rate = f64::from(arguments.sample_rate);
     // (How long notes will wait for strings after the song nobody knows before.)
     let longest = (arguments.bit_depth.largest_length(2) as f64 / rate - LONGEST_WAIT) / 60.0;
-    let whole = minutes + arguments.tail.longest() / 60.0;
+    let whole = minutes + longest_tail / 60.0;
     if whole > longest {
         bail!(
             "{} minutes do not fit in a WAV file (4 GiB): at most {} at {} Hz and {} bit",
@@ -203,7 +205,7 @@ fn check_paths(
 
 /// Tells what came of it.
 fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f64) -> Outcome {
-    let Rendered { mix, stems, compromises, lost_events, seconds } = rendered;
+    let Rendered { mix, stems, compromises, lost_events, seconds, cut } = rendered;
     let Compromises {
         moved_by_octaves,
         moved_strings,
@@ -236,6 +238,14 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     }
     if *seconds == 0.0 {
         warn(arguments, "the sound has no samples: the song ends as it begins (--tail SECONDS goes on)");
+    }
+    if let Some(Cut { after, level }) = cut {
+        let below = -20.0 * level.log10();
+        let advice = "it rings on, and --tail SECONDS waits for it";
+        warn(
+            arguments,
+            &format!("the sound is cut off after {after:.0} s, {below:.0} dB below its peak: {advice}"),
+        );
     }
     if arguments.bit_depth != BitDepth::Float32 {
         for (name, findings) in [("sound", mix), ("strings' own sound", stems)] {

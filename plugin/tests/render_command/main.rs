@@ -12,4 +12,5 @@ mod open_already;
 mod refusals;
 mod room;
 mod sounds;
+mod tails;
 mod threads;

@@ -32,6 +32,17 @@ pub(super) struct Rendered {
     pub compromises: Compromises,
     pub lost_events: u64,
     pub seconds: f64,
+    /// Where the usual tail ended before it was quiet.
+    pub cut: Option<Cut>,
+}
+
+/// The end of a sound that goes on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cut {
+    /// How long after the song, s.
+    pub after: f64,
+    /// How loud it was then, as a part of the song's peak.
+    pub level: f64,
 }
 
 /// A song on its way through the engine.
@@ -44,6 +55,8 @@ pub(super) struct Rendering<'a> {
     pub song: &'a Song,
     pub source: Source<'a>,
     pub files: Files,
+    /// The most that a tail can last, s.
+    pub longest_tail: f64,
 }
 
 impl Rendering<'_> {
@@ -56,7 +69,7 @@ impl Rendering<'_> {
         let samples = |seconds: f64| (seconds * f64::from(rate)).round() as u64;
         let last = self.song.events.last().map_or(0, |event| event.time.sample(rate));
         let tail = self.source.arguments.tail;
-        let longest = samples(tail.longest());
+        let longest = samples(self.longest_tail);
         // (How long a tail by itself is nobody knows before.)
         let mut progress = Progress::new(song_name(self.source.arguments), last + longest);
         let mut buffers = Buffers::new(self.files.stems.len(), Engine::LATENCY as usize);
@@ -72,7 +85,7 @@ impl Rendering<'_> {
             progress.reach(self.engine.now());
         }
         let mut end = self.engine.now();
-        loop {
+        let cut = loop {
             progress.reach(self.engine.now());
             peak = peak.max(self.engine.level());
             if self.engine.is_behind() {
@@ -84,15 +97,19 @@ impl Rendering<'_> {
             let since = self.engine.now() - end;
             let quiet = self.engine.level() <= (QUIET * peak).max(INAUDIBLE);
             let left = longest - since;
-            if left == 0 || (tail == Tail::Auto && since >= samples(SHORTEST_TAIL) && quiet) {
-                break;
+            if tail == Tail::Auto && since >= samples(SHORTEST_TAIL) && quiet {
+                break None;
+            }
+            if left == 0 {
+                let cut = Cut { after: self.longest_tail, level: self.engine.level() / peak };
+                break (tail == Tail::Auto).then_some(cut);
             }
             self.block(&mut buffers, left.min(LOOK as u64) as usize)?;
-        }
+        };
         // What happened last is still to be heard.
         self.block(&mut buffers, Engine::LATENCY as usize)?;
         progress.end();
-        self.finish()
+        self.finish(cut)
     }
 
     /// Gives the engine the events of the next `frames` samples. Returns how many samples those are that it has all events of:
@@ -150,7 +167,7 @@ impl Rendering<'_> {
         Ok(left.iter().chain(&*right).fold(0.0, |most, &sample| most.max(f64::from(sample.abs()))))
     }
 
-    fn finish(mut self) -> Result<Rendered> {
+    fn finish(mut self, cut: Option<Cut>) -> Result<Rendered> {
         let samples = self.engine.now() - u64::from(Engine::LATENCY);
         let record = self.engine.take_record();
         let compromises = self.engine.compromises();
@@ -163,6 +180,7 @@ impl Rendering<'_> {
             compromises,
             lost_events: self.engine.lost_events(),
             seconds: samples as f64 / f64::from(self.source.arguments.sample_rate),
+            cut,
         })
     }
 }

@@ -1,0 +1,70 @@
+//! The usual tail ends where it is quiet; where it is cut off sooner, that is told.
+
+use std::fs;
+
+use hound::WavReader;
+use low_action::setups;
+use low_action_dsp::Setup;
+
+use crate::room::{Room, midi};
+
+/// As little work as there is.
+const FAST: [&str; 6] = ["--quality", "draft", "--sample-rate", "8000", "--bit-depth", "32f"];
+const RATE: usize = 8_000;
+/// 72 dB down.
+const QUIET: f32 = 2.511_886_4e-4;
+
+/// What `low-action render` makes of an open string, 1 for the first, that nobody damps: length, s, how loud its last 50 ms are as a
+/// part of the loudest, and what was said.
+fn rings(room: &Room, instrument: &str, string: usize, key: u8) -> (f64, f32, String) {
+    fs::write(room.path("held.mid"), midi(&[(0, &[0x90 | (string as u8 - 1), key, 90])])).unwrap();
+    let said = room.renders(&[&["held.mid", "-i", instrument, "--input", "strings"], &FAST[..]].concat());
+    let mut reader = WavReader::open(room.path("held.wav")).unwrap();
+    let sound: Vec<f32> = reader.samples::<f32>().map(|sample| sample.unwrap().abs()).collect();
+    let peak = |part: &[f32]| part.iter().fold(0.0_f32, |most, &sample| most.max(sample));
+    // (Stereo.)
+    let last = peak(&sound[sound.len() - 2 * RATE / 20..]);
+    (sound.len() as f64 / (2 * RATE) as f64, last / peak(&sound), said)
+}
+
+/// By its losses alone, s: the lowest partial's time to fall so far.
+fn need(setup: &Setup, string: usize) -> f64 {
+    f64::from(1.0 / QUIET).ln() / setup.string[string].decay(setup.neck.scale_length, 1)
+}
+
+#[test]
+fn no_set_up_that_comes_with_the_program_is_cut_off() {
+    let room = Room::new();
+    let mut long = 0;
+    for name in setups::SHIPPED {
+        let setup = Setup::shipped(name).unwrap();
+        let string = (0..setup.string.len()).max_by(|&a, &b| need(&setup, a).total_cmp(&need(&setup, b)));
+        let (string, key) = string.map(|string| (string, setup.string[string].pitch.round() as u8)).unwrap();
+        let (seconds, last, said) = rings(&room, name, string + 1, key);
+        println!("{name}: {:.1} s of {:.1} s, at last {last:.1e}", seconds, need(&setup, string));
+        assert!(last < 1.01 * QUIET, "{name}: {last} of the peak after {seconds} s");
+        assert!(!said.contains("warning"), "{said}");
+        long += usize::from(seconds > 30.0);
+    }
+    assert!(long > 0, "some ring for longer than half a minute");
+}
+
+#[test]
+fn a_tail_that_is_cut_off_is_told_of() {
+    let room = Room::new();
+    // The lowest partial is down by 10 dB in two minutes, and by 72 in a quarter of an hour.
+    let endless = "name = \"own\"\nbased_on = \"electric\"\n".to_owned()
+        + &"[[string]]\nloss_0 = 0.01\nloss_1 = 0.0\n".repeat(6);
+    fs::write(room.path("endless.toml"), endless).unwrap();
+    let (seconds, last, said) = rings(&room, "endless.toml", 6, 40);
+    assert_eq!(seconds, 120.0);
+    let told = said.split_once("warning: held.mid: the sound is cut off after 120 s, ").map(|(_, told)| told);
+    let told: f32 = told.and_then(|told| told.split(' ').next()?.parse().ok()).expect(&said);
+    let below = -20.0 * last.log10();
+    assert!((10.0..20.0).contains(&told) && (told - below).abs() < 1.0, "{below} dB: {said}");
+    // Who asks for so much or none gets just that.
+    for tail in ["0.5", "none"] {
+        let said = room.renders(&[&["held.mid", "-i", "endless.toml", "--tail", tail], &FAST[..]].concat());
+        assert!(!said.contains("cut off"), "{said}");
+    }
+}
