@@ -189,7 +189,7 @@ pub enum StringOrder {
 /// When overlapping notes on one string are connected by hammers, pulls and slides.
 #[derive(Enum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LegatoChoice {
-    /// While the legato pedal (controller 68) or a keyswitch says so.
+    /// While the legato pedal (controller 68), the portamento switch (65) or a keyswitch says so.
     #[id = "pedal"]
     #[name = "By CC 68"]
     Pedal,

@@ -67,7 +67,7 @@ const HEARD: [(&str, &str); 39] = [
     ("ignore_rpn", "Keeps the bend range as it is here, whatever the keyboard announces."),
     (
         "legato",
-        "Overlapping notes on one string become hammer-ons, pull-offs and slides: while CC 68 is down, or always.",
+        "Overlapping notes on one string become hammer-ons, pull-offs and slides: while CC 68 or 65 is down, or always.",
     ),
     ("keyswitches", "The first of 20 keys that tell the hands how to play instead of sounding."),
     (

@@ -67,9 +67,9 @@ pub(crate) struct Articulation {
     pub stop: Stop,
     /// How hard the palm rests on the strings near the saddle, 0 (not at all) to 1.
     pub palm: f64,
-    /// Whether overlapping notes on one string are connected.
+    /// Whether overlapping notes on one string are connected by hammers and pulls.
     pub legato: bool,
-    /// Whether they are connected by a slide.
+    /// Whether they are connected by slides instead, also where nothing else connects them.
     pub slide: bool,
     /// How long a slide takes, s.
     pub slide_time: f64,
@@ -95,6 +95,11 @@ impl Articulation {
         accent: 0.0,
         tremolo: 0.0,
     };
+
+    /// Whether overlapping notes on one string are connected. Who switches portamento on, by itself, means that they slide.
+    pub(crate) fn connects(&self) -> bool {
+        self.legato || self.slide
+    }
 
     /// This, under what another channel says for all: where that is nothing special, what has been told stays.
     pub(crate) fn under(&self, all: &Self) -> Self {

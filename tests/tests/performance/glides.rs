@@ -103,6 +103,7 @@ fn a_note_in_a_slide_is_stopped_where_it_should_be() {
         (0.3, on(56, 90)),
         // Plucked, and not by legato.
         (0.36, cc(68, 0)),
+        (0.36, cc(65, 0)),
         (0.38, on(58, 90)),
     ];
     let off = off_keys(("electric", 2), &events, &[(0.42, 0.46, 58.0), (0.44, 0.54, 58.0), (0.6, 0.9, 58.0)]);

@@ -3,7 +3,7 @@
 
 use low_action::performance::{Annotation, GestureSink, InputMode, PlayerEvent, Style, TimedAnnotation};
 use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, play};
+use low_action_tests::hands::{EXACT, Neck, control, note, play};
 use low_action_tests::pitch::off_key;
 use low_action_tests::stage::{LOOK, Stage, at, cc, decibels, off, on, peak};
 
@@ -147,5 +147,72 @@ fn a_slide_is_about_as_loud_as_the_note_before() {
                 );
             }
         }
+    }
+}
+
+/// Keyboards and tracks send the portamento switch by itself, and mean that overlapping notes slide.
+#[test]
+fn the_portamento_switch_alone_connects_overlapping_notes_by_slides() {
+    let guitar = Neck::of("electric");
+    // A note, another over it six frets up, and back.
+    let phrase = |channels: [u8; 2]| {
+        let ends = PlayerEvent::NoteOff { channel: channels[1], key: 63 };
+        [(4_800, note(channels[0], 57)), (24_000, note(channels[1], 63)), (48_000, ends)]
+    };
+    let played = |input, told: &[PlayerEvent], channels| {
+        let mut player = guitar.player(EXACT);
+        player.set_input(input);
+        let told = told.iter().map(|&event| (0, event)).collect::<Vec<_>>();
+        play(&mut player, &[&told[..], &phrase(channels)].concat())
+    };
+    let counts = |input, told: &[PlayerEvent], channels| {
+        let gestures = played(input, told, channels);
+        let count =
+            |meant: fn(&Gesture) -> bool| gestures.iter().filter(|timed| meant(&timed.gesture)).count();
+        [count(|g| matches!(g, Gesture::Pluck { .. })), count(|g| matches!(g, Gesture::Slide { .. }))]
+    };
+    let (plucked, slid, hammered) = ([2, 0], [1, 2], [1, 0]);
+    let (on, off) = (control(0, 65, 127), control(0, 65, 0));
+    let (legato, plucks, reset) = (control(0, 68, 127), control(0, 68, 0), control(0, 121, 0));
+    let switch = |number: u8| [control(0, 27, 12), note(0, 12 + number)];
+    for (told, expected) in [
+        (&[on][..], slid),
+        (&[on, plucks], slid),
+        (&[control(0, 65, 64)], slid),
+        (&[control(0, 65, 63)], plucked),
+        (&[on, off], plucked),
+        (&[on, reset], plucked),
+        (&[control(1, 65, 127)], plucked),
+        // Each keyswitch takes the place of what was told before.
+        (&[&[on], &switch(0)[..]].concat(), plucked),
+        (&[&switch(0)[..], &[on]].concat(), slid),
+        (&[&switch(10)[..], &[on]].concat(), slid),
+        (&switch(11), slid),
+    ] {
+        assert_eq!(counts(InputMode::Keyboard, told, [0, 0]), expected, "{told:?}");
+    }
+    assert_eq!(
+        played(InputMode::Keyboard, &[on], [0, 0]),
+        played(InputMode::Keyboard, &[legato, on], [0, 0])
+    );
+    // Within a hammer's reach, too: of that the switch says nothing.
+    let near = |told: PlayerEvent| {
+        let notes = [(0, told), (4_800, note(0, 57)), (24_000, note(0, 60))];
+        let gestures = play(&mut guitar.player(EXACT), &notes);
+        let count =
+            |meant: fn(&Gesture) -> bool| gestures.iter().filter(|timed| meant(&timed.gesture)).count();
+        [count(|g| matches!(g, Gesture::Pluck { .. })), count(|g| matches!(g, Gesture::Slide { .. }))]
+    };
+    assert_eq!((near(on), near(legato)), ([1, 1], hammered));
+    // In MPE the first channel's holds for all, and a member's for its own notes; its reset puts back what it has said.
+    let members = [1, 2];
+    assert_eq!(counts(InputMode::Mpe, &[on], members), slid);
+    assert_eq!(counts(InputMode::Mpe, &[control(2, 65, 127)], members), slid);
+    assert_eq!(counts(InputMode::Mpe, &[control(1, 65, 127)], members), plucked);
+    assert_eq!(counts(InputMode::Mpe, &[on, reset], members), plucked);
+    // Where each string has a channel, its own.
+    let strings = InputMode::Strings { first: 0, from_last: false };
+    for (channel, expected) in [(2, slid), (1, plucked)] {
+        assert_eq!(counts(strings, &[control(channel, 65, 127)], [2, 2]), expected, "channel {channel}");
     }
 }

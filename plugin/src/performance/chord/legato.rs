@@ -36,8 +36,9 @@ impl Performance {
     /// to be connected, and its string gives the new one within reach.
     fn take_over_note(&mut self, index: usize, out: &mut impl GestureSink) -> bool {
         let wanted = self.chord[index].wanted;
-        let Articulation { legato, slide, stop, .. } = self.articulation(index);
-        let connected = legato || self.touching.legato;
+        let articulation = self.articulation(index);
+        let Articulation { slide, stop, .. } = articulation;
+        let connected = articulation.connects() || self.touching.legato;
         // One that comes late, when its key is up, would stay on the held one's string for no longer than it takes to be heard.
         if !connected || self.gives_way() || stop == Stop::Harmonic || stop == Stop::Mute {
             return false;

@@ -49,7 +49,7 @@ impl Performance {
         let needs = |note: &Unplaced| {
             // Where each string has a channel, only its own key can be the one before.
             let before = !self.is_by_strings() || note.wanted.channel == channel;
-            let connected = before && (note.articulation.legato || self.touching.legato);
+            let connected = before && (note.articulation.connects() || self.touching.legato);
             connected || note.is(channel, key)
         };
         // Notes to come have to hear that a keyswitch asks for a string no more.
