@@ -108,8 +108,8 @@ mod tests {
             let sound = |n: i32| match n {
                 // It comes out of nothing, rings, passes through zero, and is gone.
                 ..40 => 0.0,
-                ..440 => libm::pow(10.0, 0.3 * f64::from(n - 440)) * libm::sin(f64::from(n)),
-                ..20_000 => libm::exp(-1e-3 * f64::from(n)) * libm::sin(0.3 * f64::from(n)),
+                40..440 => libm::pow(10.0, 0.3 * f64::from(n - 440)) * libm::sin(f64::from(n)),
+                440..20_000 => libm::exp(-1e-3 * f64::from(n)) * libm::sin(0.3 * f64::from(n)),
                 _ => 0.0,
             };
             let (mut largest, mut faded) = (0.0_f64, false);

@@ -40,6 +40,9 @@ fn loudness(sound: &[f32]) -> f32 {
     sound[LENGTH - 4_800..].iter().fold(0.0, |most, sample| most.max(sample.abs()))
 }
 
+/// Changes and events of a call.
+type Call<'a> = (&'a [(ParamID, f64)], &'a [Event]);
+
 /// What the framework leaves out wholly: no samples, no bus, a bus without channels' memory.
 const SILENCES: [Silence; 3] = [Silence::Samples, Silence::Outputs, Silence::Memory];
 
@@ -66,7 +69,7 @@ fn notes_and_note_offs_without_sound_are_played_with_the_next_samples() {
 fn what_comes_without_sound_stays_in_order_and_comes_before_the_rest() {
     let host = Host::new();
     let pedal = |down| host.controller(0, 64, f64::from(u8::from(down)));
-    let ring = |flushed: &[(&[(ParamID, f64)], &[Event])], own: &[Event]| {
+    let ring = |flushed: &[Call<'_>], own: &[Event]| {
         let host = Host::new();
         flushed.iter().for_each(|(changes, events)| host.flush(Silence::Samples, changes, events));
         loudness(&host.play(LENGTH, &[], own))

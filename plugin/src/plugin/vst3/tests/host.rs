@@ -218,7 +218,7 @@ impl Host {
             (0..controller.getParameterCount()).find_map(|index| {
                 let mut info: ParameterInfo = std::mem::zeroed();
                 assert_eq!(controller.getParameterInfo(index, &mut info), kResultOk);
-                let title = info.title.iter().take_while(|&&unit| unit != 0).map(|&unit| unit as u16);
+                let title = info.title.iter().copied().take_while(|&unit| unit != 0);
                 (String::from_utf16_lossy(&title.collect::<Vec<_>>()) == name).then_some(info.id)
             })
         };
