@@ -41,6 +41,11 @@ capture() { import -window "$window" "$folder/$1.png"; }
 whole() { awk 'NR == 1 { number = $1 } END { printf "%.0f\n", number ~ /^[0-9.]+(e[+-]?[0-9]+)?$/ ? number : -1 }'; }
 # How many pixels of a picture have a colour.
 count() { convert "$folder/$1.png" -fuzz 4% -fill black +opaque "$2" -fill white -opaque "$2" -format '%[fx:int(mean*w*h)]' info: | whole; }
+# How many pixels of the meter in a picture are lit. It is in the corner at the top right; elsewhere the same colours mean other things.
+heard() {
+    convert "$folder/$1.png" -gravity NorthEast -crop 184x48+0+0 +repage "$folder/$1_meter.png"
+    echo $(($(count "$1_meter" "$sound") + $(count "$1_meter" "$clipped")))
+}
 # How many pixels of two pictures differ; -1 if their sizes do.
 differing() { compare -metric AE -fuzz 4% "$folder/$1.png" "$folder/$2.png" null: 2>&1 | whole || true; }
 # Whether fewer pixels differ than so many.

@@ -23,7 +23,7 @@ pub struct OneString {
 
 /// The lowest string as its instrument tunes it.
 fn low_e() -> StringParameters {
-    lowest_alone().model(0).string.clone()
+    lowest_alone().model(0).string
 }
 
 impl OneString {

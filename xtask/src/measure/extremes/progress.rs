@@ -49,7 +49,7 @@ impl Progress {
 
 /// Whole tenths of all that are done.
 fn tenths(done: u64, all: u64) -> u64 {
-    if all == 0 { 10 } else { (10 * done / all).min(10) }
+    (10 * done).checked_div(all).unwrap_or(10).min(10)
 }
 
 #[cfg(test)]

@@ -18,7 +18,8 @@ const PIECE: usize = 38 * BLOCK;
 const PIECES: usize = 28;
 const RUNS: usize = 15;
 // Instruments run whole blocks, and what they leave out would be counted as run.
-const _: () = assert!(WARM_UP % BLOCK == 0 && COUNTED % BLOCK == 0 && PIECE % BLOCK == 0);
+const _: () =
+    assert!(WARM_UP.is_multiple_of(BLOCK) && COUNTED.is_multiple_of(BLOCK) && PIECE.is_multiple_of(BLOCK));
 
 /// Runs a case for what is counted in it: nothing but the warm-up, or the samples to count as well.
 pub fn child(name: &str, count: bool) -> Result<()> {

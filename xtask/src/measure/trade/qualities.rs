@@ -76,7 +76,8 @@ fn aims(outcomes: &[Outcome]) -> String {
         let met = if found.is_some_and(|found| found <= aim) { "met" } else { "**missed**" };
         text += &format!("| {what} | {} | {} | {met} |\n", plain(aim), shown(found));
     }
-    text
+    text + "\nOnce an instrument is put in tune, all frets of the electric and acoustic guitars are within a cent at `live` \
+            (`tests/tests/instrument/tuning.rs`).\n"
 }
 
 /// The lines between which the table of the chord stands.

@@ -8,6 +8,8 @@
 //! comparison only: the instruments are computed by Newton's method.
 
 mod contacts;
+#[cfg(test)]
+mod tests;
 
 use anyhow::{Context, Result, ensure};
 use low_action_dsp::contact::ContactLaw;
@@ -275,28 +277,4 @@ fn spread(reading: &Reading, values: &mut [f64], amount: f64) {
 struct Pull {
     share: f64,
     mobility: f64,
-}
-
-#[cfg(test)]
-mod tests {
-    use low_action_dsp::{Quality, Simulation};
-
-    use super::Rival;
-    use crate::measure::trade::scenes::{Kind, SCENES};
-    use crate::measure::trade::settings::quality;
-
-    #[test]
-    fn a_string_that_touches_nothing_is_the_same_string() {
-        let open = SCENES.iter().find(|playing| playing.kind == Kind::Open).unwrap();
-        let scene = &open.scenes(&quality(Quality::Live, 48e3)).unwrap()[0];
-        let (mut rival, mut simulation) = (Rival::new(scene).unwrap(), Simulation::new(scene).unwrap());
-        let (mut apart, mut largest) = (0.0_f64, 0.0_f64);
-        for _ in 0..20_000 {
-            rival.step();
-            simulation.step();
-            apart = apart.max((rival.output() - simulation.output()).abs());
-            largest = largest.max(simulation.output().abs());
-        }
-        assert!(largest > 0.01 && apart < 1e-9 * largest, "{apart:e} N apart of {largest:e} N");
-    }
 }
