@@ -4,6 +4,8 @@
 //! scenes × settings ─> record (runs one) ─> errors (against the reference) ─> table, picture
 //! ```
 
+mod columns;
+mod compare;
 mod errors;
 mod filter;
 mod frets;
@@ -123,7 +125,7 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
             let outcomes = measure(&settings, Kind::is_main)?;
             let table = table::accuracy(axis, &settings, &outcomes);
             println!("{table}");
-            table::compare(&table, &committed)?;
+            compare::compare(&table, &committed)?;
         }
         println!("as in {PAGE}, as nearly as can be asked");
         return Ok(());
