@@ -27,7 +27,9 @@ impl Progress {
         let (done, all) = (self.bar.position(), self.bar.length().unwrap_or(0));
         let tenths = tenths(done, all);
         if self.bar.is_hidden() && self.told.fetch_max(tenths, Ordering::Relaxed) < tenths {
-            eprintln!("{} % of {all} {}, {}", 10 * tenths, self.what, self.bar.message());
+            let message = self.bar.message();
+            let comma = if message.is_empty() { "" } else { ", " };
+            eprintln!("{} % of {all} {}{comma}{message}", 10 * tenths, self.what);
         }
     }
 
