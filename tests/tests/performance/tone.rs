@@ -57,11 +57,11 @@ fn a_softer_stroke_lets_go_more_slowly() {
         let mut player = neck.player(EXACT);
         player.event(0, on(64, velocity), &mut gestures);
         player.advance(4_800, &mut gestures);
-        let plucks = gestures.iter().filter_map(|timed| match timed.gesture {
+        let mut plucks = gestures.iter().filter_map(|timed| match timed.gesture {
             Gesture::Pluck { force, release, .. } => Some((force / neck.setup.player.pluck_force, release)),
             _ => None,
         });
-        plucks.last().expect("it is plucked")
+        plucks.next_back().expect("it is plucked")
     };
     for velocity in 1..=127 {
         let (strength, release) = pluck(velocity);

@@ -27,6 +27,7 @@ fn notes() -> Score {
         (0, Action::Midi([0xE0, 0, 80])),
         (0, Action::Midi([0xE2, 0, 68])),
         (100, Action::NoteOn { channel: 0, key: 52, velocity: 100 }),
+        (1_900, Action::NoteOff { channel: 0, key: 18 }),
         (1_900, Action::NoteOff { channel: 2, key: 43 }),
         (1_900, Action::NoteOff { channel: 0, key: 52 }),
         (2_000, Action::NoteOn { channel: 0, key: 64, velocity: 100 }),
