@@ -9,9 +9,9 @@ use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
-    /// Lays the edge of the hand near the saddle, and a finger of the other hand behind a fretting one,
-    /// which goes on pressing just hard enough; behind a bar one rests already. A hand that mutes the string stays where it is, and so does
-    /// a light finger: a string that is let go of sounds.
+    /// Lays the edge of the hand near the saddle, and a finger of the other hand behind a fretting one, which goes on pressing
+    /// just hard enough; behind a bar one rests already. A hand that mutes the string stays where it is, and so does a light
+    /// finger: a string that is let go of sounds.
     pub(crate) fn damp(&mut self, parting: Parting, at: &mut Moment<impl GestureSink>) {
         let near_saddle = self.hands.damper.position.min(FARTHEST_DAMPER * self.sounding_length());
         let (light, mutes) = (self.light, self.light.is_some() && self.resting[LIGHT]);
