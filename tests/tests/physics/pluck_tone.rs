@@ -2,7 +2,7 @@
 //! of a plectrum, the fewer high ones the longer flesh takes to slip off. Pitch stays.
 
 use low_action::engine::{Engine, EngineOptions};
-use low_action::performance::{InputMode, PlayerEvent};
+use low_action::performance::{InputMode, PlayerEvent, VELOCITY_CURVE};
 use low_action_dsp::{Scene, Setup, Simulation};
 use low_action_tests::numbers::{brightness, rms};
 use low_action_tests::pitch::{cents, frequency_near};
@@ -87,11 +87,13 @@ fn partials_have_of_a_pluck_what_its_push_has_of_their_frequencies() {
 fn note(instrument: &str, string: u8, release: f64) -> Vec<f32> {
     let mut setup = Setup::builtin(instrument).expect("it is built in");
     setup.player.pluck_release = release;
+    // The hardest there is takes just that, and is no harder than velocity 89 so.
+    setup.player.pluck_force *= 0.7_f64.powf(VELOCITY_CURVE);
     let key = setup.string[usize::from(string)].pitch as u8;
     let options = EngineOptions { variation: 0.0, ..EngineOptions::new(setup, 48_000.0) };
     let mut engine = Engine::new(&options).expect("it can be built");
     engine.set_input(InputMode::Strings { first: 0, from_last: false });
-    engine.event(0, PlayerEvent::NoteOn { channel: string, key, velocity: 0.7 });
+    engine.event(0, PlayerEvent::NoteOn { channel: string, key, velocity: 1.0 });
     let (mut left, mut right) = (vec![0.0; 48_000], vec![0.0; 48_000]);
     engine.process(&mut left, &mut right);
     left
