@@ -39,7 +39,17 @@ impl Stage {
 
     /// One string of a set-up that comes with the program, so that every note is played on it.
     pub fn alone(setup: &str, string: usize) -> Self {
-        let setup = Setup::shipped(setup).expect("it comes with the program");
+        Self::alone_in(Setup::shipped(setup).expect("it comes with the program"), string)
+    }
+
+    /// The same, plucked by what lets go of it at once, however softly: what is held against the edge of a pluck.
+    pub fn plucked_at_once(setup: &str, string: usize) -> Self {
+        let mut setup = Setup::shipped(setup).expect("it comes with the program");
+        setup.player.pluck_release = 0.0;
+        Self::alone_in(setup, string)
+    }
+
+    fn alone_in(setup: Setup, string: usize) -> Self {
         let spec = setup.string[string].clone();
         Self::new(&Setup { string: vec![spec], ..setup })
     }

@@ -22,7 +22,7 @@ mod cost;
 mod range;
 mod search;
 
-use cost::{AGAIN, LEAVE_OUT, MOVE};
+use cost::{AGAIN, LEAVE_OUT, MOVE, beyond};
 pub(crate) use range::{Range, octaves};
 use search::Search;
 
@@ -204,7 +204,7 @@ impl Hand {
         if fret <= self.capo {
             return 0;
         }
-        self.position.saturating_sub(fret).max((fret + 1).saturating_sub(self.position + SPAN))
+        beyond(self.position, fret)
     }
 
     /// Stays where another hand is, on the neck of another model of the instrument.

@@ -70,7 +70,7 @@ impl Field<'_> {
             position: self.place(pluck_position + beside - nearer),
             force: pluck_force * strength * force,
             duration: pluck_duration * duration,
-            release: pluck_release / (strength * force).abs().max(SLOWEST_RELEASE),
+            release: pluck_release / (strength * force).abs().max(SLOWEST_STROKE),
         })
     }
 

@@ -37,7 +37,7 @@ pub const VELOCITY_CURVE: f64 = 1.5;
 /// A string slips off a plectrum or a fingertip at a speed that goes with its force, so softer strokes let go more slowly, down to
 /// this part of the hardest pluck's force. (Softer ones would lose their fundamentals, too: half a millisecond takes 1 dB of
 /// those at 660 Hz, and half of the brightness of an electric guitar's high strings.)
-pub(crate) const SLOWEST_RELEASE: f64 = 0.25;
+pub(crate) const SLOWEST_STROKE: f64 = 0.25;
 /// Farthest from the saddle a pluck may be, as a part of the sounding length: past the middle it
 /// sounds the same mirrored, and the hands would meet.
 pub(crate) const FARTHEST_PLUCK: f64 = 0.45;

@@ -1,7 +1,6 @@
 //! The promise: however short notes are, hands make no noise between them. A note's end is heard in nothing but the string
 //! falling silent, and in a quick figure a note is no louder than in a slow one.
 
-use low_action_dsp::Setup;
 use low_action_tests::numbers::largest;
 use low_action_tests::stage::{Stage, decibels, off, on, peak};
 
@@ -35,9 +34,7 @@ fn click(sound: &[f32], from: f64, to: f64) -> f64 {
 #[test]
 fn a_short_note_ends_without_a_click() {
     for (setup, string, open) in STRINGS {
-        let mut sharp = Setup::shipped(setup).expect("it comes with the program");
-        sharp.player.pluck_release = 0.0;
-        let mut stage = Stage::new(&Setup { string: vec![sharp.string[string].clone()], ..sharp });
+        let mut stage = Stage::plucked_at_once(setup, string);
         for [before, fret] in [[5, 7], [3, 8], [2, 12], [0, 5], [8, 3], [5, 5]] {
             for velocity in [10, 40, 100] {
                 for length in [0.03, 0.05, 0.1, 0.14] {

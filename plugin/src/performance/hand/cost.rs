@@ -102,9 +102,14 @@ impl Hand {
     }
 }
 
+/// Frets between a fret and those under a hand at some place.
+pub(super) fn beyond(position: usize, fret: usize) -> usize {
+    position.saturating_sub(fret).max((fret + 1).saturating_sub(position + SPAN))
+}
+
 /// What it costs a hand at some place to reach a fret.
 fn reach(position: usize, fret: usize) -> f64 {
-    match position.saturating_sub(fret).max((fret + 1).saturating_sub(position + SPAN)) {
+    match beyond(position, fret) {
         0 => 0.0,
         beyond => REACH.0 + REACH.1 * (beyond - 1) as f64,
     }
