@@ -4,7 +4,7 @@ use crate::grid::Reading;
 use crate::model::Model;
 use crate::roomy::Roomy;
 
-/// How many pushes may act on a string of an instrument at once.
+/// How many plucks may push a string of an instrument at once.
 pub const PUSHES: usize = 8;
 
 /// A force on a point of the string.
@@ -42,13 +42,13 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// Nothing acts; room for [`PUSHES`] pushes and for moving every contact. Hands are at the nut, without force: whoever places a
+    /// Nothing acts; room for [`PUSHES`] pushes, one more of a bridge that gives way, and for moving every contact. Hands are at the nut, without force: whoever places a
     /// finger puts its hand over the same place.
     pub fn new(model: &Model) -> Drive {
         Drive {
             tension: model.string.tension,
             loss: 0.0,
-            pushes: Roomy::with_capacity(PUSHES),
+            pushes: Roomy::with_capacity(PUSHES + 1),
             hands: vec![Hand::default(); model.finger_slots],
             heights: Roomy::with_capacity(model.contacts.len()),
         }

@@ -57,7 +57,7 @@ impl AddAssign for Losses {
 /// Powers put in at n, W, negative where they are taken out.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Inputs {
-    /// By pushes on the string, which are plucks.
+    /// By pushes on the string, which are plucks, and by a bridge that gives way.
     pub pluck: f64,
     /// By the hands' forces on the fingers.
     pub hand: f64,

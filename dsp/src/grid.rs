@@ -152,6 +152,11 @@ impl Reading {
         Reading::over(grid, window, weights)
     }
 
+    /// The reading of the three grid points before the bridge, nearest last, by weights of whoever asks.
+    pub(crate) fn before_bridge(grid: &Grid, [third, second, first]: [f64; 3]) -> Self {
+        Reading::over(grid, grid.intervals - 4, [0.0, third, second, first])
+    }
+
     fn over(grid: &Grid, first: usize, weights: [f64; 4]) -> Self {
         let cells = [0, 1, 2, 3].map(|offset| grid.cell(first + offset) as u32);
         let reading = Reading { first, weights, cells, own_overlap: 0.0 };

@@ -131,6 +131,7 @@
 
 mod active;
 mod band;
+mod body;
 mod choice;
 pub mod contact;
 mod contact_step;

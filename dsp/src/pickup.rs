@@ -95,7 +95,9 @@ impl PickupMix {
         let position = place * setup.neck.scale_length;
         let (other, scale) = match setup.pickup {
             Pickup::Magnetic { .. } => (Pickup::Bridge {}, 1.0 / impedance),
-            Pickup::Bridge {} => (Pickup::Magnetic { position, aperture, resonance, quality }, impedance),
+            Pickup::Bridge {} | Pickup::Microphone {} => {
+                (Pickup::Magnetic { position, aperture, resonance, quality }, impedance)
+            }
         };
         let wide = setup.bridge.as_ref().map_or(0.0, |bridge| bridge.length);
         let parts = [(setup.pickup, 1.0 - setup.blend), (other, setup.blend * scale)];
@@ -126,6 +128,8 @@ enum Source {
     Coil(Vec<(usize, f64)>),
     /// The force on the bridge: on its edge, and on the contacts from this index on.
     Bridge { from: usize },
+    /// What the body sends out.
+    Air,
 }
 
 /// Points at which the field of a coil is sampled, a Gauss–Legendre rule of five: exact for all that a
@@ -151,16 +155,20 @@ impl Listener {
         Listener { ears }
     }
 
-    /// The signal after a step: volts of an arbitrary coil, or newtons.
+    /// The signal after a step in which the body sent out a `pressure`, Pa: volts of an arbitrary coil, newtons or pascals.
     #[inline]
-    pub fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch) -> f64 {
-        self.ears.iter_mut().flatten().map(|ear| ear.hear(model, state, scratch)).fold(0.0, |a, b| a + b)
+    pub fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch, pressure: f64) -> f64 {
+        self.ears
+            .iter_mut()
+            .flatten()
+            .map(|ear| ear.hear(model, state, scratch, pressure))
+            .fold(0.0, |a, b| a + b)
     }
 
-    /// The signal of a string at rest.
+    /// The signal of a string at rest, over a body that may ring.
     #[inline]
-    pub fn hear_nothing(&mut self) -> f64 {
-        self.ears.iter_mut().flatten().map(Ear::hear_nothing).fold(0.0, |a, b| a + b)
+    pub fn hear_nothing(&mut self, pressure: f64) -> f64 {
+        self.ears.iter_mut().flatten().map(|ear| ear.hear_nothing(pressure)).fold(0.0, |a, b| a + b)
     }
 
     /// Whether nothing is left to be heard of the past.
@@ -203,6 +211,9 @@ impl Ear {
     fn new(pickup: &Pickup, from: usize, share: f64, model: &Model, sample_rate: f64) -> Self {
         let block = Biquad::high_pass(LOWEST, sample_rate);
         match *pickup {
+            Pickup::Microphone {} => {
+                Ear { source: Source::Air, share, coil: Biquad::through(), block, begins: false }
+            }
             Pickup::Bridge {} => {
                 Ear { source: Source::Bridge { from }, share, coil: Biquad::through(), block, begins: false }
             }
@@ -225,9 +236,10 @@ impl Ear {
     }
 
     #[inline]
-    fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch) -> f64 {
+    fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch, pressure: f64) -> f64 {
         let signal = match &self.source {
             Source::Bridge { from } => bridge_force(model, scratch) + wrapped(model, scratch, *from),
+            Source::Air => pressure,
             Source::Coil(weights) => weights.iter().map(|&(cell, weight)| state.motion[cell] * weight).sum(),
         };
         let signal = self.coil.next(signal);
@@ -239,12 +251,13 @@ impl Ear {
     }
 
     #[inline]
-    fn hear_nothing(&mut self) -> f64 {
+    fn hear_nothing(&mut self, pressure: f64) -> f64 {
         self.begins = false;
-        if self.is_still() {
+        let signal = if matches!(self.source, Source::Air) { pressure } else { 0.0 };
+        if signal == 0.0 && self.is_still() {
             return 0.0;
         }
-        self.share * self.block.next(self.coil.next(0.0))
+        self.share * self.block.next(self.coil.next(signal))
     }
 
     fn is_still(&mut self) -> bool {

@@ -3,7 +3,9 @@
 //! It says nothing about grids or sample rates; [`intonate`](crate::intonation::intonate) and
 //! [`Neck::barrier`] turn it into numbers for the model.
 
+mod body;
 mod bridge;
+mod pickup;
 mod player;
 
 use serde::{Deserialize, Serialize};
@@ -15,7 +17,9 @@ use crate::error::{Error, limited, ranged, within};
 use crate::intonation::Behind;
 use crate::model::{Barrier, StringParameters};
 use crate::neck::Neck;
+pub use body::Body;
 pub use bridge::Bridge;
+pub use pickup::Pickup;
 pub use player::{Damper, Fretting, Player};
 
 /// A whole instrument.
@@ -49,6 +53,9 @@ pub struct Setup {
     /// A bridge over which the strings wrap; none means that they end at an edge.
     #[serde(default)]
     pub bridge: Option<Bridge>,
+    /// What the bridge stands on, if it gives way; none means that it does not.
+    #[serde(default)]
+    pub body: Option<Body>,
     /// The player's hands.
     pub player: Player,
     /// What is heard.
@@ -109,26 +116,6 @@ fn alike() -> f64 {
 
 fn yes() -> bool {
     true
-}
-
-/// What is heard of the strings.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
-pub enum Pickup {
-    /// A coil over the strings: their velocity at a place, through the coil's own resonance.
-    Magnetic {
-        /// Middle of the coil, m from the saddle, strictly between the ends of the string.
-        position: f64,
-        /// Width of its field along the string, m, 0 for a point and up, and within the string.
-        aperture: f64,
-        /// Resonance of coil and cable, Hz, 100 to 1e6.
-        resonance: f64,
-        /// Height of that resonance over low frequencies, as a factor, 0.1 to 100.
-        quality: f64,
-    },
-    /// The force of the strings on the bridge. (With braces, since
-    /// keys that do not belong there are only looked for where there could be some.)
-    Bridge {},
 }
 
 /// The built-in set-ups: name and file.
@@ -216,8 +203,11 @@ impl Setup {
         if let Some(bridge) = self.bridge {
             bridge.check(&self.neck)?;
         }
+        if let Some(body) = self.body {
+            body.check()?;
+        }
         self.player.check(self.neck.scale_length)?;
-        self.pickup.check(self.neck.scale_length)?;
+        self.pickup.check(self.neck.scale_length, self.body.is_some())?;
         if self.string.is_empty() || self.string.len() > MOST_STRINGS {
             let accepted = format!("there must be 1 to {MOST_STRINGS} strings");
             return Err(Error::range("[[string]]", self.string.len(), accepted));
@@ -266,7 +256,9 @@ impl Setup {
 
     /// The factor up to which the grid of a string bears a higher tension: bends, and in any case what fingers and plucks stretch.
     pub(crate) fn tension_room(&self) -> f64 {
-        tension_ratio(self.max_bend.max(LEAST_ROOM))
+        // (A body takes a part of its own.)
+        let body = if self.body.is_some() { 1.0 + crate::body::ROOM } else { 1.0 };
+        tension_ratio(self.max_bend.max(LEAST_ROOM)) * body
     }
 }
 
@@ -304,25 +296,6 @@ impl SetupString {
         }
         within(&format!("{name}.level"), self.level, 0.0, 100.0, "")?;
         within(&format!("{name}.pan"), self.pan, -1.0, 1.0, "").map(drop)
-    }
-}
-
-impl Pickup {
-    fn check(&self, scale: f64) -> Result<(), Error> {
-        match *self {
-            Pickup::Bridge {} => Ok(()),
-            Pickup::Magnetic { position, aperture, resonance, quality } => {
-                within("pickup.resonance", resonance, 100.0, 1e6, "Hz")?;
-                within("pickup.quality", quality, 0.1, 100.0, "")?;
-                within("pickup.aperture", aperture, 0.0, scale, "m")?;
-                on_scale("pickup.position", position, scale)?;
-                if aperture / 2.0 < position.min(scale - position) {
-                    return Ok(());
-                }
-                let accepted = format!("half of it must stay on the string around {} m", plain(position));
-                Err(Error::range("pickup.aperture", plain(aperture), accepted))
-            }
-        }
     }
 }
 

@@ -5,6 +5,7 @@ mod tests;
 
 use std::ops::Range;
 
+use crate::body::Body;
 use crate::decimate::Decimator;
 use crate::drive::Drive;
 use crate::energy::Ledger;
@@ -32,6 +33,8 @@ pub(crate) struct Voice {
     pub scratch: Scratch,
     pub drive: Drive,
     hands: Hands,
+    /// What the bridge stands on, if it gives way.
+    body: Option<Body>,
     listener: Listener,
     decimator: Decimator,
     pub geometry: StringGeometry,
@@ -89,6 +92,8 @@ impl Voice {
         {
             model.finger_law(&touch).map_err(|error| error.under(section).under(&name))?;
         }
+        let body = setup.body.as_ref().map(|body| Body::new(body, &model)).transpose();
+        let body = body.map_err(|error| error.under(&name))?;
         let angle = 0.25 * std::f64::consts::PI * (spec.pan + 1.0);
         Ok(Voice {
             geometry: StringGeometry {
@@ -103,6 +108,7 @@ impl Voice {
             scratch: Scratch::new(&model),
             drive: Drive::new(&model),
             hands: Hands::new(&model, rate),
+            body,
             listener: Listener::new(&PickupMix::of(setup, &placed.string), &model, rate),
             decimator: Decimator::new(ratio, RUN),
             gain: setup.gain * spec.level,
@@ -190,7 +196,11 @@ impl Voice {
 
     /// Whether it rests, and nothing that it has sent out is still on its way.
     fn is_at_rest(&mut self) -> bool {
-        self.asleep && self.decimator.is_empty() && self.listener.is_still()
+        // (The body first: what it sends out keeps all behind it busy.)
+        self.asleep
+            && self.body.as_mut().is_none_or(Body::is_still)
+            && self.decimator.is_empty()
+            && self.listener.is_still()
     }
 
     /// Whether it rests, and nothing of it is left to be heard.
@@ -201,7 +211,8 @@ impl Voice {
     #[inline]
     fn next(&mut self) -> f64 {
         if self.asleep {
-            return self.listener.hear_nothing();
+            let pressure = self.body.as_mut().map_or(0.0, Body::ring);
+            return self.listener.hear_nothing(pressure);
         }
         self.hands.drive(&mut self.state, &mut self.drive);
         if !self.settling.part.rests() {
@@ -209,14 +220,21 @@ impl Voice {
         } else if !self.drive.heights.is_empty() {
             self.drive.heights.clear();
         }
+        // (What the bridge does is nothing that is done to the string from outside.)
+        let pushed = !self.drive.pushes.is_empty();
+        let mut pressure = 0.0;
+        if let Some(body) = &mut self.body {
+            self.drive.pushes.push(body.step(&self.model, &self.state, self.drive.tension));
+            pressure = body.pressure();
+        }
         let convergence = self.state.step(&self.model, &self.drive, &mut self.scratch);
         self.observed.see_step(&convergence, &self.scratch);
         if let Some(ledger) = &mut self.ledger {
             ledger.record(&self.model, &self.state, &self.scratch, &self.drive);
         }
-        let signal = self.listener.hear(&self.model, &self.state, &self.scratch);
+        let signal = self.listener.hear(&self.model, &self.state, &self.scratch, pressure);
         // (That energy is from before the step: what was pushed in it is not in it yet.)
-        let is_left_alone = self.hands.idle() && self.drive.pushes.is_empty();
+        let is_left_alone = self.hands.idle() && !pushed;
         if is_left_alone && self.settling.part.rests() && self.scratch.string_energy() < SILENCE {
             self.fall_asleep();
         }
@@ -276,6 +294,9 @@ impl Voice {
         }
         self.state.take_over(&self.model, &old.state, &old.model);
         self.hands.keep_only(&self.state);
+        if let Some(body) = &mut self.body {
+            body.take_over(old.body.as_ref(), &self.model, &self.state, self.hands.tension());
+        }
         self.settling.from.clear();
         self.settling.from.extend_from_slice(self.state.heights());
         self.settling.part = Ramp::at(0.0);
@@ -288,6 +309,9 @@ impl Voice {
         self.state.reset(&self.model);
         self.scratch.reset();
         self.hands.reset(&self.model);
+        if let Some(body) = &mut self.body {
+            body.reset();
+        }
         self.listener.reset();
         self.decimator.reset();
         self.settling.part = Ramp::at(1.0);

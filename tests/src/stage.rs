@@ -2,6 +2,7 @@
 //! what is heard can be seen together.
 
 use low_action::performance::{Performance, PlayerEvent};
+use low_action_dsp::setup::Pickup;
 use low_action_dsp::{Instrument, Quality, Setup, TimedGesture};
 
 use crate::hands::{EXACT, RATE, strings};
@@ -29,8 +30,13 @@ pub struct Played {
 }
 
 impl Stage {
-    /// A set-up at 48 kHz, every pluck exactly alike.
+    /// A set-up at 48 kHz, every pluck exactly alike, [heard at its bridge](at_the_bridge).
     pub fn new(setup: &Setup) -> Self {
+        Self::over_body(&at_the_bridge(setup))
+    }
+
+    /// The same as it is.
+    pub fn over_body(setup: &Setup) -> Self {
         let instrument =
             Instrument::new(setup, &Quality::Live.settings(RATE)).expect("the set-up can be built");
         let performance = Performance::new(strings(setup, &instrument), &setup.player, EXACT, RATE);
@@ -98,6 +104,17 @@ impl Stage {
         played
     }
 }
+
+/// The same strings under the same hands at a bridge that does not give way: what hands do is looked for where no body makes some
+/// notes louder and others shorter.
+pub fn at_the_bridge(setup: &Setup) -> Setup {
+    let Some(body) = &setup.body else { return setup.clone() };
+    let pickup = if setup.pickup == (Pickup::Microphone {}) { Pickup::Bridge {} } else { setup.pickup };
+    Setup { body: None, pickup, gain: setup.gain * BRIGHTER * body.area / body.mass, ..setup.clone() }
+}
+
+/// So many newtons are as loud as a pascal that comes off a soundboard of 1 m² for each kilogram.
+const BRIGHTER: f64 = 0.4;
 
 /// So many samples are so many seconds.
 pub fn at(seconds: f64) -> usize {

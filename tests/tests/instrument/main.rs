@@ -1,5 +1,6 @@
 //! Instruments, and the set-ups they are built from: each file is a promise.
 
+mod body;
 mod display;
 mod effort;
 mod full_queues;

@@ -417,7 +417,7 @@ fn what_is_wrong_with_a_change_is_named_by_its_keys() {
         ),
         (
             "[pickup]\nkind = \"laser\"",
-            "pickup.kind: unknown choice `laser`, expected `magnetic` or `bridge`",
+            "pickup.kind: unknown choice `laser`, expected one of `magnetic`, `bridge`, `microphone`",
         ),
         ("neck = 1", "neck: invalid type: integer `1`, expected a table"),
         ("pickup = 1", "pickup: invalid type: integer `1`, expected a table"),

@@ -30,7 +30,7 @@ fn built_in_setups_read() {
     assert_eq!(Setup::BUILTIN[0], "electric");
     assert_eq!(builtin("electric").neck.frets, 22);
     assert!(matches!(builtin("electric").pickup, Pickup::Magnetic { .. }));
-    assert!(matches!(builtin("steel").pickup, Pickup::Bridge {}));
+    assert!(matches!(builtin("steel").pickup, Pickup::Microphone {}));
     assert!(Setup::builtin("banjo").is_none());
 }
 

@@ -6,7 +6,7 @@ use low_action::performance::{InputMode, PlayerEvent};
 use low_action_dsp::Setup;
 use low_action_tests::numbers::rms;
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::hertz;
+use low_action_tests::stage::{at_the_bridge, hertz};
 
 const RATE: f64 = 48_000.0;
 
@@ -40,7 +40,7 @@ fn ripple(sound: &[f32]) -> f64 {
 #[test]
 fn strings_that_may_hardly_be_bent_are_in_tune() {
     for (name, force) in [("electric", 13.0), ("steel", 25.0), ("classical", 13.0), ("bass", 25.0)] {
-        let mut setup = Setup::builtin(name).expect("it is built in");
+        let mut setup = at_the_bridge(&Setup::builtin(name).expect("it is built in"));
         setup.player.fretting.force = force;
         for (max_bend, string) in
             [0.0, 0.3].into_iter().flat_map(|bend| (0..setup.string.len()).map(move |string| (bend, string)))

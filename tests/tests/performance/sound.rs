@@ -6,7 +6,7 @@ use low_action::engine::{Engine, EngineOptions, Quality};
 use low_action::performance::PlayerEvent;
 use low_action_dsp::Setup;
 use low_action_tests::numbers::largest_step;
-use low_action_tests::stage::{decibels, peak};
+use low_action_tests::stage::{at_the_bridge, decibels, peak};
 use low_action_tests::watch;
 use nice_assert_no_alloc::assert_no_alloc;
 
@@ -52,13 +52,13 @@ impl Alone {
     }
 }
 
-/// Runs a check on every set-up and the outer and a middle string of each, set-ups side by side.
+/// Runs a check on every set-up, [heard at its bridge](at_the_bridge), and the outer and a middle string of each, set-ups side by side.
 fn everywhere(check: impl Fn(Alone) + Sync) {
     std::thread::scope(|scope| {
         for name in Setup::BUILTIN {
             let check = &check;
             scope.spawn(move || {
-                let setup = Setup::builtin(name).expect("built in");
+                let setup = at_the_bridge(&Setup::builtin(name).expect("built in"));
                 let last = setup.string.len() - 1;
                 for string in [0, last / 2, last] {
                     check(Alone::new(&setup, string));

@@ -6,7 +6,7 @@ use low_action::performance::PlayerEvent;
 use low_action_dsp::{Gesture, Setup, TimedGesture};
 use low_action_tests::hands::{EXACT, Neck};
 use low_action_tests::numbers::brightness;
-use low_action_tests::stage::on;
+use low_action_tests::stage::{at_the_bridge, on};
 
 const RATE: f64 = 48_000.0;
 /// From pianissimo to where the first string begins to buzz.
@@ -32,7 +32,7 @@ fn brightnesses(setup: &Setup, string: usize, fret: u8) -> [f64; 3] {
 #[test]
 fn harder_is_brighter() {
     for name in Setup::BUILTIN {
-        let setup = Setup::builtin(name).expect("it is built in");
+        let setup = at_the_bridge(&Setup::builtin(name).expect("it is built in"));
         let mut sharp = setup.clone();
         sharp.player.pluck_release = 0.0;
         let last = setup.string.len() - 1;

@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, given: &Given, sight: &Sight, setup: &Setup) {
     let pluck = given.plan.player().map(|player| sight.x(scale - player.pluck_position as f32));
     let pickup = match setup.pickup {
         Pickup::Magnetic { position, .. } => Some(sight.x(scale - position as f32)),
-        Pickup::Bridge {} => None,
+        Pickup::Bridge {} | Pickup::Microphone {} => None,
     };
     let mark = |text, colour, x: f32, other: Option<f32>| {
         // Words are on the sides that do not face each other.

@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use low_action_dsp::curve::Curve;
 use low_action_dsp::{
-    Drive, EngineSettings, Gesture, Instrument, Model, Quality, Scene, Scratch, Simulation, State,
+    Drive, EngineSettings, Gesture, Instrument, Model, Quality, Scene, Scratch, Setup, Simulation, State,
     StringParameters, TimedGesture,
 };
 
@@ -29,7 +29,8 @@ enum What {
     /// The bare string with nobody to ask what else there is: its model stepped by hand.
     ByHand,
     /// An instrument in which so many strings ring, of so many that are asked for.
-    Instrument { strings: usize, ringing: usize, fretted: bool },
+    /// An instrument in which so many strings ring, of so many that are asked for, over a body or none.
+    Instrument { strings: usize, ringing: usize, fretted: bool, body: bool },
 }
 
 /// What is asked of a running scene besides its steps.
@@ -87,7 +88,7 @@ const fn asked(name: &'static str, extra: Extra) -> Case {
 
 /// An instrument with so many strings, so many of them ringing.
 const fn instrument(name: &'static str, strings: usize, ringing: usize) -> Case {
-    Case { name, over: ONE_RINGS, what: What::Instrument { strings, ringing, fretted: false } }
+    Case { name, over: ONE_RINGS, what: What::Instrument { strings, ringing, fretted: false, body: false } }
 }
 
 /// Everything that is measured, in the order of the table.
@@ -112,7 +113,12 @@ pub const CASES: &[Case] = &[
     Case {
         name: "six strings, all fretted and ringing",
         over: ONE_RINGS,
-        what: What::Instrument { strings: 6, ringing: 6, fretted: true },
+        what: What::Instrument { strings: 6, ringing: 6, fretted: true, body: false },
+    },
+    Case {
+        name: "a guitar's body under one string",
+        over: ONE_RINGS,
+        what: What::Instrument { strings: 1, ringing: 1, fretted: false, body: true },
     },
 ];
 
@@ -132,7 +138,9 @@ impl Case {
         match &self.what {
             What::ByHand => prepare_by_hand(),
             What::Scene(string, rest, extra) => prepare_scene(string, rest, extra),
-            &What::Instrument { strings, ringing, fretted } => prepare_instrument(strings, ringing, fretted),
+            &What::Instrument { strings, ringing, fretted, body } => {
+                prepare_instrument(strings, ringing, fretted, body)
+            }
         }
     }
 }
@@ -177,9 +185,17 @@ fn prepare_scene(string: &str, rest: &str, extra: &Extra) -> Result<Box<dyn FnMu
     }))
 }
 
-/// The default instrument with its lowest strings, as many of which are plucked as are to ring.
-fn prepare_instrument(strings: usize, ringing: usize, fretted: bool) -> Result<Box<dyn FnMut(usize)>> {
-    let setup = chord::lowest_strings(strings);
+/// The default instrument with its lowest strings, as many of which are plucked as are to ring; with the body of `classical`, or none.
+fn prepare_instrument(
+    strings: usize,
+    ringing: usize,
+    fretted: bool,
+    body: bool,
+) -> Result<Box<dyn FnMut(usize)>> {
+    let mut setup = chord::lowest_strings(strings);
+    if body {
+        setup.body = Setup::builtin("classical").context("it is built in")?.body;
+    }
     // A sample is a step, for all strings alike.
     let settings = EngineSettings { widest_spacing: f64::INFINITY, ..Quality::Live.settings(48e3) };
     let mut instrument = Instrument::new(&setup, &settings)?;

@@ -1,0 +1,180 @@
+//! Promise: instruments that have a body are heard by it and lose to it what strings on a guitar lose, more where the body swings
+//! most, and yet every note sounds and is near its pitch. A body rings on when strings are stilled, comes to rest, and gives
+//! the same bits however samples are asked for. What cannot be is refused in one line.
+
+use low_action_dsp::setup::Pickup;
+use low_action_dsp::{Gesture, Instrument, Quality, Setup, TimedGesture};
+use low_action_tests::numbers::{largest, rms};
+use low_action_tests::pitch::{cents, frequency_near};
+use low_action_tests::stage::{Stage, at_the_bridge, decibels, hertz, off, on};
+
+const RATE: f64 = 48_000.0;
+
+/// Those that have one.
+const BODIES: [&str; 5] = ["classical", "steel", "ukulele", "flamenco", "school-guitar"];
+
+fn shipped(name: &str) -> Setup {
+    Setup::shipped(name).expect("it comes with the program")
+}
+
+/// A string of a set-up alone, with its body, and the keys of frets 0 to 12.
+fn each_note(name: &str, mut heard: impl FnMut(usize, u8, &[f32])) {
+    let setup = shipped(name);
+    for (index, spec) in setup.string.iter().enumerate() {
+        let mut stage = Stage::over_body(&Setup { string: vec![spec.clone()], ..setup.clone() });
+        for fret in 0..=12 {
+            let key = spec.pitch.round() as u8 + fret;
+            let played = stage.play(&[(0.0, on(key, 90))], 1.0);
+            heard(index, key, &played.strings[0]);
+        }
+    }
+}
+
+#[test]
+fn instruments_have_bodies_where_guitars_have_them() {
+    for name in Setup::BUILTIN.into_iter().chain(Setup::PRESETS) {
+        let setup = shipped(name);
+        assert_eq!(setup.body.is_some(), BODIES.contains(&name), "{name}");
+        assert_eq!(setup.pickup == (Pickup::Microphone {}), BODIES.contains(&name), "{name}");
+    }
+}
+
+/// How loud notes are depends on the body: it swings most at two low notes, and least between its modes.
+#[test]
+fn every_note_sounds_and_is_near_its_pitch() {
+    for name in BODIES {
+        let mut levels = Vec::new();
+        let mut worst: f64 = 0.0;
+        // (Without compensation stopped notes are sharp by themselves.)
+        let in_tune = name != "school-guitar";
+        each_note(name, |string, key, sound| {
+            let level = decibels(rms(&sound[1440..19_200]));
+            levels.push(level);
+            let expected = hertz(f64::from(key));
+            let found = cents(frequency_near(&sound[2400..], RATE, expected), expected);
+            println!("{name}, string {string}, key {key}: {level:.1} dBFS, {found:.1} cents");
+            if in_tune {
+                worst = worst.max(found.abs());
+                assert!(found.abs() < 16.0, "{name}, string {string}, key {key}: {found} cents");
+            }
+        });
+        let mean = levels.iter().sum::<f64>() / levels.len() as f64;
+        let (low, high) = levels.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
+        println!(
+            "{name}: {:.1} to {:.1} dB about {mean:.1} dBFS, {worst:.1} cents at most",
+            low - mean,
+            high - mean
+        );
+        assert!(low > mean - 16.0 && high < mean + 12.0, "{name}: {low} and {high} about {mean} dBFS");
+    }
+}
+
+/// The time in which a sound falls by 60 dB, by its first and its second half second.
+fn decay(sound: &[f32]) -> f64 {
+    let [first, second] = [2400..24_000, 26_400..48_000].map(|part| decibels(rms(&sound[part])));
+    60.0 / (first - second) * 0.5
+}
+
+/// On the mean of all notes: nylon and steel strings of guitars ring for seconds, not for half a minute.
+#[test]
+fn strings_lose_to_the_body() {
+    for (name, longest) in [("classical", 6.0), ("steel", 6.0), ("ukulele", 4.0)] {
+        let (mut with, mut without) = (Vec::new(), Vec::new());
+        each_note(name, |_, _, sound| with.push(1.0 / decay(sound)));
+        let setup = at_the_bridge(&shipped(name));
+        for spec in &setup.string {
+            let mut stage = Stage::new(&Setup { string: vec![spec.clone()], ..setup.clone() });
+            for fret in 0..=12 {
+                let played = stage.play(&[(0.0, on(spec.pitch.round() as u8 + fret, 90))], 1.0);
+                without.push(1.0 / decay(&played.strings[0]));
+            }
+        }
+        let [with, without] = [with, without].map(|all| all.len() as f64 / all.iter().sum::<f64>());
+        println!("{name}: {with:.1} s with the body, {without:.1} s without");
+        assert!(with < longest && with < 0.6 * without, "{name}: {with} s and {without} s");
+    }
+}
+
+/// A key goes up after half a second: hands still the string, and what is left is the body's, which then is silent to the last bit.
+#[test]
+fn a_body_rings_on_and_comes_to_rest() {
+    for name in BODIES {
+        let setup = shipped(name);
+        let pitch = setup.string.last().expect("it has strings").pitch.round() as u8;
+        let mut stage = Stage::over_body(&setup);
+        let played = stage.play(&[(0.0, on(pitch, 100)), (0.5, off(pitch))], 6.0);
+        let sound: Vec<f32> = played.strings.last().expect("it has strings").clone();
+        assert!(decibels(rms(&sound[43_200..48_000])) < decibels(rms(&sound[4800..24_000])) - 40.0, "{name}");
+        assert!(stage.instrument.is_silent(), "{name} is at rest");
+        assert_eq!(largest(sound[240_000..].iter().copied()), 0.0, "{name} is silent");
+    }
+}
+
+#[test]
+fn a_body_sounds_alike_however_it_is_asked_for() {
+    let render = |block: usize| {
+        let mut instrument =
+            Instrument::new(&shipped("steel"), &Quality::Live.settings(RATE)).expect("it can be built");
+        for string in 0..6 {
+            let gesture = Gesture::Pluck { position: 0.5, force: -1.0, duration: 0.003, release: 0.0 };
+            let time = 100 * string as u64;
+            instrument.schedule(TimedGesture { time, string, gesture }).expect("there is room");
+        }
+        let (mut left, mut right) = (vec![0.0; 24_000], vec![0.0; 24_000]);
+        for (left, right) in left.chunks_mut(block).zip(right.chunks_mut(block)) {
+            instrument.process(left, right);
+        }
+        (left, right)
+    };
+    let whole = render(24_000);
+    assert!(rms(&whole.0) > 1e-3, "it sounds");
+    for block in [1, 7, 480] {
+        assert!(render(block) == whole, "in blocks of {block}");
+    }
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let text = |body: &str, pickup: &str| {
+        let base = "based_on = \"electric\"\nname = \"x\"\n[pickup]\n";
+        let setup = Setup::from_toml(&format!("{base}{pickup}\n{body}"));
+        setup.and_then(|setup| Instrument::new(&setup, &Quality::Live.settings(RATE)).map(drop))
+    };
+    let body = |key: &str, value: &str| {
+        let keys = [
+            ("frequency", "150.0"),
+            ("mass", "0.2"),
+            ("area", "0.06"),
+            ("quality", "15.0"),
+            ("spacing", "45.0"),
+            ("volume", "0.0145"),
+            ("hole", "0.0055"),
+        ];
+        let lines =
+            keys.map(|(name, usual)| format!("{name} = {}\n", if name == key { value } else { usual }));
+        format!("[body]\n{}", lines.concat())
+    };
+    let microphone = "kind = \"microphone\"";
+    assert!(text(&body("", ""), microphone).is_ok());
+    assert!(text(&body("", ""), "kind = \"bridge\"").is_ok(), "the bridge gives way, and is heard itself");
+    for (key, value, accepted) in [
+        ("frequency", "29.0", "body.frequency = 29 is refused: it must lie between 30 and 2000 Hz"),
+        ("mass", "0.001", "body.mass = 0.001 is refused: it must lie between 0.01 and 1000 kg"),
+        ("area", "2.0", "body.area = 2 is refused: it must lie between 1e-4 and 1 m²"),
+        ("quality", "0.5", "body.quality = 0.5 is refused: it must lie between 1 and 200"),
+        ("spacing", "1.0", "body.spacing = 1 is refused: it must lie between 5 and 1000 Hz"),
+        ("volume", "2.0", "body.volume = 2 is refused: it must lie between 1e-4 and 1 m³"),
+        ("hole", "1.0", "body.hole = 1 is refused: it must lie between 1e-5 and 0.1 m²"),
+    ] {
+        let error = text(&body(key, value), microphone).expect_err("it is out of range").to_string();
+        assert_eq!(error, accepted);
+    }
+    let error = text("", microphone).expect_err("there is none").to_string();
+    assert!(error.contains("pickup.kind") && error.contains("[body]"), "{error}");
+    let error = text(&body("mass", "0.01"), microphone).expect_err("it is too light").to_string();
+    println!("{error}");
+    assert!(
+        error.contains("body.mass = 0.01 is refused: beside this string it must be at least 0."),
+        "{error}"
+    );
+}
