@@ -98,11 +98,12 @@ impl Error {
         let line = before.matches('\n').count() + 1;
         let message = in_plain_words(error.message());
         let is_table = thing.starts_with('[');
+        let is_inline = text[before.len()..].starts_with('{');
         let message = if thing.starts_with("[[") && message.starts_with("invalid type: table") {
             format!("line {line}, {thing}: there is only one: write {}", &thing[1..thing.len() - 1])
         } else if is_table && message.starts_with("invalid type: table") {
             format!("line {line}, {thing}: there may be several: write [{thing}]")
-        } else if message.starts_with("missing key") && !is_table {
+        } else if message.starts_with("missing key") && !is_table && !is_inline {
             // Of the file as a whole: no line is to blame.
             message
         } else if thing.is_empty() || OF_NO_KEY.iter().any(|words| message.starts_with(words)) {
