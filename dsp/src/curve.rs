@@ -1,17 +1,23 @@
-//! A quantity given as a number or as points joined by straight lines.
+//! A quantity given as a number, as points joined by straight lines or as a parabola.
+
+mod parabola;
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
 use crate::digits::plain;
 use crate::error::{Error, within};
+pub use parabola::Parabola;
 
-/// A number, or `[[where, value], …]` joined by straight lines and constant outside.
+/// A number, `[[where, value], …]` joined by straight lines and constant outside, or a parabola. (No text is read as that: a
+/// [board](crate::scene::BoardSpec) of three heights becomes one under each string.)
 #[derive(Debug, Clone, PartialEq)]
 pub enum Curve {
     /// The same everywhere.
     Constant(f64),
     /// Points in increasing order of the first number.
     Points(Vec<[f64; 2]>),
+    /// Through three values.
+    Parabola(Parabola),
 }
 
 impl Curve {
@@ -19,6 +25,7 @@ impl Curve {
     pub fn at(&self, place: f64) -> f64 {
         let points = match self {
             Curve::Constant(value) => return *value,
+            Curve::Parabola(parabola) => return parabola.at(place),
             Curve::Points(points) => points,
         };
         let after = points.partition_point(|p| p[0] <= place);
@@ -34,6 +41,11 @@ impl Curve {
     pub(crate) fn mean(&self, from: f64, to: f64) -> f64 {
         let points = match self {
             Curve::Constant(value) => return *value,
+            // (Simpson's rule, which is exact here.)
+            Curve::Parabola(parabola) => {
+                let middle = parabola.at(0.5 * (from + to));
+                return (parabola.at(from) + 4.0 * middle + parabola.at(to)) / 6.0;
+            }
             Curve::Points(points) => points,
         };
         let first = points.partition_point(|p| p[0] <= from);
@@ -46,11 +58,12 @@ impl Curve {
         sum / (to - from)
     }
 
-    /// The largest value taken.
+    /// The largest value taken; of a parabola, between its first and its last.
     pub fn largest(&self) -> f64 {
         match self {
             Curve::Constant(value) => *value,
             Curve::Points(points) => points.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max),
+            Curve::Parabola(parabola) => parabola.largest(),
         }
     }
 
@@ -75,6 +88,7 @@ impl Curve {
     ) -> Result<(), Error> {
         let points = match self {
             Curve::Constant(value) => return refused(name, *value).map(drop),
+            Curve::Parabola(parabola) => return parabola.check(name, along, refused),
             Curve::Points(points) => points,
         };
         if points.is_empty() {

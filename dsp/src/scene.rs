@@ -1,7 +1,10 @@
 //! A scene: everything there is to simulate, in SI units, as read from a TOML file.
 
+mod board;
 mod check;
+mod decay;
 
+pub use board::{BoardHeights, BoardSpec};
 pub(crate) use check::MOST_FINGERS;
 
 use serde::de::{Error as _, Unexpected};
@@ -116,12 +119,16 @@ pub struct StringSpec {
     /// Radius of the core, m, 0 to 0.1.
     #[serde(default)]
     pub core_radius: f64,
-    /// Loss of all frequencies alike, 1/s, 0 to 1e4.
-    #[serde(default)]
-    pub loss_0: f64,
-    /// Loss that grows with frequency, m²/s, 0 to 1e2.
-    #[serde(default)]
-    pub loss_1: f64,
+    /// Loss of all frequencies alike, 1/s, 0 to 1e4; 0 if neither this nor `t60` is given. (What the string has in the end is
+    /// told by [`StringSpec::losses`].)
+    pub loss_0: Option<f64>,
+    /// Loss that grows with frequency, m²/s, 0 to 1e2; 0 if neither this nor `t60` is given.
+    pub loss_1: Option<f64>,
+    /// Instead of both losses, how long the string takes to fall by 60 dB at two frequencies, `[[Hz, s], [Hz, s]]`: frequencies of
+    /// 1e-3 to 1e6 Hz, the second above the first; the first time 1e-3 to 1e9 s, the second no longer, and no shorter than
+    /// losses in their ranges allow.
+    #[serde(default, deserialize_with = "decay::at_two")]
+    pub t60: Option<[[f64; 2]; 2]>,
     /// Whether stretching raises the tension.
     #[serde(default)]
     pub tension_modulation: bool,
@@ -145,9 +152,9 @@ pub struct FretboardSpec {
     /// Hunt–Crossley damping, s/m, 0 to 1e5.
     #[serde(default)]
     pub damping: f64,
-    /// Height of the board, m, −10 to 0, or its profile `[[x, height], …]` (no board beyond its ends); without
-    /// it there is no back board.
-    pub board: Option<Curve>,
+    /// Height of the board, m, −10 to 0, its profile `[[x, height], …]` (no board beyond its ends), or three heights that it is a
+    /// parabola through; without it there is no back board.
+    pub board: Option<BoardSpec>,
     /// Number of frets in equal temperament, 0 to 640, or their places, up to 1000, m from the nut, on every string.
     #[serde(default = "no_frets")]
     pub frets: CountOrList,

@@ -3,7 +3,7 @@
 use low_action_dsp::Scene;
 use low_action_dsp::curve::{CountOrList, Curve, OneOrEach};
 use low_action_dsp::scene::{
-    FingerSpec, FretPlacement, FretboardSpec, PluckSpec, SolverSettings, StringSpec,
+    BoardHeights, BoardSpec, FingerSpec, FretPlacement, FretboardSpec, PluckSpec, SolverSettings, StringSpec,
 };
 
 use crate::axis::power_of_ten;
@@ -59,10 +59,13 @@ fn string(spec: &StringSpec) -> String {
         let (modulus, radius) = (number(1e-9 * spec.youngs_modulus), number(1e3 * spec.core_radius));
         parts.push(format!("E = {modulus} GPa, r = {radius} mm"));
     }
-    parts.push(if spec.loss_0 == 0.0 && spec.loss_1 == 0.0 {
-        "no losses".into()
-    } else {
-        format!("σ₀ = {} /s, σ₁ = {} m²/s", number(spec.loss_0), number(spec.loss_1))
+    parts.push(match (spec.t60, spec.losses()) {
+        (Some([low, high]), _) => {
+            let at = |[frequency, time]: [f64; 2]| format!("{} s at {} Hz", number(time), number(frequency));
+            format!("60 dB lost in {} and {}", at(low), at(high))
+        }
+        (None, [0.0, 0.0]) => "no losses".into(),
+        (None, [loss_0, loss_1]) => format!("σ₀ = {} /s, σ₁ = {} m²/s", number(loss_0), number(loss_1)),
     });
     if spec.tension_modulation {
         parts.push("stretching".into());
@@ -81,7 +84,11 @@ fn fretboard(spec: &FretboardSpec) -> String {
     let mut parts = vec![format!("K = {}, α = {}", number(spec.stiffness), number(spec.exponent))];
     match &spec.board {
         None => parts.push("no board".into()),
-        Some(height) => parts.push(format!("board at {} mm", course(height, 1e3))),
+        Some(BoardSpec::Profile(height)) => parts.push(format!("board at {} mm", course(height, 1e3))),
+        Some(BoardSpec::Parabola(BoardHeights { nut, middle, bridge })) => {
+            let [nut, middle, bridge] = [nut, middle, bridge].map(|height| number(1e3 * height));
+            parts.push(format!("board a parabola from {nut} over {middle} to {bridge} mm"));
+        }
     }
     let (count, places) = match &spec.frets {
         CountOrList::Count(count) => (*count, String::new()),
@@ -150,6 +157,7 @@ fn course(curve: &Curve, scale: f64) -> String {
     match curve {
         Curve::Constant(value) => number(scale * value),
         Curve::Points(points) => range(points.iter().map(|point| scale * point[1])),
+        Curve::Parabola(parabola) => range(parabola.values.iter().map(|value| scale * value)),
     }
 }
 
@@ -223,6 +231,7 @@ mod tests {
             (0, "core_radius = 4e-4", "core_radius = 3e-4"),
             (0, "loss_0 = 1.0", "loss_0 = 2.0"),
             (0, "loss_1 = 1e-4", "loss_1 = 2e-4"),
+            (0, "loss_0 = 1.0\nloss_1 = 1e-4", "t60 = [[100, 5], [1000, 4]]"),
             (0, "true", "false"),
             (0, "1e-3]", "2e-3]"),
             (0, "[0.1, 1.0]", "[0.1, 2.0]"),
@@ -230,6 +239,11 @@ mod tests {
             (halfway, "1.5", "1.6"),
             (halfway, "damping = 0", "damping = 0.3"),
             (halfway, "-0.0021", "-0.0022"),
+            (
+                halfway,
+                "[[0.0, -0.002], [0.65, -0.0021]]",
+                "{ nut = -0.002, middle = -0.002, bridge = -0.0021 }",
+            ),
             (halfway, "0.4]", "0.41]"),
             (halfway, "-0.0011", "-0.0012"),
             (halfway, "exact", "nearest"),
@@ -255,6 +269,19 @@ mod tests {
             let other = format!("{}{to}{}", &text[..at], &text[at + there.len()..]);
             let second = caption(&other);
             assert!(second != first, "{there} to {to}: {second}");
+        }
+    }
+
+    #[test]
+    fn decay_times_and_three_heights_are_all_told() {
+        let text = "sample_rate = 44100\nduration = 0.1\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\ntension = 60.0\n\
+                    t60 = [[82.4, 20], [2000, 3]]\n[fretboard]\nstiffness = 1e10\nexponent = 1.5\n\
+                    board = { nut = -0.001, middle = -0.0015, bridge = -0.0018 }\n";
+        let caption = describe(&Scene::from_toml(text).unwrap());
+        for words in
+            ["60 dB lost in 20 s at 82.4 Hz and 3 s at 2000 Hz", "a parabola from −1 over −1.5 to −1.8 mm"]
+        {
+            assert!(caption.contains(words), "{words} is not in: {caption}");
         }
     }
 

@@ -42,18 +42,22 @@ impl Profile {
     }
 }
 
+/// Straight lines that a parabola is drawn by: its arc is off theirs by a 4096th of what it is off its chord.
+const LINES: u32 = 64;
+
 /// What there is of a board between the ends of a string, (m from the nut, mm).
 fn cut(board: &Curve, length: f64) -> Vec<(f64, f64)> {
-    let points = match board {
-        Curve::Constant(_) => &[[0.0, 0.0], [length, 0.0]],
-        Curve::Points(points) => points.as_slice(),
+    let corners: Vec<f64> = match board {
+        Curve::Constant(_) => vec![0.0, length],
+        Curve::Points(points) => points.iter().map(|point| point[0]).collect(),
+        Curve::Parabola(_) => (0..=LINES).map(|i| length * (f64::from(i) / f64::from(LINES))).collect(),
     };
-    let (Some(first), Some(last)) = (points.first(), points.last()) else { return Vec::new() };
-    let (start, end) = (first[0].max(0.0), last[0].min(length));
+    let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return Vec::new() };
+    let (start, end) = (first.max(0.0), last.min(length));
     if start > end {
         return Vec::new();
     }
-    let between = points.iter().map(|point| point[0]).filter(|&place| place > start && place < end);
+    let between = corners.iter().copied().filter(|&place| place > start && place < end);
     let places = std::iter::once(start).chain(between).chain([end]);
     places.map(|place| (place, 1e3 * board.at(place))).collect()
 }
@@ -80,7 +84,7 @@ impl Ground {
         };
         Ground {
             length,
-            board: board.map_or(Vec::new(), |board| cut(board, length)),
+            board: board.map_or(Vec::new(), |board| cut(&board.under(length), length)),
             crowns: string.model.contacts.iter().filter_map(crown).collect(),
         }
     }
@@ -122,6 +126,13 @@ mod tests {
         assert_eq!(board, [(0.0, -3.0), (0.5, -4.0)]);
         assert_eq!(ground("board = [[-0.5, -0.002], [-0.1, -0.004]]").board, []);
         assert_eq!(ground("board = -0.002").board, [(0.0, -2.0), (0.65, -2.0)]);
+        let parabola = ground("board = { nut = -0.001, middle = -0.003, bridge = -0.001 }");
+        assert_eq!((parabola.board[0], parabola.board[64]), ((0.0, -1.0), (0.65, -1.0)));
+        // Its deepest point is drawn, and between any two the arc is off by less than a thousandth of its 2 mm.
+        for (place, height) in [(0.325, -3.0), (0.65 / 4.0, -2.5), (0.65 * 0.3, -2.68)] {
+            let drawn = parabola.board_at(place).expect("it is all along the string");
+            assert!((drawn - height).abs() < 2e-3, "{drawn} mm at {place} m");
+        }
     }
 
     #[test]

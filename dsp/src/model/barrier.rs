@@ -20,7 +20,7 @@ pub struct Barrier {
     pub law: ContactLaw,
     /// Hunt–Crossley damping of board and frets, s/m, 0 to 1e5.
     pub damping: f64,
-    /// Height of the board, −10 to 10 m, over places, m, in increasing order; none beyond the ends of its points.
+    /// Height of the board, −10 to 10 m, over places, m, in increasing order; none beyond the ends of its points or its parabola.
     pub board: Option<Curve>,
     /// Places, m from the nut, and heights, −10 to 10 m, of the crowns; 1000 at most.
     pub frets: Vec<[f64; 2]>,
@@ -56,7 +56,7 @@ impl Barrier {
         Ok(Barrier {
             law: ContactLaw::new("fretboard", spec.stiffness, spec.exponent)?,
             damping: spec.damping,
-            board: spec.board.clone(),
+            board: spec.board.as_ref().map(|board| board.under(length)),
             frets: places.iter().enumerate().map(|(i, &x)| [x, height(i)]).collect(),
             placement: spec.fret_placement,
             board_reference_spacing: spec.board_reference_spacing,
@@ -94,6 +94,7 @@ impl Barrier {
                 let beyond = match board {
                     Curve::Constant(_) => false,
                     Curve::Points(p) => place < p[0][0] || place > p[p.len() - 1][0],
+                    Curve::Parabola(parabola) => place > parabola.end,
                 };
                 if !beyond {
                     let reading = Reading::at_node(grid, node);

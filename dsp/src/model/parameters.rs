@@ -46,17 +46,19 @@ impl StringParameters {
 impl StringParameters {
     /// The string of a scene at its first moment.
     pub fn from_spec(spec: &StringSpec) -> Self {
-        StringParameters {
+        let string = StringParameters {
             length: spec.length,
             linear_density: spec.linear_density,
             tension: spec.tension.at(0.0),
             tension_limit: spec.tension.largest(),
             youngs_modulus: spec.youngs_modulus,
             core_radius: spec.core_radius,
-            loss_0: spec.loss_0,
-            loss_1: spec.loss_1,
+            loss_0: 0.0,
+            loss_1: 0.0,
             tension_modulation: spec.tension_modulation,
-        }
+        };
+        let [loss_0, loss_1] = spec.losses_of(&string);
+        StringParameters { loss_0, loss_1, ..string }
     }
 
     /// Refuses what no string can have.
@@ -102,6 +104,14 @@ impl StringParameters {
     pub fn kappa_squared(&self) -> f64 {
         let r = self.core_radius;
         self.youngs_modulus * std::f64::consts::PI * r * r * r * r / 4.0 / self.linear_density
+    }
+
+    /// γ², 1/m², of a wave of a frequency, Hz, on the string under its tension at rest: what solves ω² = c²γ² + κ²γ⁴.
+    pub fn wavenumber_squared(&self, frequency: f64) -> f64 {
+        let omega = std::f64::consts::TAU * frequency;
+        let (c2, kappa2, omega2) = (self.tension / self.linear_density, self.kappa_squared(), omega * omega);
+        // Written so that nothing cancels, however little the string resists bending, and that it need not at all.
+        2.0 * omega2 / (c2 + (c2 * c2 + 4.0 * kappa2 * omega2).sqrt())
     }
 }
 

@@ -101,8 +101,7 @@ impl StringSpec {
         self.tension.check(&format!("{name}.tension"), Along::TIME, least, most, "N")?;
         number("youngs_modulus", self.youngs_modulus, StringParameters::YOUNGS_MODULUS, "Pa")?;
         number("core_radius", self.core_radius, StringParameters::CORE_RADIUS, "m")?;
-        number("loss_0", self.loss_0, StringParameters::LOSS_0, "1/s")?;
-        number("loss_1", self.loss_1, StringParameters::LOSS_1, "m²/s")?;
+        self.check_losses(name)?;
         for (key, points, most, unit) in
             [("shape", &self.shape, 1.0, "m"), ("velocity", &self.velocity, FASTEST, "m/s")]
         {
@@ -120,7 +119,7 @@ impl FretboardSpec {
         ContactLaw::new("fretboard", self.stiffness, self.exponent)?;
         ranged("fretboard.damping", self.damping, Barrier::DAMPING, "s/m")?;
         if let Some(board) = &self.board {
-            board.check("fretboard.board", Along::ANYWHERE, -Barrier::FARTHEST, 0.0, "m")?;
+            board.check()?;
         }
         if let Some(spacing) = self.board_reference_spacing {
             ranged("fretboard.board_reference_spacing", spacing, Barrier::REFERENCE_SPACING, "m")?;

@@ -137,7 +137,7 @@ A scene, a file in TOML (docs/formats.md has all that may stand in one):
   length = 0.65              # m
   linear_density = 5.25e-3   # kg/m
   tension = 60.0             # N
-  loss_0 = 1.4               # 1/s
+  loss_0 = 1.4               # 1/s; or t60 = [[Hz, s], [Hz, s]]
   [fretboard]                # if it may hit one
   stiffness = 1e12           # N/m^exponent
   exponent = 2.3

@@ -124,6 +124,36 @@ fn values_out_of_range_are_refused() {
             &["place of point 2 of string[1].velocity = 0.1", "above"],
         ),
         ("loss_0 = 1.0", "loss_0 = -1.0", &["string[1].loss_0 = -1", "1/s"]),
+        (
+            "loss_0 = 1.0",
+            "loss_0 = 1.0\nt60 = [[100, 10], [1000, 5]]",
+            &["string[1].loss_0 = 1", "has a t60", "give one or the other"],
+        ),
+        (
+            "loss_0 = 1.0",
+            "t60 = [[100, 10], [1000, 20]]",
+            &["time of point 2 of string[1].t60 = 20", "between 0.1 and 10 s"],
+        ),
+        (
+            "loss_0 = 1.0",
+            "t60 = [[100, 10], [1000, 0.09]]",
+            &["time of point 2 of string[1].t60 = 0.09", "between 0.1 and 10 s", "loss_0 and loss_1"],
+        ),
+        (
+            "loss_0 = 1.0",
+            "t60 = [[1000, 5], [100, 10]]",
+            &["frequency of point 2 of string[1].t60 = 100", "above that of the point before, 1000 Hz"],
+        ),
+        (
+            "loss_0 = 1.0",
+            "t60 = [[-100, 10], [1000, 5]]",
+            &["frequency of point 1 of string[1].t60 = -100", "between 0.001 and 1e6 Hz"],
+        ),
+        (
+            "loss_0 = 1.0",
+            "t60 = [[100, 0], [1000, 0]]",
+            &["time of point 1 of string[1].t60 = 0", "between 0.001 and 1e9 s"],
+        ),
         ("exponent = 2.3", "exponent = 0.5", &["fretboard.exponent = 0.5", "between 1 and 5"]),
         (
             "exponent = 2.3",
@@ -132,6 +162,21 @@ fn values_out_of_range_are_refused() {
         ),
         ("exponent = 2.3", "exponent = 2.3\ndamping = 1e6", &["fretboard.damping = 1e6", "s/m"]),
         ("board = -0.002", "board = 0.001", &["fretboard.board = 0.001", "-10 and 0 m"]),
+        (
+            "board = -0.002",
+            "board = { nut = 0.001, middle = -0.001, bridge = -0.001 }",
+            &["fretboard.board.nut = 0.001", "-10 and 0 m"],
+        ),
+        (
+            "board = -0.002",
+            "board = { nut = -0.001, middle = -0.001, bridge = nan }",
+            &["fretboard.board.bridge = NaN", "-10 and 0 m"],
+        ),
+        (
+            "board = -0.002",
+            "board = { nut = 0, middle = -1e-4, bridge = -0.001 }",
+            &["fretboard.board.middle = -1e-4", "-10 and -2.5e-4 m", "nowhere above the strings"],
+        ),
         ("frets = 3", "frets = -3", &["frets", "-3", "0 to 640"]),
         ("frets = 3", "frets = 641", &["frets", "641", "0 to 640"]),
         ("frets = 3", "frets = [0.1, 0.7]\n#", &["fretboard.frets[2] = 0.7", "0.65 m", "string[1]"]),
@@ -325,6 +370,22 @@ fn what_is_not_a_scene_is_refused() {
         ("loss_0 = 1.0", "velocity = []", &["string[1].velocity = []", "at least one"]),
         ("loss_0 = 1.0", "velocity = 1.0", &["velocity", "expected a list"]),
         ("board = -0.002", "board = [[0, -0.001, 3]]", &["line 12, board", "length 3", "pair"]),
+        (
+            "board = -0.002",
+            "board = \"low\"",
+            &["line 12, board", "a height, a list of pairs", "{ nut, middle"],
+        ),
+        (
+            "board = -0.002",
+            "board = { nut = -0.001, midle = -0.001, bridge = -0.001 }",
+            &["line 12", "unknown key `midle`", "`nut`, `middle`, `bridge`"],
+        ),
+        ("board = -0.002", "board = { nut = -0.001, middle = -0.001 }", &["line 12, board", "key `bridge`"]),
+        ("board = -0.002", "board = { nut = [], middle = 0, bridge = 0 }", &["line 12", "list", "a number"]),
+        ("loss_0 = 1.0", "t60 = 10", &["line 8, t60", "integer `10`", "expected a list"]),
+        ("loss_0 = 1.0", "t60 = [[100, 10]]", &["line 8, t60", "length 1", "two pairs [[frequency, time]"]),
+        ("loss_0 = 1.0", "t60 = [[1, 3], [2, 2], [3, 1]]", &["line 8, t60", "length 3", "two pairs"]),
+        ("loss_0 = 1.0", "t60 = [10, 5]", &["line 8, t60", "integer `10`", "expected a list"]),
         ("loss_0", "\"\\u001b[31m\\n\\u0007\"", &["line 8", "unknown key"]),
     ];
     for (from, to, words) in cases {

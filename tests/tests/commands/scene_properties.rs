@@ -2,6 +2,7 @@
 //! time and memory and without a panic; and whatever is accepted stays finite and closes its energy balance.
 
 use std::cell::Cell;
+use std::f64::consts::PI;
 
 use low_action_dsp::{Ledger, Scene, Simulation};
 use low_action_tests::cases::cases;
@@ -177,10 +178,22 @@ fn string() -> impl Strategy<Value = String> {
     let bending = (over_or_nothing(1e8, 1e12), over(1e-4, 1e-3), any::<bool>());
     (over(0.05, 2.0), over(1e-4, 1e-1), over(1.0, 1e3), bending, over_or_nothing(1e-2, 1e3), over_or_nothing(1e-6, 1e-2))
         .prop_map(|(length, density, tension, (modulus, radius, modulation), loss_0, loss_1)| {
+            // The same losses by the decay that they make of waves as long as twice the string, and as a tenth of that.
+            let losses = if loss_0 > 0.0 && loss_1 > 0.0 {
+                let bending = modulus * PI * radius.powi(4) / 4.0;
+                let t60 = [1.0, 10.0].map(|number| number * PI / length).map(|number| {
+                    let square = number * number;
+                    let angular = (square * (tension + bending * square) / density).sqrt();
+                    [angular / (2.0 * PI), 1000_f64.ln() / (loss_0 + loss_1 * square)]
+                });
+                format!("t60 = {t60:?}")
+            } else {
+                format!("loss_0 = {loss_0}\nloss_1 = {loss_1}")
+            };
             format!(
                 "[[string]]\nlength = {length}\nlinear_density = {density}\ntension = [[0, {tension}], [0.002, {}]]\n\
                  youngs_modulus = {modulus:e}\ncore_radius = {radius}\ntension_modulation = {modulation}\n\
-                 loss_0 = {loss_0}\nloss_1 = {loss_1}\nshape = [[0, 0], [{}, {}], [{length}, 0]]\n",
+                 {losses}\nshape = [[0, 0], [{}, {}], [{length}, 0]]\n",
                 tension * 1.2,
                 length / 3.0,
                 length / 300.0,
@@ -195,12 +208,16 @@ fn fretboard() -> impl Strategy<Value = String> {
     (law, heights, placement, proptest::option::of(over(1e-4, 0.1))).prop_map(
         |((stiffness, exponent, damping), (board, top, frets), placement, spacing)| {
             let damping = damping.map_or(String::new(), |damping| format!("damping = {damping:e}\n"));
-            let spacing = spacing.map_or(String::new(), |spacing| format!("board_reference_spacing = {spacing}\n"));
+            let spacing =
+                spacing.map_or(String::new(), |spacing| format!("board_reference_spacing = {spacing}\n"));
+            let (nut, bridge) = (-board, -board / 2.0);
+            let board = match frets % 2 {
+                0 => format!("[[0, {nut}], [0.5, {bridge}]]"),
+                _ => format!("{{ nut = {nut}, middle = {}, bridge = {bridge} }}", nut + bridge / 2.0),
+            };
             format!(
-                "[fretboard]\nstiffness = {stiffness:e}\nexponent = {exponent}\nboard = [[0, {}], [0.5, {}]]\n\
+                "[fretboard]\nstiffness = {stiffness:e}\nexponent = {exponent}\nboard = {board}\n\
                  frets = {frets}\nfret_top = {}\nfret_placement = \"{placement}\"\n{spacing}{damping}",
-                -board,
-                -board / 2.0,
                 -top
             )
         },

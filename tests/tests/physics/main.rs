@@ -2,6 +2,7 @@
 
 mod any_instructions;
 mod beginnings;
+mod board_parabola;
 mod bridge_force;
 mod dense_by_hand;
 mod dense_reference;

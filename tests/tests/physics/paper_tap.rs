@@ -86,7 +86,7 @@ fn the_rebound_is_elastic_in_its_limits() {
     let mut low = scene.clone();
     low.finger[0].stiffness = 1e8;
     let fretboard = low.fretboard.as_mut().expect("the scene has a fretboard");
-    fretboard.board = Some(Curve::Constant(-5e-5));
+    fretboard.board = Some(Curve::Constant(-5e-5).into());
     fretboard.fret_top = Some(OneOrEach::One(-5e-5));
     for (name, scene) in [("soft pad", soft), ("board just under the string", low)] {
         let rebound = tap(&scene).rebound;

@@ -36,8 +36,8 @@ const DURATION: f64 = 1.0;
 fn varied(scene: &Scene, force: f64, losses: bool) -> Scene {
     let mut scene = shortened(&plucked(scene, force), DURATION);
     if !losses {
-        scene.string[0].loss_0 = 0.0;
-        scene.string[0].loss_1 = 0.0;
+        scene.string[0].loss_0 = Some(0.0);
+        scene.string[0].loss_1 = Some(0.0);
     }
     scene
 }

@@ -84,8 +84,8 @@ pub fn make(repository: &Repository) -> Result<Made> {
 fn detuning(scene: &Scene, stencil: Stencil, rate: f64) -> Result<(f64, f64)> {
     let mut scene = Scene { sample_rate: rate, ..scene.clone() };
     scene.solver.stencil = stencil;
-    scene.string[0].loss_0 = 0.0;
-    scene.string[0].loss_1 = 0.0;
+    scene.string[0].loss_0 = Some(0.0);
+    scene.string[0].loss_1 = Some(0.0);
     let parameters = StringParameters::from_spec(&scene.string[0]);
     let number = PARTIAL as f64 * PI / parameters.length;
     let speed2 = parameters.tension / parameters.linear_density;
@@ -140,7 +140,7 @@ fn over_board(scene: &Scene, stencil: Stencil, shape: Shape) -> Result<Errors> {
         scene.solver.stencil = stencil;
         scene.sample_rate = speed * (intervals as f64 + 0.5) / length;
         if let Some(fretboard) = &mut scene.fretboard {
-            fretboard.board = Some(Curve::Constant(-depth));
+            fretboard.board = Some(Curve::Constant(-depth).into());
         }
         scene.string[0].shape = None;
         let places: Vec<f64> = Simulation::new(&scene)?.string(0).places().collect();

@@ -156,8 +156,8 @@ fn section(scene: &Scene, weak: &Outcome, strong: &Outcome) -> Result<Section> {
     let distortion = distortion(scene)?;
     // What stiffness alone does to the swings: no frets, losses or stretching.
     let mut ideal = shortened(&free(scene), 0.3);
-    ideal.string[0].loss_0 = 0.0;
-    ideal.string[0].loss_1 = 0.0;
+    ideal.string[0].loss_0 = Some(0.0);
+    ideal.string[0].loss_1 = Some(0.0);
     ideal.string[0].tension_modulation = false;
     let stiff = observe(&ideal)?.swings;
     ideal.string[0].youngs_modulus = 0.0;

@@ -187,7 +187,7 @@ fn section(scene: &Scene, tap: &Tap) -> Result<Section> {
     let board = |scene: &Scene, height: f64| {
         let mut scene = shortened(scene, 0.02);
         if let Some(fretboard) = &mut scene.fretboard {
-            fretboard.board = Some(Curve::Constant(height));
+            fretboard.board = Some(Curve::Constant(height).into());
         }
         scene
     };

@@ -267,7 +267,7 @@ fn nearer(scene: &Scene) -> Vec<(&'static str, Scene)> {
         scene.finger[0].mass = mass;
         scene.finger[0].stiffness = pad;
         if let (Some(fretboard), Some(height)) = (&mut scene.fretboard, height) {
-            fretboard.board = Some(Curve::Constant(height));
+            fretboard.board = Some(Curve::Constant(height).into());
             fretboard.fret_top = Some(OneOrEach::One(height));
         }
         scene

@@ -1,11 +1,11 @@
 //! Promise: whatever is legal is drawn. Every gesture there is, every part of a drive, every key of a scene. The patterns below
-//! name all of them, so that what is new does not compile until it is drawn, too.
+//! name all of them, so that what is new does not compile until it is drawn, too, or said to be another way to write what is.
 
 use std::collections::BTreeSet;
 
 use low_action_dsp::curve::{CountOrList, Curve, OneOrEach};
 use low_action_dsp::scene::{
-    FingerSpec, FretPlacement, FretboardSpec, ListeningPoint, OutputSpec, PluckSpec, StringSpec,
+    BoardSpec, FingerSpec, FretPlacement, FretboardSpec, ListeningPoint, OutputSpec, PluckSpec, StringSpec,
 };
 use low_action_dsp::{Drive, Gesture, Scene, Setup, Simulation, SolverSettings, Stencil};
 
@@ -176,6 +176,8 @@ fn see_scene(scene: &Scene, drawn: &mut BTreeSet<&'static str>) {
         core_radius: _,
         loss_0,
         loss_1,
+        // Only another way to give the two above.
+        t60: _,
         tension_modulation,
         shape,
         velocity,
@@ -183,8 +185,8 @@ fn see_scene(scene: &Scene, drawn: &mut BTreeSet<&'static str>) {
     {
         see(matches!(tension, Curve::Points(_)), "course of tension");
         see(*youngs_modulus > 0.0, "stiff string");
-        see(*loss_0 > 0.0, "loss");
-        see(*loss_1 > 0.0, "loss of high frequencies");
+        see(loss_0.is_some_and(|loss| loss > 0.0), "loss");
+        see(loss_1.is_some_and(|loss| loss > 0.0), "loss of high frequencies");
         see(*tension_modulation, "tension modulation");
         see(shape.is_some(), "shape");
         see(velocity.is_some(), "velocity");
@@ -233,8 +235,12 @@ fn see_fretboard(fretboard: &FretboardSpec, mut see: impl FnMut(bool, &'static s
     } = fretboard;
     see(true, "fretboard");
     see(*damping > 0.0, "damped board");
-    see(matches!(board, Some(Curve::Constant(_))), "board at a height");
-    see(matches!(board, Some(Curve::Points(_))), "board along the string");
+    match board {
+        // Through three heights it is but other heights of the points that are there in any case.
+        None | Some(BoardSpec::Parabola(_) | BoardSpec::Profile(Curve::Parabola(_))) => {}
+        Some(BoardSpec::Profile(Curve::Constant(_))) => see(true, "board at a height"),
+        Some(BoardSpec::Profile(Curve::Points(_))) => see(true, "board along the string"),
+    }
     see(board_reference_spacing.is_some(), "board shared out");
     see(matches!(frets, CountOrList::Count(1..)), "frets by a count");
     see(matches!(frets, CountOrList::List(places) if !places.is_empty()), "frets by their places");

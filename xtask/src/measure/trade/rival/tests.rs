@@ -65,7 +65,7 @@ fn without_losses_it_keeps_its_energy() {
     // Kinked frets lose what the grid has no room for.
     let lossless = Setting { law: Law::Quadratised, frets: FretPlacement::Exact, damping: Some(0.0), ..BASE };
     let mut scene = scene(Kind::BuzzingLight, &lossless);
-    (scene.string[0].loss_0, scene.string[0].loss_1) = (0.0, 0.0);
+    (scene.string[0].loss_0, scene.string[0].loss_1) = (Some(0.0), Some(0.0));
     let mut rival = Rival::new(&scene).unwrap();
     let pluck = &scene.pluck[0];
     let end = (pluck.start + pluck.duration + pluck.release) * scene.sample_rate;
