@@ -1,9 +1,10 @@
 //! Speed against accuracy: what sample rate, stencil, cap, tolerance and contact law cost, and what they buy.
 //!
 //! ```text
-//! scenes × settings ─> record (runs one) ─> errors (against the reference) ─> table, picture
+//! scenes × settings ─> record (runs one) ─> errors (against the reference) ─> table, aims, picture
 //! ```
 
+mod aims;
 mod columns;
 mod compare;
 mod errors;
@@ -156,13 +157,16 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     } else {
         eprintln!("valgrind is not there: the instructions of the worst samples are left out");
     }
-    let tables = qualities::tables(&outcomes, &chords)? + &table::all(&outcomes);
+    let aims = aims::aims(&outcomes);
+    let reached = format!("\n### What qualities reach\n\n{}", aims::table(&aims));
+    let tables = reached + &qualities::tables(&outcomes, &chords)? + &table::all(&outcomes);
     println!("{tables}");
     if arguments.write {
         let picture = (root().join(PICTURE), picture::draw(&outcomes)?);
         files::write_all(&[picture, page::with(PAGE, &marks, &tables)?])?;
     }
-    Ok(())
+    // Last: what was measured is looked into where it is missed.
+    aims::judge(&aims)
 }
 
 /// Measures scenes of some kinds under all settings that are for them, on as many threads as there are
