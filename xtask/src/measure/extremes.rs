@@ -1,17 +1,20 @@
 //! Nothing blows up: random scenes and event streams that are absurd but legal, every one held to three
 //! promises. Its numbers are finite; its energy is never above what was put in; its balance closes.
 //!
-//! A [`Trial`] is a scene and perhaps a stream of events, drawn from a seed and a number. A run of many is
-//! tallied; what fails is made small and written where the tests replay it.
+//! A [`Trial`] is a scene and perhaps a stream of events, or playing on instruments that are exchanged, drawn from a seed and a
+//! number. A run of many is tallied; what fails is made small and written where the tests replay it.
 
+mod balance;
 mod beginnings;
 mod campaign;
 mod draw;
 #[cfg(test)]
 mod drawn;
+mod exchanges;
 mod playing;
 mod progress;
 mod scenes;
+mod setups;
 mod shrink;
 mod stream;
 mod tally;
@@ -25,8 +28,10 @@ use clap::Parser;
 
 use super::page;
 use crate::repository::root;
+pub use balance::TOLERANCE;
 use campaign::Campaign;
-pub use trial::{Fault, Outcome, Record, TOLERANCE, Trial};
+use tally::Tally;
+pub use trial::{Fault, Outcome, Record, Trial};
 
 /// Draws absurd but legal scenes and event streams and holds each to its promises: always finite, energy never
 /// above what was put in, the balance closes.
@@ -46,6 +51,9 @@ struct Arguments {
     /// Trials to draw
     #[arg(long, default_value_t = TRIALS, value_parser = clap::value_parser!(u64).range(1..))]
     trials: u64,
+    /// Trials to draw of instruments and necks that are exchanged under ringing strings
+    #[arg(long, default_value_t = EXCHANGES)]
+    exchanges: u64,
     /// Where the random numbers begin
     #[arg(long, default_value_t = SEED)]
     seed: u64,
@@ -55,8 +63,8 @@ struct Arguments {
     /// Seconds of hard playing through the engine, over all built-in instruments
     #[arg(long, default_value_t = PLAYING, value_parser = seconds)]
     playing: f64,
-    /// The first trials of seed 1 and a little playing; the tables must be those in docs/stability.md
-    #[arg(long, conflicts_with_all = ["trials", "seed", "playing", "fresh"])]
+    /// The first trials of seed 1, of exchanges too, and a little playing; the tables must be those in docs/stability.md
+    #[arg(long, conflicts_with_all = ["trials", "exchanges", "seed", "playing", "fresh"])]
     quick: bool,
     /// Write the tables into docs/stability.md
     #[arg(long)]
@@ -65,12 +73,13 @@ struct Arguments {
     #[arg(long)]
     fresh: bool,
     /// Run one trial from its file and say what it comes to
-    #[arg(long, conflicts_with_all = ["trials", "seed", "threads", "playing", "quick", "write", "fresh"])]
+    #[arg(long, conflicts_with_all = ["trials", "exchanges", "seed", "threads", "playing", "quick", "write", "fresh"])]
     replay: Option<PathBuf>,
 }
 
-/// The run whose tables are on the page: trials, where random numbers begin, and seconds of playing.
+/// The run whose tables are on the page: trials, those of exchanges, where random numbers begin, and seconds of playing.
 const TRIALS: u64 = 100_000;
+const EXCHANGES: u64 = 3000;
 const SEED: u64 = 1;
 const PLAYING: f64 = 600.0;
 
@@ -88,6 +97,7 @@ impl Arguments {
         }
         for (name, value, wanted) in [
             ("--trials", self.trials as f64, TRIALS as f64),
+            ("--exchanges", self.exchanges as f64, EXCHANGES as f64),
             ("--seed", self.seed as f64, SEED as f64),
             ("--playing", self.playing, PLAYING),
         ] {
@@ -99,8 +109,8 @@ impl Arguments {
 
 /// Where the tables stand.
 const PAGE: &str = "docs/stability.md";
-/// Trials and seconds of playing of `--quick`.
-const QUICK: (u64, f64) = (1000, 8.0);
+/// Trials, those of exchanges, and seconds of playing of `--quick`.
+const QUICK: (u64, u64, f64) = (1000, 30, 8.0);
 
 /// Runs the measurement.
 ///
@@ -115,11 +125,14 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     let section = if arguments.quick { "quick" } else { "full" };
     page::read(PAGE, &marks(section))?;
     let root = root();
-    let (trials, playing) = if arguments.quick { QUICK } else { (arguments.trials, arguments.playing) };
+    let (trials, exchanges, playing) =
+        if arguments.quick { QUICK } else { (arguments.trials, arguments.exchanges, arguments.playing) };
     let seed = if arguments.quick { SEED } else { arguments.seed };
     let threads = arguments.threads.or_else(|| std::thread::available_parallelism().ok());
-    println!("{trials} trials from seed {seed}, {playing} s of hard playing");
+    println!("{trials} trials and {exchanges} of exchanges from seed {seed}, {playing} s of hard playing");
     let campaign = Campaign {
+        name: "trials",
+        draw: Trial::random,
         seed,
         trials,
         threads: threads.map_or(1, Into::into),
@@ -127,21 +140,31 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
         fresh: arguments.fresh,
         failures: root.join("tests/regressions/extremes/open"),
     };
-    let tally = campaign.run()?;
-    for (number, fault) in &tally.faults {
-        println!("trial {number}: {fault}");
-    }
+    let tally = tallied(&campaign)?;
     let tables = tally.tables();
     println!("{tables}");
+    let of_exchanges =
+        Campaign { name: "exchanges", draw: Trial::of_exchanges, trials: exchanges, ..campaign.clone() };
+    let exchanged = tallied(&of_exchanges)?;
+    println!("{exchanges} trials of exchanges: {}", exchanged.exchanges_in_words());
     playing::play_all(seed, playing, campaign.threads)?;
     // Before anything is written or compared: no page may make a broken promise the usual.
-    refuse_faults(tally.faults.len())?;
+    refuse_faults(tally.faults.len() + exchanged.faults.len())?;
     if arguments.write {
         write_section(PAGE, section, &tables)?;
     } else if arguments.quick {
         compare_section(PAGE, section, &tables)?;
     }
     Ok(())
+}
+
+/// Runs a campaign, and says what broke a promise in it.
+fn tallied(campaign: &Campaign) -> Result<Tally> {
+    let tally = campaign.run()?;
+    for (number, fault) in &tally.faults {
+        println!("{number} of the {}: {fault}", campaign.name);
+    }
+    Ok(tally)
 }
 
 /// Runs one trial and says what it comes to.
@@ -198,12 +221,12 @@ mod tests {
             let words = line.split_whitespace().map(str::to_owned).collect();
             run(words).expect_err(line).to_string()
         };
-        for line in ["--trials 2", "--seed 2", "--playing 2", "--fresh"] {
+        for line in ["--trials 2", "--exchanges 2", "--seed 2", "--playing 2", "--fresh"] {
             let name = line.split(' ').next().expect("it has a name");
             assert!(refused(&format!("--quick {line}")).contains(name), "{line}");
             assert!(refused(&format!("--replay file {line}")).contains(name), "{line}");
         }
-        for line in ["--trials 2", "--seed 2", "--playing 2"] {
+        for line in ["--trials 2", "--exchanges 2", "--seed 2", "--playing 2"] {
             let message = refused(&format!("--write {line}"));
             assert!(message.starts_with(line) && message.contains("docs/stability.md"), "{message}");
         }

@@ -22,6 +22,10 @@ const CHUNK: u64 = 250;
 /// A run of so many trials from a seed.
 #[derive(Debug, Clone)]
 pub struct Campaign {
+    /// What its files are called by.
+    pub name: &'static str,
+    /// Draws the trial of a number from a seed.
+    pub draw: fn(u64, u64) -> Trial,
     /// Where the random numbers begin.
     pub seed: u64,
     /// Number of trials.
@@ -42,7 +46,11 @@ impl Campaign {
     /// # Errors
     /// When a file cannot be written.
     pub fn run(&self) -> Result<Tally> {
-        let folder = self.kept.as_ref().map(|kept| this_programs(kept, self.seed, self.fresh)).transpose()?;
+        let folder = self
+            .kept
+            .as_ref()
+            .map(|kept| this_programs(kept, self.name, self.seed, self.fresh))
+            .transpose()?;
         let chunks = self.trials.div_ceil(CHUNK);
         let look = "{wide_bar} {pos}/{len} trials, {elapsed} of {duration}, {msg}";
         let progress = Progress::new(self.trials, "trials", look)?;
@@ -92,26 +100,27 @@ impl Campaign {
 
     /// Runs one trial; writes it down, made small, if it fails.
     fn one(&self, number: u64) -> Result<Outcome> {
-        let trial = Trial::random(self.seed, number);
+        let trial = (self.draw)(self.seed, number);
         let outcome = trial.run();
         if let Outcome::Computed(record) = &outcome
             && let Some(fault) = &record.fault
         {
             let small = shrink(&trial, fault);
-            let text = format!("# Trial {number} of seed {}: {fault}.\n\n{}", self.seed, small.to_toml());
+            let (name, seed) = (self.name, self.seed);
+            let text = format!("# {number} of the {name} of seed {seed}: {fault}.\n\n{}", small.to_toml());
             fs::create_dir_all(&self.failures)?;
-            files::write(&self.failures.join(format!("seed-{}-trial-{number}.toml", self.seed)), text)?;
+            files::write(&self.failures.join(format!("seed-{seed}-{name}-{number}.toml")), text)?;
         }
         Ok(outcome)
     }
 }
 
 /// The folder of what this very program has tallied from a seed: one built anew begins anew.
-fn this_programs(kept: &Path, seed: u64, fresh: bool) -> Result<PathBuf> {
+fn this_programs(kept: &Path, name: &str, seed: u64, fresh: bool) -> Result<PathBuf> {
     let program = fs::read(std::env::current_exe()?).context("the program itself")?;
     let mut hasher = std::hash::DefaultHasher::new();
     hasher.write(&program);
-    let folder = kept.join(format!("{:016x}-seed-{seed}", hasher.finish()));
+    let folder = kept.join(format!("{:016x}-seed-{seed}-{name}", hasher.finish()));
     if fresh && folder.is_dir() {
         fs::remove_dir_all(&folder).with_context(|| format!("{}", folder.display()))?;
     }

@@ -4,14 +4,14 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, anyhow, bail, ensure};
 use low_action_dsp::setup::{Bridge, Intonation};
 use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture};
 
+use super::balance::Flow;
 use super::draw::Draw;
 use super::progress::Progress;
 use super::scenes;
-use super::trial::TOLERANCE;
 
 const RATE: f64 = 48e3;
 const BLOCK: usize = 480;
@@ -91,11 +91,11 @@ fn play(name: &str, seed: u64, seconds: f64, progress: &Progress) -> Result<Seen
         let time = block as f64 * BLOCK as f64 / RATE;
         ensure!(loudest.is_finite(), "{name} after {time:.2} s of hard playing from seed {seed}: not finite");
         for (string, flow) in put_in.iter_mut().enumerate() {
-            let open = flow.check(&instrument, string);
-            let open = open.map_err(|fault| {
-                fault.context(format!("{name}, string {string}, {time:.2} s into seed {seed}"))
-            })?;
-            seen.open = seen.open.max(open);
+            let Some(ledger) = instrument.ledger(string) else { bail!("the ledger is not open") };
+            let parts = flow
+                .check(ledger)
+                .map_err(|fault| anyhow!("{name}, string {string}, {time:.2} s into seed {seed}: {fault}"))?;
+            seen.open = seen.open.max(parts.open);
         }
         progress.inc(BLOCK as u64);
     }
@@ -126,32 +126,6 @@ fn sound(instrument: &mut Instrument) -> f64 {
     left.iter().chain(&right).fold(0.0, |most, sample| {
         if sample.is_finite() { most.max(f64::from(sample.abs())) } else { f64::INFINITY }
     })
-}
-
-/// What has flown into a string, seen once a block.
-#[derive(Debug, Clone, Copy, Default)]
-struct Flow {
-    /// The ledger's sum at the last block, J.
-    last: f64,
-    /// All that was put in, what was taken out again within the same block counted off, J. (What the ledger has
-    /// [booked](low_action_dsp::Ledger::put_in_gross) sample by sample is more, and would excuse more.)
-    all: f64,
-}
-
-impl Flow {
-    /// Checks a string's ledger; returns how far its balance is open.
-    fn check(&mut self, instrument: &Instrument, string: usize) -> Result<f64> {
-        let Some(ledger) = instrument.ledger(string) else { bail!("the ledger is not open") };
-        self.all += (ledger.put_in - self.last).max(0.0);
-        self.last = ledger.put_in;
-        let all = self.all.max(f64::MIN_POSITIVE);
-        let allowed = TOLERANCE + ledger.rounding / all;
-        let created = (ledger.energies().total() - ledger.put_in) / all;
-        let open = ledger.residual_sum.abs() / all;
-        ensure!(created <= allowed, "energy {created:.1e} above what was put in");
-        ensure!(open <= allowed, "the balance is open by {open:.1e} of what was put in");
-        Ok(open)
-    }
 }
 
 /// Gestures at random for every string.

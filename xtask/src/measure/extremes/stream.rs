@@ -22,6 +22,9 @@ pub struct Stream {
     pub lift: f64,
     /// How far the whole board is moved at a time, m: another action, or another instrument.
     pub exchange: f64,
+    /// Whether frets and board come above the string at rest, too, as an exchange may leave some for a moment that are elsewhere
+    /// along a bent string; otherwise they stay at or under it, as in scene files.
+    pub above: bool,
     /// Largest force of hands, N; 0 leaves hands to the scene.
     pub force: f64,
     /// Speed of slides at most, m/s; 0 leaves places to the scene.
@@ -43,6 +46,7 @@ impl Default for Stream {
             regrip: 0,
             lift: 0.0,
             exchange: 0.0,
+            above: false,
             force: 0.0,
             slide: 0.0,
             bend: false,
@@ -62,12 +66,19 @@ impl Stream {
             regrip: if draw.chance(0.5) { 0 } else { draw.whole(1, 400) as u64 },
             lift: now_and_then(draw, 1e-4 * reach, reach),
             exchange: now_and_then(draw, 1e-3 * reach, reach),
+            above: false,
             force: now_and_then(draw, 1e-2, 1e4),
             slide: now_and_then(draw, 1e-2, FASTEST_SLIDE),
             bend: draw.chance(0.4),
             still: if draw.chance(0.2) { 1.0 } else { now_and_then(draw, 1e-6, 1.0) },
             push: now_and_then(draw, 1e-2, 1e4),
         }
+    }
+
+    /// The same with frets and board that come above the string.
+    pub fn raised(draw: &mut Draw, reach: f64) -> Stream {
+        let exchange = draw.over(1e-3, 1.0) * reach;
+        Stream { exchange, above: true, ..Stream::random(draw, reach) }
     }
 }
 
@@ -153,13 +164,13 @@ impl Acting {
 
     /// New targets for everything that is automated.
     fn change(&mut self, string: &SceneString) {
-        let Stream { lift, exchange, force, slide, bend, still, push, .. } = self.stream;
+        let Stream { lift, exchange, above, force, slide, bend, still, push, .. } = self.stream;
+        let highest = if above { f64::INFINITY } else { 0.0 };
         let draw = &mut self.draw;
         if lift > 0.0 || exchange > 0.0 {
             let together = if draw.chance(0.2) { exchange * draw.between(-1.0, 1.0) } else { 0.0 };
             for (height, rest) in self.heights.iter_mut().zip(&self.rest) {
-                // Barriers stay at or under the string at rest, as in scene files.
-                *height = (rest + together + lift * draw.between(-1.0, 1.0)).min(0.0);
+                *height = (rest + together + lift * draw.between(-1.0, 1.0)).min(highest);
             }
         }
         if bend {

@@ -5,7 +5,8 @@ use std::fmt::Write;
 
 use serde::{Deserialize, Serialize};
 
-use super::trial::{Outcome, Record, TOLERANCE};
+use super::balance::TOLERANCE;
+use super::trial::{Outcome, Record};
 
 /// Counts over many trials; two tallies add up.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize)]
@@ -28,6 +29,12 @@ pub struct Tally {
     pub created: f64,
     /// The most that a balance was open, likewise.
     pub open: f64,
+    /// Instruments that took over from others, and those of them on which strings rang on.
+    pub exchanges: [u64; 2],
+    /// Those that were turned away while another was still fading.
+    pub turned_away: u64,
+    /// Trials in which board or frets stood above a string at rest.
+    pub raised: u64,
     /// Refusals by reason.
     pub refused: BTreeMap<String, u64>,
     /// By cap of the solver; the key is its decimal digits.
@@ -72,6 +79,7 @@ impl Tally {
         self.solved += record.solved;
         self.contacts = self.contacts.max(record.contacts);
         self.coarse += u64::from(record.rounding > TOLERANCE);
+        self.count_exchanges(record.exchanges, record.turned_away, u64::from(record.raised));
         if let Some(fault) = record.fault {
             self.faults.insert(number.to_string(), fault.to_string());
             return;
@@ -106,6 +114,7 @@ impl Tally {
         self.beyond += other.beyond;
         self.created = self.created.max(other.created);
         self.open = self.open.max(other.open);
+        self.count_exchanges(other.exchanges, other.turned_away, other.raised);
         for (reason, count) in &other.refused {
             *self.refused.entry(reason.clone()).or_default() += count;
         }
@@ -121,6 +130,33 @@ impl Tally {
             }
         }
         self.faults.extend(other.faults.clone());
+    }
+
+    fn count_exchanges(&mut self, exchanges: [u64; 2], turned_away: u64, raised: u64) {
+        for (count, more) in self.exchanges.iter_mut().zip(exchanges) {
+            *count += more;
+        }
+        self.turned_away += turned_away;
+        self.raised += raised;
+    }
+
+    /// What trials of exchanges came to, in a few lines.
+    pub fn exchanges_in_words(&self) -> String {
+        let [all, carried] = self.exchanges.map(grouped);
+        format!(
+            "{all} instruments took over from others, of {carried} of which the strings rang on, and {} were turned away\n\
+             in {} trials board or frets stood above a string at rest\n\
+             energy above what was put in, at most {:.0e} of it; balance open, at most {:.0e}\n\
+             rounding alone may be more than 1e-9 in {}, and was in {}; {} refused, {} broke a promise",
+            grouped(self.turned_away),
+            grouped(self.raised),
+            self.created,
+            self.open,
+            grouped(self.coarse),
+            grouped(self.beyond),
+            self.refused.values().sum::<u64>(),
+            self.faults.len(),
+        )
     }
 
     /// The tables, as Markdown.

@@ -1,23 +1,24 @@
-//! One trial: a scene, perhaps with a stream of events, computed to its end and held to the promises.
+//! One trial: a scene, perhaps with a stream of events, or playing on instruments that are exchanged, computed to its end and
+//! held to the promises.
 
 use std::fmt;
 
 use anyhow::{Context, Result};
-use low_action_dsp::{Entry, Ledger, Scene, Simulation};
+use low_action_dsp::{Scene, Simulation};
+use serde::Deserialize;
 use toml::{Table, Value};
 
+use super::balance::{Balance, Parts};
 use super::draw::Draw;
+use super::exchanges::Session;
 use super::scenes;
 use super::stream::{Acting, Stream};
 
-/// How far energy may stand above what was put in, and the balance be open, as a part of all that was put in;
-/// and beside that as much as the last digits of the numbers in the balance are worth.
-pub const TOLERANCE: f64 = 1e-9;
-
-/// The table of a trial's file that a scene file has not.
+/// The tables of a trial's file that a scene file has not.
 const STREAM: &str = "stream";
+const PLAYING: &str = "playing";
 
-/// A trial as written in a file: a scene file with, perhaps, a `[stream]`.
+/// A trial as written in a file: a scene file with, perhaps, a `[stream]`; or a rate, a duration and a table `[playing]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trial {
     /// The whole file.
@@ -89,8 +90,23 @@ pub struct Record {
     pub iterations: u64,
     /// Attempts of the fallback.
     pub fallbacks: u64,
+    /// Instruments that took over, and those of them on which strings rang on.
+    pub exchanges: [u64; 2],
+    /// Those that were turned away while another was still fading.
+    pub turned_away: u64,
+    /// Whether board or frets stood above a string at rest.
+    pub raised: bool,
     /// The promise that was broken.
     pub fault: Option<Fault>,
+}
+
+impl Record {
+    /// What a string's ledger comes to.
+    pub fn see(&mut self, parts: Parts) {
+        self.created = self.created.max(parts.created);
+        self.open = self.open.max(parts.open);
+        self.rounding = self.rounding.max(parts.rounding);
+    }
 }
 
 impl Trial {
@@ -103,6 +119,20 @@ impl Trial {
             let stream = Stream::random(&mut draw, reach);
             table.insert(STREAM.into(), Value::try_from(stream).expect("a stream is a table"));
         }
+        Trial { table }
+    }
+
+    /// A trial of exchanges: mostly playing on instruments that take over from one another, and of every third a scene under
+    /// whose strings others' boards and frets come up.
+    pub fn of_exchanges(seed: u64, number: u64) -> Trial {
+        let mut draw = Draw::new(seed, number);
+        if !number.is_multiple_of(3) {
+            return Trial { table: Table::try_from(Session::random(&mut draw)).expect("it is a table") };
+        }
+        let mut table = scenes::scene(&mut draw);
+        let reach = draw.over(1e-6, 0.1);
+        let stream = Stream::raised(&mut draw, reach);
+        table.insert(STREAM.into(), Value::try_from(stream).expect("a stream is a table"));
         Trial { table }
     }
 
@@ -136,6 +166,11 @@ impl Trial {
     }
 
     fn compute(&self) -> Outcome {
+        if self.table.contains_key(PLAYING) {
+            let session = Session::deserialize(self.table.clone());
+            return session
+                .map_or_else(|error| Outcome::Refused(error.to_string()), |session| session.play());
+        }
         let (scene, stream) = match self.parts() {
             Ok(parts) => parts,
             Err(reason) => return Outcome::Refused(reason),
@@ -174,6 +209,7 @@ impl Trial {
                 record.contacts = record.contacts.max(convergence.active);
                 record.iterations += u64::from(convergence.iterations);
                 record.fallbacks += u64::from(convergence.fallbacks);
+                record.raised |= string.drive.heights.iter().any(|&height| height > 0.0);
             }
             let entry = entry.expect("the ledger is open");
             balance.see(&simulation, &entry);
@@ -189,119 +225,5 @@ impl Trial {
         record.lost =
             if balance.put_in > 0.0 { (balance.solver / balance.put_in).clamp(0.0, 1.0) } else { 0.0 };
         Outcome::Computed(record)
-    }
-}
-
-/// The balance of a whole trial as it goes on.
-#[derive(Debug, Clone, Copy, Default)]
-struct Balance {
-    time_step: f64,
-    /// All that was put in, what was taken out again not counted off, J. (Not the sum of what
-    /// [ledgers](Ledger::put_in_gross) have booked: in a sample in which one string is given what another gives, this takes
-    /// what is left, and it ends as no number where a power is none.)
-    put_in: f64,
-    /// What the solver took, J.
-    solver: f64,
-    /// How far energy stands above what was put in, as a part of that; below nothing where some was lost.
-    created: f64,
-    open: f64,
-    rounding: f64,
-}
-
-/// The larger of two numbers, and not a number if either is none: `f64::max` would leave that one out.
-fn larger(one: f64, other: f64) -> f64 {
-    if one.is_nan() || one > other { one } else { other }
-}
-
-impl Balance {
-    fn new(simulation: &Simulation) -> Balance {
-        let put_in = simulation.ledgers().iter().map(|ledger| ledger.initial).sum();
-        Balance { time_step: 1.0 / simulation.sample_rate(), put_in, ..Balance::default() }
-    }
-
-    fn see(&mut self, simulation: &Simulation, entry: &Entry) {
-        self.flow(entry);
-        let sum = |part: fn(&Ledger) -> f64| simulation.ledgers().iter().map(part).sum::<f64>();
-        let above = sum(|ledger| ledger.energies().total() - ledger.put_in);
-        self.weigh(above, sum(|ledger| ledger.residual_sum), sum(|ledger| ledger.rounding));
-    }
-
-    /// What flows in a sample.
-    fn flow(&mut self, entry: &Entry) {
-        self.put_in += larger(self.time_step * entry.power_in, 0.0);
-        self.solver += self.time_step * entry.power_solver;
-    }
-
-    /// Compares with all that was put in: the energy above that, what the balance does not explain, and what its last digits
-    /// are worth, J.
-    fn weigh(&mut self, above: f64, residual: f64, rounding: f64) {
-        let all = larger(self.put_in, f64::MIN_POSITIVE);
-        self.created = above / all;
-        self.open = residual.abs() / all;
-        self.rounding = rounding / all;
-    }
-
-    fn fault(&self, total: f64, output: f64) -> Option<Fault> {
-        if !(total.is_finite() && output.is_finite() && self.put_in.is_finite()) {
-            return Some(Fault::NotFinite);
-        }
-        let allowed = TOLERANCE + self.rounding;
-        // Written so that what is not a number breaks the promise.
-        let (passive, closed) = (self.created <= allowed, self.open <= allowed);
-        match (passive, closed) {
-            (false, _) => Some(Fault::Created(self.created)),
-            (true, false) => Some(Fault::Open(self.open)),
-            (true, true) => None,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A balance into which a joule has flown, and then a sample of so many watts.
-    fn balance(power_in: f64) -> Balance {
-        let mut balance = Balance { time_step: 1e-4, put_in: 1.0, ..Balance::default() };
-        balance.flow(&Entry { power_in, ..Entry::default() });
-        balance
-    }
-
-    #[test]
-    fn what_is_taken_out_is_not_counted_off() {
-        assert_eq!(balance(100.0).put_in, 1.01);
-        assert_eq!(balance(-100.0).put_in, 1.0);
-    }
-
-    #[test]
-    fn energy_above_what_was_put_in_and_an_open_balance_are_faults() {
-        let fault = |above, residual, rounding| {
-            let mut balance = balance(0.0);
-            balance.weigh(above, residual, rounding);
-            balance.fault(1.0, 0.0)
-        };
-        assert_eq!(fault(-0.5, 0.0, 0.0), None);
-        assert_eq!(fault(0.9e-9, -0.9e-9, 0.0), None);
-        assert_eq!(fault(2e-9, 0.0, 0.0), Some(Fault::Created(2e-9)));
-        assert_eq!(fault(-0.5, -2e-9, 0.0), Some(Fault::Open(2e-9)));
-        assert_eq!(fault(2e-9, -2e-9, 2e-9), None);
-    }
-
-    /// Wherever it comes from.
-    #[test]
-    fn what_is_not_a_number_is_a_fault() {
-        for (power, above, residual, rounding) in [
-            (f64::NAN, 0.0, 0.0, 0.0),
-            (f64::INFINITY, 0.0, 0.0, 0.0),
-            (0.0, f64::NAN, 0.0, 0.0),
-            (0.0, 0.0, f64::NAN, 0.0),
-            (0.0, 0.0, 0.0, f64::NAN),
-        ] {
-            let mut balance = balance(power);
-            balance.weigh(above, residual, rounding);
-            assert!(balance.fault(1.0, 0.0).is_some(), "{power} W, {above} J, {residual} J, {rounding} J");
-        }
-        assert_eq!(balance(0.0).fault(f64::NAN, 0.0), Some(Fault::NotFinite));
-        assert_eq!(balance(0.0).fault(1.0, f64::NAN), Some(Fault::NotFinite));
     }
 }
