@@ -233,10 +233,10 @@ impl Body {
             None => {
                 let force = self.end.pull * self.end.reading.of(&state.displacement);
                 for (row, place) in self.coefficients.iter().zip(&mut self.place) {
-                    for lane in 0..LANES {
+                    *place = std::array::from_fn(|lane| {
                         let spring = row.spring[lane];
-                        place[lane] = if spring == 0.0 { 0.0 } else { row.force[lane] * force / spring };
-                    }
+                        if spring == 0.0 { 0.0 } else { row.force[lane] * force / spring }
+                    });
                 }
                 self.motion.fill(Row::default());
             }

@@ -1,7 +1,7 @@
 //! Instruments drawn at random: as many strings, as long a neck, as low an action as set-ups allow.
 
 use low_action_dsp::neck::Neck;
-use low_action_dsp::setup::{Bridge, Intonation, Pickup};
+use low_action_dsp::setup::{Body, Bridge, Intonation, Pickup};
 use low_action_dsp::{EngineSettings, Instrument, Quality, Setup, Stencil};
 
 use super::draw::Draw;
@@ -140,5 +140,18 @@ fn set_up(draw: &mut Draw, setup: &mut Setup, close: f64) {
         string.loss_0 = draw.over_or_nothing(0.1, 0.01, 1e3);
         string.loss_1 = draw.over_or_nothing(0.1, 1e-5, 1e-1);
         string.pan = draw.between(-1.0, 1.0);
+    }
+    // From what is nearly as light as the strings to what hardly gives way. (One that is too light is drawn anew.)
+    setup.body = draw.chance(0.4).then(|| Body {
+        frequency: draw.over(30.0, 2000.0),
+        mass: draw.over(0.01, 10.0),
+        area: draw.over(1e-3, 1.0),
+        quality: draw.over(1.0, 200.0),
+        spacing: draw.over(20.0, 1000.0),
+        volume: draw.over(1e-3, 1.0),
+        hole: draw.over(1e-5, 0.1),
+    });
+    if setup.body.is_none() && setup.pickup == (Pickup::Microphone {}) {
+        setup.pickup = Pickup::Bridge {};
     }
 }
