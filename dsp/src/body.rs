@@ -33,6 +33,15 @@ struct Coefficients {
     pressure: Row,
 }
 
+impl Coefficients {
+    /// (4/k²) sin²(ωk/2) of a mode, 1/s²: what the spring of 1 kg has; 0 where there is no mode.
+    fn own(&self, lane: usize) -> f64 {
+        let phi = self.bridge[lane];
+        // (k²φ/(1 + ε) over φ is k²/(1 + ε).)
+        if phi == 0.0 { 0.0 } else { self.spring[lane] * phi / self.force[lane] }
+    }
+}
+
 /// A body as it moves.
 #[derive(Debug, Clone)]
 pub(crate) struct Body {
@@ -121,29 +130,32 @@ impl Body {
         Ok(body)
     }
 
-    /// Refuses one that is too light. The largest eigenvalue of a string on its grid is Λ = 4/k² at most, those of the body are lower;
-    /// what couples each mode to the string, b = φ·pull·|weights|/√(ρh), moves the largest up by no more than Σ b²/(Λ − ω²), for
-    /// which the grid leaves [`ROOM`].
+    /// Refuses one that is too light.
     fn check_room(&self, mass: f64, model: &Model) -> Result<(), Error> {
+        let taken = self.room_taken(model);
+        if taken <= 1.0 {
+            return Ok(());
+        }
+        let accepted = format!("it must be at least {} kg", plain(at_least(mass * taken)));
+        Err(Error::range("body.mass", plain(mass), accepted))
+    }
+
+    /// How much it takes of half of the [`ROOM`] that the grid leaves (the other half is for what tension has no part in).
+    ///
+    /// The largest eigenvalue of a string on its grid is Λ = 4/k² at most, those of the body are lower; what couples each mode to the
+    /// string, b = φ·pull·|weights|/√(ρh), moves the largest up by no more than Σ b²/(Λ − ω²).
+    fn room_taken(&self, model: &Model) -> f64 {
         let most = End::new(model, model.string.tension_limit);
         let weights = most.reading.weights.iter().map(|weight| weight * weight).sum::<f64>();
         let k2 = self.time_step * self.time_step;
         let string = 4.0 / k2;
         let of_modes = self.coefficients.iter().flat_map(|row| (0..LANES).map(move |lane| (row, lane)));
         let moved = of_modes.map(|(row, lane)| {
-            // Of the next mode, which is none, all is 0.
             let phi = row.bridge[lane];
-            let own = if phi == 0.0 { 0.0 } else { row.spring[lane] * phi / row.force[lane] };
-            phi * phi / (string - own)
+            phi * phi / (string - row.own(lane))
         });
         let coupling = most.pull * most.pull * weights / (model.string.linear_density * model.grid.spacing);
-        // (Half of the room, for what tension has no part in.)
-        let taken = coupling * moved.sum::<f64>() / (0.5 * ROOM * string);
-        if taken <= 1.0 {
-            return Ok(());
-        }
-        let accepted = format!("beside this string it must be at least {} kg", plain(at_least(mass * taken)));
-        Err(Error::range("body.mass", plain(mass), accepted))
+        coupling * moved.sum::<f64>() / (0.5 * ROOM * string)
     }
 
     /// What the bridge does to the string in the step to come, and the body's own step by what the string does to it. To be asked
@@ -197,14 +209,8 @@ impl Body {
         let mut sum = 0.0;
         for (row, (place, motion)) in self.coefficients.iter().zip(self.place.iter().zip(&self.motion)) {
             for lane in 0..LANES {
-                // (k²φ/(1 + ε) over φ is k²/(1 + ε).)
-                let stiffness = if row.bridge[lane] == 0.0 {
-                    0.0
-                } else {
-                    row.spring[lane] * row.bridge[lane] / row.force[lane]
-                };
                 sum += motion[lane] * motion[lane] * self.rate * self.rate
-                    + stiffness * place[lane] * (place[lane] - motion[lane]);
+                    + row.own(lane) * place[lane] * (place[lane] - motion[lane]);
             }
         }
         0.5 * sum

@@ -47,12 +47,14 @@ impl Error {
         Error::Unknown { kind, name: printable(name), accepted }
     }
 
-    /// The same error with the place it arose in before the name; of a fretboard, neck, bridge or hand that several
+    /// The same error with the place it arose in before the name; of a fretboard, neck, bridge, body or hand that several
     /// strings share, the place after what is accepted.
     pub(crate) fn under(self, place: &str) -> Self {
         match self {
             Error::OutOfRange { name, value, accepted }
-                if ["fretboard", "neck.", "bridge."].iter().any(|shared| name.starts_with(shared)) =>
+                if ["fretboard", "neck.", "bridge.", "body."]
+                    .iter()
+                    .any(|shared| name.starts_with(shared)) =>
             {
                 Error::OutOfRange { name, value, accepted: format!("{accepted} (under {place})") }
             }

@@ -6,6 +6,7 @@ use crate::drive::Drive;
 use crate::energy::Ledger;
 use crate::model::StringParameters;
 use crate::scene::{SolverSettings, Stencil};
+use crate::setup::Setup;
 use crate::string::Scratch;
 
 /// As a classical guitar may have it.
@@ -152,4 +153,24 @@ fn partials_die_away_and_move_as_the_admittance_says() {
             "partial {partial}: {off} and not {moved} Hz"
         );
     }
+}
+
+/// Bodies that come with the program take a part of the room that grids leave for them.
+#[test]
+fn guitars_leave_room() {
+    let names = Setup::BUILTIN.into_iter().chain(Setup::PRESETS);
+    let mut most: f64 = 0.0;
+    for setup in names.filter_map(Setup::shipped) {
+        let Some(description) = &setup.body else { continue };
+        for spec in &setup.string {
+            let string = crate::intonation::flexible(&setup, spec);
+            for rate in [22_050.0, 48_000.0, 96_000.0] {
+                let model = Model::new(string, None, 0, SolverSettings::default(), rate).expect("it can be");
+                let body = Body::new(description, &model).expect("there is room");
+                most = most.max(body.room_taken(&model));
+            }
+        }
+    }
+    println!("{most}");
+    assert!(most > 0.0 && most < 0.6, "they take {most} of it");
 }
