@@ -1,96 +1,59 @@
 //! The body under one string's bridge: it gives way to the string, loses what the air and the wood take, and sounds.
 //!
-//! Each mode is a mass of 1 kg on a spring. The bridge is where their motions q add up, w = Σφq. The string's end goes with it: seen
-//! from the straight line between its ends the string moves as one with fixed ends, so that the same passes do for it, and what
-//! the line adds is a push on the few points next to the bridge and the same number the other way on the body (docs/physics.md).
-//! Every string has a body of its own: strings do not hear each other.
+//! Each mode is a mass of 1 kg on a spring. The bridge is where their motions q add up, w = Σφq. The string's end goes with it:
+//! seen from the straight line between its ends the string moves as one with fixed ends, so that the same passes do for it,
+//! and what the line adds is a push on the few points next to the bridge and as much the other way on the body
+//! (docs/physics.md). Every string has a body of its own: strings do not hear each other.
+
+mod coefficients;
+mod end;
+mod swing;
 
 use crate::digits::{at_least, plain};
 use crate::drive::Push;
 use crate::error::Error;
-use crate::grid::Reading;
+use crate::field::LANES;
+use crate::instructions::Instructions;
 use crate::kernel::STILL;
-use crate::model::{Model, Stiffness};
+use crate::model::Model;
 use crate::setup::Body as Description;
 use crate::state::State;
-
-/// Modes side by side.
-const LANES: usize = 4;
-type Row = [f64; LANES];
-
-/// Coefficients of modes side by side; where there is none they are 0.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Coefficients {
-    /// What is left of the motion, (1 − ε)/(1 + ε) with ε = ωk/2Q.
-    kept: Row,
-    /// What the spring adds to it, 4 sin²(ωk/2)/(1 + ε): of all that is true of discrete time the frequency is exact.
-    spring: Row,
-    /// What 1 N on the bridge adds to it, k²φ/(1 + ε).
-    force: Row,
-    /// φ, 1/√kg.
-    bridge: Row,
-    /// Sound pressure for a change of the motion, Pa/(m√kg).
-    pressure: Row,
-}
-
-impl Coefficients {
-    /// (4/k²) sin²(ωk/2) of a mode, 1/s²: what the spring of 1 kg has; 0 where there is no mode.
-    fn own(&self, lane: usize) -> f64 {
-        let phi = self.bridge[lane];
-        // (k²φ/(1 + ε) over φ is k²/(1 + ε).)
-        if phi == 0.0 { 0.0 } else { self.spring[lane] * phi / self.force[lane] }
-    }
-}
+use coefficients::{Coefficients, Row};
+use end::End;
+pub(crate) use end::ROOM;
+use swing::Swing;
 
 /// A body as it moves.
 #[derive(Debug, Clone)]
 pub(crate) struct Body {
+    instructions: Instructions,
     coefficients: Vec<Coefficients>,
+    /// How many of the last rows' lanes are modes: all bodies of as many are alike in kind.
+    modes: usize,
     /// qⁿ and qⁿ − qⁿ⁻¹, m√kg.
     place: Vec<Row>,
     motion: Vec<Row>,
     /// How far the bridge is up, m.
     bridge: f64,
-    pressure: f64,
     end: End,
     time_step: f64,
-    rate: f64,
+    still: bool,
 }
 
-/// How the string pulls at the bridge while its tension is `tension`.
-#[derive(Debug, Clone, Copy)]
-struct End {
-    tension: f64,
-    /// Reads the string where the bridge's motion is felt.
-    reading: Reading,
-    /// Newtons on the bridge for 1 m there.
-    pull: f64,
-    /// Newtons on the bridge for 1 m of its own, downwards: while the string is held, and while it goes along in a straight line.
-    back: f64,
-    line: f64,
+/// What is heard of a body at a sample.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Heard {
+    /// Sound pressure, Pa.
+    pub pressure: f64,
+    /// How far the bridge is up, m.
+    pub lift: f64,
+    /// The force on the bridge of a string that goes along in a straight line, N, up is positive.
+    pub straight: f64,
 }
 
-/// How much of what the grid has room for a body may take, as a part of it.
-pub(crate) const ROOM: f64 = 0.02;
-
-impl End {
-    fn new(model: &Model, tension: f64) -> Self {
-        let (grid, h) = (&model.grid, model.grid.spacing);
-        let Stiffness { kappa_squared, kappa_6, .. } = model.stiffness(tension);
-        let [bending, sixth] = [kappa_squared, kappa_6].map(|kappa| model.string.linear_density * kappa);
-        // The operator's weights of neighbours one, two and three points away, N/m.
-        let first = tension / h + 4.0 * bending / (h * h * h) + 15.0 * sixth / h.powi(5);
-        let second = -bending / (h * h * h) - 6.0 * sixth / h.powi(5);
-        let third = sixth / h.powi(5);
-        // The straight line from the nut to the bridge, 1 m up, goes on beyond it, where a string with fixed ends turns oddly: 1 m at
-        // the bridge and 2 m farther out.
-        let near = [third, second + 2.0 * third, first + 2.0 * second + 2.0 * third];
-        let pull = near[2];
-        let reading = Reading::before_bridge(grid, near.map(|force| force / pull));
-        let line = [3.0, 2.0, 1.0].map(|away| 1.0 - away / grid.intervals as f64);
-        let bent: f64 = near.iter().zip(line).map(|(force, line)| force * line).sum();
-        End { tension, reading, pull, back: bent + tension / grid.length, line: tension / grid.length }
-    }
+/// The most tension that hands may ask for, N: what is left beyond it is for a body, if there is one.
+pub(crate) fn most_tension(model: &Model, has_body: bool) -> f64 {
+    model.string.tension_limit / if has_body { 1.0 + ROOM } else { 1.0 }
 }
 
 impl Body {
@@ -100,135 +63,88 @@ impl Body {
     /// When it is so light beside this string that the grid has no room for what both are together.
     pub fn new(description: &Description, model: &Model) -> Result<Body, Error> {
         let k = model.grid.time_step;
-        let mut coefficients = Vec::new();
-        let all: Vec<_> = description.modes().into_iter().filter(|mode| mode.frequency * k < 0.4).collect();
-        for modes in all.chunks(LANES) {
-            let mut row = Coefficients::default();
-            for (lane, mode) in modes.iter().enumerate() {
-                let half = std::f64::consts::PI * mode.frequency * k;
-                let lost = 1.0 / (1.0 + half / mode.quality);
-                let sine = libm::sin(half);
-                row.kept[lane] = (1.0 - half / mode.quality) * lost;
-                row.spring[lane] = 4.0 * sine * sine * lost;
-                row.force[lane] = k * k * mode.bridge * lost;
-                row.bridge[lane] = mode.bridge;
-                row.pressure[lane] = mode.pressure / (k * k);
-            }
-            coefficients.push(row);
+        let coefficients = Coefficients::of(description.modes(), k);
+        let most = most_tension(model, true);
+        if End::taken(model, most, &coefficients) > 1.0 {
+            return Err(too_light(description, model));
         }
-        let body = Body {
-            place: vec![Row::default(); coefficients.len()],
-            motion: vec![Row::default(); coefficients.len()],
+        let rows = coefficients.len();
+        Ok(Body {
+            instructions: Instructions::best(),
+            modes: coefficients.iter().flat_map(|row| row.own).filter(|own| *own > 0.0).count(),
             coefficients,
+            place: vec![Row::default(); rows],
+            motion: vec![Row::default(); rows],
             bridge: 0.0,
-            pressure: 0.0,
             end: End::new(model, model.string.tension),
             time_step: k,
-            rate: 1.0 / k,
-        };
-        body.check_room(description.mass, model)?;
-        Ok(body)
+            still: true,
+        })
     }
 
-    /// Refuses one that is too light.
-    fn check_room(&self, mass: f64, model: &Model) -> Result<(), Error> {
-        let taken = self.room_taken(model);
-        if taken <= 1.0 {
-            return Ok(());
-        }
-        let accepted = format!("it must be at least {} kg", plain(at_least(mass * taken)));
-        Err(Error::range("body.mass", plain(mass), accepted))
-    }
-
-    /// How much it takes of half of the [`ROOM`] that the grid leaves (the other half is for what tension has no part in).
-    ///
-    /// The largest eigenvalue of a string on its grid is Λ = 4/k² at most, those of the body are lower; what couples each mode to the
-    /// string, b = φ·pull·|weights|/√(ρh), moves the largest up by no more than Σ b²/(Λ − ω²).
-    fn room_taken(&self, model: &Model) -> f64 {
-        let most = End::new(model, model.string.tension_limit);
-        let weights = most.reading.weights.iter().map(|weight| weight * weight).sum::<f64>();
-        let k2 = self.time_step * self.time_step;
-        let string = 4.0 / k2;
-        let of_modes = self.coefficients.iter().flat_map(|row| (0..LANES).map(move |lane| (row, lane)));
-        let moved = of_modes.map(|(row, lane)| {
-            let phi = row.bridge[lane];
-            phi * phi / (string - row.own(lane))
-        });
-        let coupling = most.pull * most.pull * weights / (model.string.linear_density * model.grid.spacing);
-        coupling * moved.sum::<f64>() / (0.5 * ROOM * string)
-    }
-
-    /// What the bridge does to the string in the step to come, and the body's own step by what the string does to it. To be asked
-    /// before the string moves.
+    /// What the bridge does to the string in the step to come, what is heard of it, and the body's own step by what the string does
+    /// to it. To be asked before the string moves.
     #[inline]
-    pub fn step(&mut self, model: &Model, state: &State, tension: f64) -> Push {
+    pub fn step(&mut self, model: &Model, state: &State, tension: f64) -> (Push, Heard) {
         if tension != self.end.tension {
             self.end = End::new(model, tension);
         }
         let End { reading, pull, back, .. } = self.end;
         let push = Push { reading, force: pull * self.bridge };
-        self.swing(pull * reading.of(&state.displacement) - back * self.bridge);
-        push
+        (push, self.swing(pull * reading.of(&state.displacement) - back * self.bridge))
     }
 
-    /// Goes on by itself, under a string at rest; the sound pressure, Pa.
-    pub fn ring(&mut self) -> f64 {
-        self.swing(-self.end.line * self.bridge);
-        self.pressure
-    }
-
-    /// The sound pressure of the last step, Pa.
-    pub fn pressure(&self) -> f64 {
-        self.pressure
+    /// Goes on by itself, under a string at rest. Once nobody could hear it it rests, too; that is looked for in every sample, so that
+    /// it does not depend on the pieces in which they come.
+    pub fn ring(&mut self) -> Heard {
+        if self.still {
+            return Heard::default();
+        }
+        let heard = self.swing(-self.end.line * self.bridge);
+        if self.energy() < STILLNESS {
+            self.reset();
+        }
+        heard
     }
 
     /// Advances all modes under a force on the bridge, N.
     #[inline]
-    fn swing(&mut self, force: f64) {
-        let (mut bridge, mut pressure) = (Row::default(), Row::default());
-        let rows = self.coefficients.iter().zip(self.place.iter_mut().zip(&mut self.motion));
-        for (row, (place, motion)) in rows {
-            for lane in 0..LANES {
-                let old = motion[lane];
-                let new = row.kept[lane] * old + (row.force[lane] * force - row.spring[lane] * place[lane]);
-                let new = if new.abs() < STILL { 0.0 } else { new };
-                let now = place[lane] + new;
-                let now = if now.abs() < STILL { 0.0 } else { now };
-                (place[lane], motion[lane]) = (now, new);
-                bridge[lane] += row.bridge[lane] * now;
-                pressure[lane] += row.pressure[lane] * (new - old);
+    fn swing(&mut self, force: f64) -> Heard {
+        let Body { coefficients, place, motion, .. } = self;
+        let [bridge, pressure] = self.instructions.run(Swing { force, coefficients, place, motion });
+        if force.abs() < STILL {
+            // Nothing drives them, and what fades would become subnormal numbers.
+            for number in self.place.iter_mut().chain(&mut self.motion).flatten() {
+                *number = if number.abs() < STILL { 0.0 } else { *number };
             }
         }
-        let sum = |row: Row| (row[0] + row[1]) + (row[2] + row[3]);
-        (self.bridge, self.pressure) = (sum(bridge), sum(pressure));
+        let lift = self.bridge;
+        (self.bridge, self.still) = (bridge, false);
+        Heard { pressure, lift, straight: -self.end.line * lift }
     }
 
-    /// Energy of its motion half a step ago and of what moves with the bridge, J. Beside the string's own, what both have together
-    /// less what pushes have put into the string is lost to air and wood and never grows.
+    /// Energy of its motion half a step ago, J.
     pub fn energy(&self) -> f64 {
+        let rate = 1.0 / self.time_step;
         let mut sum = 0.0;
         for (row, (place, motion)) in self.coefficients.iter().zip(self.place.iter().zip(&self.motion)) {
             for lane in 0..LANES {
-                sum += motion[lane] * motion[lane] * self.rate * self.rate
-                    + row.own(lane) * place[lane] * (place[lane] - motion[lane]);
+                let speed = motion[lane] * rate;
+                sum += speed * speed + row.own[lane] * place[lane] * (place[lane] - motion[lane]);
             }
         }
         0.5 * sum
     }
 
-    /// Whether nothing is left to be heard of it, and of what is not it is rid then.
-    pub fn is_still(&mut self) -> bool {
-        let still = self.energy() < STILLNESS;
-        if still {
-            self.reset();
-        }
-        still
+    /// Whether nothing is left to be heard of it.
+    pub fn is_still(&self) -> bool {
+        self.still
     }
 
-    /// Takes over how another body moves, mode by mode; one that has other modes, or none, begins where the string holds it.
+    /// Takes over how another body moves, mode by mode; one that has fewer or more modes, or none, begins where the string holds it.
     pub fn take_over(&mut self, old: Option<&Body>, model: &Model, state: &State, tension: f64) {
         self.end = End::new(model, tension);
-        match old.filter(|old| old.place.len() == self.place.len()) {
+        match old.filter(|old| old.modes == self.modes) {
             Some(old) => {
                 let slower = self.time_step / old.time_step;
                 self.place.copy_from_slice(&old.place);
@@ -236,29 +152,52 @@ impl Body {
                     *motion = old.map(|motion| motion * slower);
                 }
             }
-            None => {
-                let force = self.end.pull * self.end.reading.of(&state.displacement);
-                for (row, place) in self.coefficients.iter().zip(&mut self.place) {
-                    *place = std::array::from_fn(|lane| {
-                        let spring = row.spring[lane];
-                        if spring == 0.0 { 0.0 } else { row.force[lane] * force / spring }
-                    });
-                }
-                self.motion.fill(Row::default());
-            }
+            None => self.hold(state),
         }
         let rows = self.coefficients.iter().zip(&self.place);
-        self.bridge =
-            rows.map(|(row, place)| (0..LANES).map(|lane| row.bridge[lane] * place[lane]).sum::<f64>()).sum();
-        self.pressure = 0.0;
+        let lanes = rows.flat_map(|(row, place)| row.bridge.into_iter().zip(*place));
+        self.bridge = lanes.map(|(phi, place)| phi * place).sum();
+        self.still = old.is_none_or(Body::is_still) && self.bridge == 0.0;
+    }
+
+    /// Rests where the string holds it: the bridge gives way to F = pull·u − back·w by w = CF, C = Σφ²/ω².
+    fn hold(&mut self, state: &State) {
+        let End { reading, pull, back, .. } = self.end;
+        let gives = Coefficients::sum(&self.coefficients, |own| 1.0 / own);
+        let force = pull * reading.of(&state.displacement) / (1.0 + gives * back);
+        for (row, place) in self.coefficients.iter().zip(&mut self.place) {
+            let at = |lane: usize| {
+                if row.own[lane] > 0.0 { row.bridge[lane] * force / row.own[lane] } else { 0.0 }
+            };
+            *place = std::array::from_fn(at);
+        }
+        self.motion.fill(Row::default());
     }
 
     /// At rest.
     pub fn reset(&mut self) {
         self.place.fill(Row::default());
         self.motion.fill(Row::default());
-        (self.bridge, self.pressure) = (0.0, 0.0);
+        (self.bridge, self.still) = (0.0, true);
     }
+}
+
+/// The refusal of a body that is too light for a string, with the mass that would do.
+fn too_light(description: &Description, model: &Model) -> Error {
+    let most = most_tension(model, true);
+    let k = model.grid.time_step;
+    let mut heavier = *description;
+    // What is taken goes nearly with 1/mass.
+    for _ in 0..100 {
+        let taken = End::taken(model, most, &Coefficients::of(heavier.modes(), k));
+        if taken <= 1.0 {
+            let accepted = format!("it must be at least {} kg", plain(at_least(heavier.mass)));
+            return Error::range("body.mass", plain(description.mass), accepted);
+        }
+        heavier.mass *= taken.clamp(1.001, 1e3);
+    }
+    let accepted = "no mass will do: a string so stiff leaves no room on its grid";
+    Error::range("body.mass", plain(description.mass), accepted)
 }
 
 /// Below this energy nothing is heard of a body, J: a soft pluck has 1e-6 J, of which a part reaches it.

@@ -32,7 +32,7 @@ pub struct Drive {
     pub tension: f64,
     /// What a hand laid along the whole string adds to its loss σ₀ at n, 1/s: 0 or more, up to 1/k.
     pub loss: f64,
-    /// Forces on points of the string.
+    /// Forces on points of the string; in an instrument the last is that of a bridge that gives way, if there is one.
     pub pushes: Roomy<Push>,
     /// What the hand does to the finger in each slot; ignored where there is no finger. A finger goes where its hand is in a
     /// single step.
@@ -42,8 +42,8 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// Nothing acts; room for [`PUSHES`] pushes, one more of a bridge that gives way, and for moving every contact. Hands are at the nut, without force: whoever places a
-    /// finger puts its hand over the same place.
+    /// Nothing acts; room for [`PUSHES`] pushes, one more of a bridge that gives way, and for moving every contact. Hands are at the
+    /// nut, without force: whoever places a finger puts its hand over the same place.
     pub fn new(model: &Model) -> Drive {
         Drive {
             tension: model.string.tension,

@@ -106,13 +106,13 @@ pub(crate) struct Hands {
     pub bent: Ramp,
     /// By how much more than that it is pulled, while it is still on its way from the tuning of a string before; 1 afterwards.
     pub tuned: Ramp,
-    /// The most that the string's grid bears, N.
+    /// The most that hands may bend it to, N: what its grid bears, less what that leaves for a body.
     pub most_tension: f64,
 }
 
 impl Hands {
-    /// No hand near the string.
-    pub fn new(model: &Model, sample_rate: f64) -> Self {
+    /// No hand near the string, which bears so much tension, N.
+    pub fn new(model: &Model, sample_rate: f64, most_tension: f64) -> Self {
         Hands {
             sample_rate,
             plucks: Roomy::with_capacity(PUSHES),
@@ -120,7 +120,7 @@ impl Hands {
             fingers: [None; FINGERS_PER_STRING],
             bent: Ramp::at(model.string.tension),
             tuned: Ramp::at(1.0),
-            most_tension: model.string.tension_limit,
+            most_tension,
         }
     }
 
@@ -149,8 +149,8 @@ impl Hands {
     }
 
     /// The largest tension a bend may reach, as a multiple of the string's own.
-    pub fn highest_ratio(model: &Model) -> f64 {
-        model.string.tension_limit / model.string.tension
+    fn highest_ratio(&self, model: &Model) -> f64 {
+        self.most_tension / model.string.tension
     }
 
     /// A time in samples, rounded.
@@ -217,7 +217,7 @@ impl Hands {
                 begins
             }
             Gesture::Bend { tension_ratio, duration } => {
-                let most = Self::highest_ratio(model);
+                let most = self.highest_ratio(model);
                 let ratio = if tension_ratio.is_finite() { tension_ratio } else { 1.0 };
                 let samples = self.samples(duration);
                 self.bent.go(model.string.tension * ratio.clamp(LEAST_TENSION, most), samples);

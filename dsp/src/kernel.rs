@@ -18,6 +18,7 @@ use crate::skyline::Clearance;
 use advance::LastPass;
 pub(crate) use advance::{Advance, STILL};
 use clear::Clear;
+pub(crate) use lanes::{part_of, vectors};
 use sweep::Predict;
 pub(crate) use weights::Weights;
 

@@ -1,25 +1,30 @@
 //! What is heard of a string.
 
+mod mix;
+
+use crate::body::Heard;
 use crate::field::Field;
 use crate::filter::Biquad;
-use crate::model::{ContactKind, Model, StringParameters};
-use crate::setup::{Pickup, Setup};
+use crate::model::{ContactKind, Model};
+use crate::setup::Pickup;
 use crate::state::State;
 use crate::string::Scratch;
+pub(crate) use mix::PickupMix;
 
 /// Transverse force of the string on the bridge at the sample n from which the last step led, N, up is
-/// positive: −T ∂ₓu + EI ∂ₓₓₓu at x = L, with the tension raised by stretching.
+/// positive: −T ∂ₓu + EI ∂ₓₓₓu at x = L, with the tension raised by stretching. The bridge is `lift` m up.
 ///
 /// The string goes on oddly beyond the bridge, so that its four last points give ∂ₓu up to an error of h⁸ and ∂ₓₓₓu to one of
 /// h⁶. (One point would give ∂ₓu up to an error of h², which is 2 dB of treble at a third of the grid's own bandwidth.)
-pub fn bridge_force(model: &Model, scratch: &Scratch) -> f64 {
+pub fn bridge_force(model: &Model, scratch: &Scratch, lift: f64) -> f64 {
     let h = model.grid.spacing;
     // After a step the scratch holds uⁿ. The shortest string has its nut for the fourth point.
-    let point = |away: usize| scratch.displacement[model.grid.cell(model.grid.intervals - away)];
+    let line = |away: usize| lift * (1.0 - away as f64 / model.grid.intervals as f64);
+    let point = |away: usize| scratch.displacement[model.grid.cell(model.grid.intervals - away)] - line(away);
     let [slope, bend] = end_shape([point(1), point(2), point(3), point(4)]);
     let tension = scratch.stiffness().tension + stretch_tension(model, scratch);
     let bending = model.string.linear_density * model.string.kappa_squared();
-    tension * slope / h + bending * bend / (h * h * h)
+    tension * (slope / h - lift / model.grid.length) + bending * bend / (h * h * h)
 }
 
 /// −h ∂ₓu and h³ ∂ₓₓₓu of a string at its end x = L, m, from the displacements h, 2h, 3h and 4h before it, m.
@@ -59,50 +64,6 @@ pub fn stretch_tension(model: &Model, scratch: &Scratch) -> f64 {
     }
     let string = &model.string;
     string.axial_stiffness() / (2.0 * string.length * model.grid.spacing) * scratch.stretching()
-}
-
-/// The pickups of a set-up over one string, and how much of each is heard.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct PickupMix {
-    /// The set-up's own and the other kind, each with its share of the sound.
-    parts: [(Pickup, f64); 2],
-    /// Where a wide bridge begins, m from the nut.
-    bridge: f64,
-}
-
-/// A coil over strings of any scale.
-struct Coil {
-    /// Its middle, m from the saddle, as a part of the scale.
-    place: f64,
-    /// Width of its field along the string, m.
-    aperture: f64,
-    /// Resonance, Hz.
-    resonance: f64,
-    /// Height of that over low frequencies, as a factor.
-    quality: f64,
-}
-
-/// The coil that is mixed to the force on the bridge: a single coil a quarter of the string from the saddle,
-/// where guitars have the neck pickup.
-const COIL: Coil = Coil { place: 0.25, aperture: 0.02, resonance: 4500.0, quality: 2.0 };
-
-impl PickupMix {
-    /// The pickups over a string of a set-up. The velocity at a coil and the force on the bridge are
-    /// brought to one scale by the string's wave impedance √(Tρ).
-    pub fn of(setup: &Setup, string: &StringParameters) -> Self {
-        let impedance = (string.tension * string.linear_density).sqrt();
-        let Coil { place, aperture, resonance, quality } = COIL;
-        let position = place * setup.neck.scale_length;
-        let (other, scale) = match setup.pickup {
-            Pickup::Magnetic { .. } => (Pickup::Bridge {}, 1.0 / impedance),
-            Pickup::Bridge {} | Pickup::Microphone {} => {
-                (Pickup::Magnetic { position, aperture, resonance, quality }, impedance)
-            }
-        };
-        let wide = setup.bridge.as_ref().map_or(0.0, |bridge| bridge.length);
-        let parts = [(setup.pickup, 1.0 - setup.blend), (other, setup.blend * scale)];
-        PickupMix { parts, bridge: if wide > 0.0 { setup.neck.scale_length - wide } else { f64::INFINITY } }
-    }
 }
 
 /// What is heard of one string.
@@ -155,20 +116,20 @@ impl Listener {
         Listener { ears }
     }
 
-    /// The signal after a step in which the body sent out a `pressure`, Pa: volts of an arbitrary coil, newtons or pascals.
+    /// The signal after a step: volts of an arbitrary coil, newtons or pascals.
     #[inline]
-    pub fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch, pressure: f64) -> f64 {
+    pub fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch, heard: Heard) -> f64 {
         self.ears
             .iter_mut()
             .flatten()
-            .map(|ear| ear.hear(model, state, scratch, pressure))
+            .map(|ear| ear.hear(model, state, scratch, heard))
             .fold(0.0, |a, b| a + b)
     }
 
     /// The signal of a string at rest, over a body that may ring.
     #[inline]
-    pub fn hear_nothing(&mut self, pressure: f64) -> f64 {
-        self.ears.iter_mut().flatten().map(|ear| ear.hear_nothing(pressure)).fold(0.0, |a, b| a + b)
+    pub fn hear_nothing(&mut self, heard: Heard) -> f64 {
+        self.ears.iter_mut().flatten().map(|ear| ear.hear_nothing(heard)).fold(0.0, |a, b| a + b)
     }
 
     /// Whether nothing is left to be heard of the past.
@@ -236,10 +197,12 @@ impl Ear {
     }
 
     #[inline]
-    fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch, pressure: f64) -> f64 {
+    fn hear(&mut self, model: &Model, state: &State, scratch: &Scratch, heard: Heard) -> f64 {
         let signal = match &self.source {
-            Source::Bridge { from } => bridge_force(model, scratch) + wrapped(model, scratch, *from),
-            Source::Air => pressure,
+            Source::Bridge { from } => {
+                bridge_force(model, scratch, heard.lift) + wrapped(model, scratch, *from)
+            }
+            Source::Air => heard.pressure,
             Source::Coil(weights) => weights.iter().map(|&(cell, weight)| state.motion[cell] * weight).sum(),
         };
         let signal = self.coil.next(signal);
@@ -251,9 +214,13 @@ impl Ear {
     }
 
     #[inline]
-    fn hear_nothing(&mut self, pressure: f64) -> f64 {
+    fn hear_nothing(&mut self, heard: Heard) -> f64 {
         self.begins = false;
-        let signal = if matches!(self.source, Source::Air) { pressure } else { 0.0 };
+        let signal = match self.source {
+            Source::Air => heard.pressure,
+            Source::Bridge { .. } => heard.straight,
+            Source::Coil(_) => 0.0,
+        };
         if signal == 0.0 && self.is_still() {
             return 0.0;
         }
@@ -269,7 +236,9 @@ impl Ear {
 mod tests {
     use super::*;
     use crate::drive::{Drive, Push};
+    use crate::model::StringParameters;
     use crate::scene::SolverSettings;
+    use crate::setup::Setup;
 
     /// A string at rest is pulled down by 1 N over a wide bridge, on which it comes to lie. However many points that are, the
     /// bridge has T times the slope before them. Flexible, so that its shape at rest is of straight pieces.
@@ -294,7 +263,7 @@ mod tests {
             (0..(0.3 * rate) as usize).for_each(|_| _ = state.step(&model, &drive, &mut scratch));
             let bridge = setup.neck.scale_length - 0.04;
             let from = model.contacts.partition_point(|contact| contact.place < bridge);
-            let (end, wrapped) = (bridge_force(&model, &scratch), wrapped(&model, &scratch, from));
+            let (end, wrapped) = (bridge_force(&model, &scratch, 0.0), wrapped(&model, &scratch, from));
             let places = (0.45 / model.grid.spacing) as usize;
             let [here, next] = [places, places + 1].map(|node| scratch.displacement[model.grid.cell(node)]);
             let slope = -string.tension * (next - here) / model.grid.spacing;

@@ -18,6 +18,7 @@ use crate::intonation::Behind;
 use crate::model::{Barrier, StringParameters};
 use crate::neck::Neck;
 pub use body::Body;
+pub(crate) use body::Mode;
 pub use bridge::Bridge;
 pub use pickup::Pickup;
 pub use player::{Damper, Fretting, Player};
@@ -45,7 +46,7 @@ pub struct Setup {
     #[serde(default = "yes")]
     pub tension_modulation: bool,
     /// How much of the sound is heard by a pickup of the other kind, 0 to 1: the force on the bridge beside
-    /// a coil, or a coil beside the bridge.
+    /// a coil, or a coil beside bridge or microphone.
     #[serde(default)]
     pub blend: f64,
     /// Frets and board.
@@ -205,6 +206,13 @@ impl Setup {
         }
         if let Some(body) = self.body {
             body.check()?;
+            if self.bridge.is_some() {
+                return Err(Error::range(
+                    "body",
+                    "a table",
+                    "there must be none beside a wide [bridge], which stands still",
+                ));
+            }
         }
         self.player.check(self.neck.scale_length)?;
         self.pickup.check(self.neck.scale_length, self.body.is_some())?;
@@ -252,6 +260,18 @@ impl Setup {
     /// The largest factor by which a bend may raise the tension of a string.
     pub fn highest_tension_ratio(&self) -> f64 {
         tension_ratio(self.max_bend)
+    }
+
+    /// How fast a partial (1 for the lowest) of an open string dies away, 1/s: by [its own losses](SetupString::decay) and by what the
+    /// body takes up, 2f₁Z Re Y to first order, Z = √(Tρ) = 2Lf₁ρ its wave impedance; 0 without either.
+    ///
+    /// # Panics
+    /// When there is no such string.
+    pub fn decay(&self, string: usize, partial: u32) -> f64 {
+        let (spec, length) = (&self.string[string], self.neck.scale_length);
+        let fundamental = frequency(spec.pitch + self.tuning);
+        let taken = self.body.map_or(0.0, |body| body.takes_up(f64::from(partial) * fundamental));
+        spec.decay(length, partial) + 4.0 * length * spec.linear_density * fundamental * fundamental * taken
     }
 
     /// The factor up to which the grid of a string bears a higher tension: bends, and in any case what fingers and plucks stretch.

@@ -5,7 +5,7 @@ mod tests;
 
 use std::ops::Range;
 
-use crate::body::Body;
+use crate::body::{Body, Heard, most_tension};
 use crate::decimate::Decimator;
 use crate::drive::Drive;
 use crate::energy::Ledger;
@@ -107,7 +107,7 @@ impl Voice {
             state: State::new(&model),
             scratch: Scratch::new(&model),
             drive: Drive::new(&model),
-            hands: Hands::new(&model, rate),
+            hands: Hands::new(&model, rate, most_tension(&model, body.is_some())),
             body,
             listener: Listener::new(&PickupMix::of(setup, &placed.string), &model, rate),
             decimator: Decimator::new(ratio, RUN),
@@ -196,10 +196,9 @@ impl Voice {
 
     /// Whether it rests, and nothing that it has sent out is still on its way.
     fn is_at_rest(&mut self) -> bool {
-        // (The body first: what it sends out keeps all behind it busy.)
         self.asleep
-            && self.body.as_mut().is_none_or(Body::is_still)
             && self.decimator.is_empty()
+            && self.body.as_ref().is_none_or(Body::is_still)
             && self.listener.is_still()
     }
 
@@ -211,8 +210,8 @@ impl Voice {
     #[inline]
     fn next(&mut self) -> f64 {
         if self.asleep {
-            let pressure = self.body.as_mut().map_or(0.0, Body::ring);
-            return self.listener.hear_nothing(pressure);
+            let heard = self.body.as_mut().map_or(Heard::default(), Body::ring);
+            return self.listener.hear_nothing(heard);
         }
         self.hands.drive(&mut self.state, &mut self.drive);
         if !self.settling.part.rests() {
@@ -222,17 +221,18 @@ impl Voice {
         }
         // (What the bridge does is nothing that is done to the string from outside.)
         let pushed = !self.drive.pushes.is_empty();
-        let mut pressure = 0.0;
+        let mut heard = Heard::default();
         if let Some(body) = &mut self.body {
-            self.drive.pushes.push(body.step(&self.model, &self.state, self.drive.tension));
-            pressure = body.pressure();
+            let (push, of_body) = body.step(&self.model, &self.state, self.drive.tension);
+            self.drive.pushes.push(push);
+            heard = of_body;
         }
         let convergence = self.state.step(&self.model, &self.drive, &mut self.scratch);
         self.observed.see_step(&convergence, &self.scratch);
         if let Some(ledger) = &mut self.ledger {
             ledger.record(&self.model, &self.state, &self.scratch, &self.drive);
         }
-        let signal = self.listener.hear(&self.model, &self.state, &self.scratch, pressure);
+        let signal = self.listener.hear(&self.model, &self.state, &self.scratch, heard);
         // (That energy is from before the step: what was pushed in it is not in it yet.)
         let is_left_alone = self.hands.idle() && !pushed;
         if is_left_alone && self.settling.part.rests() && self.scratch.string_energy() < SILENCE {
@@ -290,12 +290,15 @@ impl Voice {
         if self.asleep {
             // Nobody heard the old tension, and no ramp runs while nothing moves.
             self.hands.arrive();
-            return self.rebook();
+        } else {
+            self.state.take_over(&self.model, &old.state, &old.model);
+            self.hands.keep_only(&self.state);
         }
-        self.state.take_over(&self.model, &old.state, &old.model);
-        self.hands.keep_only(&self.state);
         if let Some(body) = &mut self.body {
             body.take_over(old.body.as_ref(), &self.model, &self.state, self.hands.tension());
+        }
+        if self.asleep {
+            return self.rebook();
         }
         self.settling.from.clear();
         self.settling.from.extend_from_slice(self.state.heights());

@@ -13,7 +13,7 @@ use std::num::NonZeroUsize;
 use std::ops::RangeInclusive;
 
 pub use low_action_dsp::Quality;
-use low_action_dsp::setup::{MOST_STRINGS, SetupString};
+use low_action_dsp::setup::MOST_STRINGS;
 use low_action_dsp::{EngineSettings, Instrument, Setup};
 
 use crate::controls::Touching;
@@ -94,10 +94,12 @@ impl EngineOptions {
 
     /// How long the open string that rings longest takes to be [`QUIET`] after its pluck, s; endless without losses.
     pub fn tail(&self) -> f64 {
-        let length = self.setup.neck.scale_length;
-        // The slowest partial is the lowest.
-        let time = |string: &SetupString| libm::log(1.0 / QUIET) / string.decay(length, 1);
-        self.setup.string.iter().map(time).fold(0.0, f64::max)
+        // The slowest partial is the lowest, but over a body, which takes some more than others.
+        let partials = if self.setup.body.is_some() { 10 } else { 1 };
+        let slowest =
+            |string| (1..=partials).map(|n| self.setup.decay(string, n)).fold(f64::INFINITY, f64::min);
+        let time = |string| libm::log(1.0 / QUIET) / slowest(string);
+        (0..self.setup.string.len()).map(time).fold(0.0, f64::max)
     }
 
     /// Builds the two halves of an engine; allocates.

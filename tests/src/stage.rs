@@ -110,11 +110,8 @@ impl Stage {
 pub fn at_the_bridge(setup: &Setup) -> Setup {
     let Some(body) = &setup.body else { return setup.clone() };
     let pickup = if setup.pickup == (Pickup::Microphone {}) { Pickup::Bridge {} } else { setup.pickup };
-    Setup { body: None, pickup, gain: setup.gain * BRIGHTER * body.area / body.mass, ..setup.clone() }
+    Setup { body: None, pickup, gain: setup.gain * body.pascals_per_newton(), ..setup.clone() }
 }
-
-/// So many newtons are as loud as a pascal that comes off a soundboard of 1 m² for each kilogram.
-const BRIGHTER: f64 = 0.4;
 
 /// So many samples are so many seconds.
 pub fn at(seconds: f64) -> usize {

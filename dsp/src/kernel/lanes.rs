@@ -5,7 +5,7 @@ use pulp::Simd;
 use crate::field::LANES;
 
 /// A row of a field, or [`LANES`] numbers anywhere in it.
-pub(super) type Row = [f64; LANES];
+pub(crate) type Row = [f64; LANES];
 
 /// The rows of a field.
 #[inline(always)]
@@ -21,13 +21,13 @@ pub(super) fn rows_mut(field: &mut [f64]) -> &mut [Row] {
 
 /// Some lanes of a row: the `part`-th vector of an instruction set in it.
 #[inline(always)]
-pub(super) fn part_of<S: Simd>(row: &Row, part: usize) -> S::f64s {
+pub(crate) fn part_of<S: Simd>(row: &Row, part: usize) -> S::f64s {
     S::as_simd_f64s(row).0[part]
 }
 
 /// Vectors in a row.
 #[inline(always)]
-pub(super) fn vectors<S: Simd>() -> usize {
+pub(crate) fn vectors<S: Simd>() -> usize {
     LANES / S::F64_LANES
 }
 

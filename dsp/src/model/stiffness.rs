@@ -40,7 +40,7 @@ impl Stiffness {
     }
 
     /// λ² + 4κ₂²k²/h⁴ + 16κ₆k²/h⁶ + 4σ₁k/h²: the scheme is stable while this is at most 1.
-    pub(super) fn stability(&self, linear_density: f64, loss_1: f64, grid: &Grid) -> f64 {
+    pub(crate) fn stability(&self, linear_density: f64, loss_1: f64, grid: &Grid) -> f64 {
         let (k, h2) = (grid.time_step, grid.spacing * grid.spacing);
         let courant2 = self.tension / linear_density * k * k / h2;
         courant2

@@ -49,7 +49,7 @@ const DISTANCE: f64 = 1.0;
 /// What moves in a hole in a thin plate is as much air as would fill a tube of this many radii: 8/(3π) on either side.
 const PLUG: f64 = 16.0 / (3.0 * PI);
 
-/// No modes are counted above this, Hz.
+/// No higher modes of the soundboard are counted above this, Hz.
 const HIGHEST: f64 = 8000.0;
 
 /// Where modes are nearer to one another than this part of their frequency, one stands for several.
@@ -68,6 +68,23 @@ impl Body {
         within("body.spacing", self.spacing, 5.0, 1000.0, "Hz")?;
         within("body.volume", self.volume, 1e-4, 1.0, "m³")?;
         within("body.hole", self.hole, 1e-5, 0.1, "m²").map(drop)
+    }
+
+    /// About how much is heard of 1 N on the bridge, Pa: what makes notes as loud as at the bridge itself, on the mean of those that
+    /// come with the program.
+    pub fn pascals_per_newton(&self) -> f64 {
+        0.4 * self.area / self.mass
+    }
+
+    /// What the bridge takes up of a force of a frequency, Hz, as Re Y of its velocity over that force, s/kg.
+    pub fn takes_up(&self, frequency: f64) -> f64 {
+        let omega = TAU * frequency;
+        let of = |mode: Mode| {
+            let own = TAU * mode.frequency;
+            let (stiff, lossy) = (own * own - omega * omega, omega * own / mode.quality);
+            omega * mode.bridge * mode.bridge * lossy / (stiff * stiff + lossy * lossy)
+        };
+        self.modes().into_iter().map(of).sum()
     }
 
     /// All modes: the two in which soundboard and air swing together, then those of the soundboard alone.
@@ -93,11 +110,12 @@ impl Body {
         // (mean − apart would cancel; the product of both squares is what the soundboard has without the box.)
         let high = mean + apart;
         let low = own * own * air / high;
+        // The higher mode; the lower one stands upright on it. (Of two rows that say it the one that does not cancel.)
+        let [x, y] = if half > 0.0 { [half + apart, both] } else { [both, apart - half] };
+        let length = (x * x + y * y).sqrt();
+        let [x, y] = [x / length, y / length];
         [low, high].map(|square| {
-            // The rows of a symmetric matrix of two: whichever does not cancel.
-            let [x, y] = if half > 0.0 { [square - air, both] } else { [both, square - board] };
-            let length = (x * x + y * y).sqrt();
-            let [x, y] = if length > 0.0 { [x / length, y / length] } else { [1.0, 0.0] };
+            let [x, y] = if square == low { [-y, x] } else { [x, y] };
             let (board, plug) = (x / self.mass.sqrt(), y / plug.sqrt());
             let volume = self.area * board + self.hole * plug;
             self.mode(square.sqrt() / TAU, board, volume)
@@ -169,6 +187,24 @@ mod tests {
             // Pushed for ever, it moves no air: what the board pushes out comes in by the hole.
             let slow = |mode: Mode| mode.bridge * mode.pressure / mode.frequency.powi(2);
             assert!((slow(low) + slow(high)).abs() < 1e-12 * slow(high).abs());
+        }
+    }
+
+    /// Where the two lowest modes are that the files of instruments name.
+    #[test]
+    fn instruments_swing_where_they_say() {
+        for (name, low, high) in
+            [("classical", 100.0, 190.0), ("steel", 103.0, 192.0), ("ukulele", 216.0, 382.0)]
+        {
+            let modes = crate::setup::Setup::shipped(name)
+                .and_then(|setup| setup.body)
+                .expect("it has one")
+                .with_air();
+            println!("{name}: {:.1} and {:.1} Hz", modes[0].frequency, modes[1].frequency);
+            assert!(
+                (modes[0].frequency - low).abs() < 0.6 && (modes[1].frequency - high).abs() < 0.6,
+                "{name}"
+            );
         }
     }
 

@@ -213,7 +213,7 @@ impl SceneString {
     pub(super) fn output(&self) -> f64 {
         match &self.listening {
             Some(reading) => self.state.velocity_at(&self.model, reading),
-            None => bridge_force(&self.model, &self.scratch),
+            None => bridge_force(&self.model, &self.scratch, 0.0),
         }
     }
 

@@ -28,7 +28,7 @@ const HEARD: [(&str, &str); 39] = [
     ("pickup_position", "Near the saddle is thin and bright, near the neck round and full."),
     (
         "pickup_blend",
-        "Mixes in the other pickup: the force on the bridge beside a coil, or a coil beside the bridge.",
+        "Mixes in the other pickup: the force on the bridge beside a coil, or a coil beside bridge or microphone.",
     ),
     ("tuning", "Another concert pitch: every note sounds higher or lower."),
     ("string_tuning", "Tunes this open string; keys keep their pitch and find it on other frets."),

@@ -27,9 +27,10 @@ fn rings(room: &Room, instrument: &str, string: usize, key: u8) -> (f64, f32, St
     (sound.len() as f64 / (2 * RATE) as f64, last / peak(&sound), said)
 }
 
-/// By its losses alone, s: the lowest partial's time to fall so far.
+/// By its losses alone, s: the slowest partial's time to fall so far, which is the lowest but over a body.
 fn need(setup: &Setup, string: usize) -> f64 {
-    f64::from(1.0 / QUIET).ln() / setup.string[string].decay(setup.neck.scale_length, 1)
+    let slowest = (1..=10).map(|partial| setup.decay(string, partial)).fold(f64::INFINITY, f64::min);
+    f64::from(1.0 / QUIET).ln() / slowest
 }
 
 #[test]

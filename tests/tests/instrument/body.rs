@@ -55,7 +55,7 @@ fn every_note_sounds_and_is_near_its_pitch() {
             println!("{name}, string {string}, key {key}: {level:.1} dBFS, {found:.1} cents");
             if in_tune {
                 worst = worst.max(found.abs());
-                assert!(found.abs() < 14.0, "{name}, string {string}, key {key}: {found} cents");
+                assert!(found.abs() < 12.0, "{name}, string {string}, key {key}: {found} cents");
             }
         });
         let mean = levels.iter().sum::<f64>() / levels.len() as f64;
@@ -65,20 +65,21 @@ fn every_note_sounds_and_is_near_its_pitch() {
             low - mean,
             high - mean
         );
-        assert!(low > mean - 16.0 && high < mean + 12.0, "{name}: {low} and {high} about {mean} dBFS");
+        assert!(low > mean - 14.5 && high < mean + 9.0, "{name}: {low} and {high} about {mean} dBFS");
     }
 }
 
-/// The time in which a sound falls by 60 dB, by its first and its second half second.
+/// The time in which a sound would fall by 60 dB as it does from its first to its second half second.
 fn decay(sound: &[f32]) -> f64 {
     let [first, second] = [2400..24_000, 26_400..48_000].map(|part| decibels(rms(&sound[part])));
     60.0 / (first - second) * 0.5
 }
 
-/// On the mean of all notes: nylon and steel strings of guitars ring for seconds, not for half a minute.
+/// By the mean rate of all notes: nylon and steel strings of guitars ring for seconds, not for half a minute. What is expected is what
+/// is documented.
 #[test]
 fn strings_lose_to_the_body() {
-    for (name, longest) in [("classical", 6.0), ("steel", 6.0), ("ukulele", 4.0)] {
+    for (name, falls, rigid) in [("classical", 4.2, 15.0), ("steel", 4.0, 13.0), ("ukulele", 2.0, 8.0)] {
         let (mut with, mut without) = (Vec::new(), Vec::new());
         each_note(name, |_, _, sound| with.push(1.0 / decay(sound)));
         let setup = at_the_bridge(&shipped(name));
@@ -91,7 +92,8 @@ fn strings_lose_to_the_body() {
         }
         let [with, without] = [with, without].map(|all| all.len() as f64 / all.iter().sum::<f64>());
         println!("{name}: {with:.1} s with the body, {without:.1} s without");
-        assert!(with < longest && with < 0.6 * without, "{name}: {with} s and {without} s");
+        let near = |time: f64, expected: f64| (time / expected - 1.0).abs() < 0.06;
+        assert!(near(with, falls) && near(without, rigid), "{name}: {with} s and {without} s");
     }
 }
 
@@ -100,36 +102,75 @@ fn strings_lose_to_the_body() {
 fn a_body_rings_on_and_comes_to_rest() {
     for name in BODIES {
         let setup = shipped(name);
-        let pitch = setup.string.last().expect("it has strings").pitch.round() as u8;
+        let last = setup.string.len() - 1;
+        let pitch = setup.string[last].pitch.round() as u8;
         let mut stage = Stage::over_body(&setup);
-        let played = stage.play(&[(0.0, on(pitch, 100)), (0.5, off(pitch))], 6.0);
-        let sound: Vec<f32> = played.strings.last().expect("it has strings").clone();
+        // Where the string begins to be at rest for good.
+        let mut rests = 0.0;
+        let played = stage.watch(&[(0.0, on(pitch, 100)), (0.5, off(pitch))], 6.0, |time, instrument| {
+            if instrument.state(last).motion().any(|motion| motion != 0.0) {
+                rests = time;
+            }
+        });
+        let sound = &played.strings[last];
         assert!(decibels(rms(&sound[43_200..48_000])) < decibels(rms(&sound[4800..24_000])) - 40.0, "{name}");
+        let after =
+            largest(sound[(rests * RATE) as usize + 64..].iter().map(|sample| f64::from(sample.abs())));
+        println!("{name}: the string rests from {rests:.2} s on, the body is then heard by {after:e}");
+        assert!(rests > 0.5 && after > 0.0, "{name}: only the body is heard from {rests} s on");
         assert!(stage.instrument.is_silent(), "{name} is at rest");
-        assert_eq!(largest(sound[240_000..].iter().copied()), 0.0, "{name} is silent");
+        assert!(sound[240_000..].iter().all(|&sample| sample == 0.0), "{name} is silent");
     }
 }
 
+/// Also while strings fall asleep, bodies ring out, and strings wake again.
 #[test]
 fn a_body_sounds_alike_however_it_is_asked_for() {
+    let length = 150_000;
     let render = |block: usize| {
         let mut instrument =
             Instrument::new(&shipped("steel"), &Quality::Live.settings(RATE)).expect("it can be built");
-        for string in 0..6 {
-            let gesture = Gesture::Pluck { position: 0.5, force: -1.0, duration: 0.003, release: 0.0 };
-            let time = 100 * string as u64;
+        let mut at = |time, string, gesture| {
             instrument.schedule(TimedGesture { time, string, gesture }).expect("there is room");
+        };
+        let pluck = Gesture::Pluck { position: 0.5, force: -1.0, duration: 0.003, release: 0.0 };
+        for string in 0..6 {
+            at(100 * string as u64, string, pluck);
+            at(12_000 + 100 * string as u64, string, Gesture::Still { loss: 300.0, duration: 0.4 });
+            at(60_001 + 10_000 * string as u64, string, pluck);
         }
-        let (mut left, mut right) = (vec![0.0; 24_000], vec![0.0; 24_000]);
+        let (mut left, mut right) = (vec![0.0; length], vec![0.0; length]);
         for (left, right) in left.chunks_mut(block).zip(right.chunks_mut(block)) {
             instrument.process(left, right);
         }
         (left, right)
     };
-    let whole = render(24_000);
-    assert!(rms(&whole.0) > 1e-3, "it sounds");
+    let whole = render(length);
+    assert!(rms(&whole.0[..12_000]) > 1e-3 && rms(&whole.0[110_000..]) > 1e-4, "it sounds");
+    assert!(rms(&whole.0[55_000..60_000]) < 1e-6, "it is still between");
     for block in [1, 7, 480] {
         assert!(render(block) == whole, "in blocks of {block}");
+    }
+}
+
+/// A coil is as loud as a microphone beside which it is heard, within 6 dB, and so is a piezo under the saddle, whatever
+/// the rate.
+#[test]
+fn other_pickups_are_about_as_loud() {
+    for name in BODIES {
+        let shipped = shipped(name);
+        let level = |setup: &Setup| {
+            let mut stage = Stage::over_body(setup);
+            let keys = setup.string.iter().map(|spec| (0.0, on(spec.pitch.round() as u8, 90)));
+            let played = stage.play(&keys.collect::<Vec<_>>(), 0.5);
+            decibels(played.strings.iter().map(|sound| rms(&sound[1440..]).powi(2)).sum::<f64>().sqrt())
+        };
+        let microphone = level(&shipped);
+        let coil = level(&Setup { blend: 1.0, ..shipped.clone() });
+        let gain = shipped.gain * shipped.body.expect("it has one").pascals_per_newton();
+        let piezo = level(&Setup { pickup: Pickup::Bridge {}, gain, ..shipped });
+        println!("{name}: {microphone:.1} dBFS, by a coil {coil:.1}, by a piezo {piezo:.1}");
+        assert!((coil - microphone).abs() < 6.0 && (piezo - microphone).abs() < 6.0, "{name}");
     }
 }
 
@@ -169,13 +210,19 @@ fn what_cannot_be_is_refused() {
         let error = text(&body(key, value), microphone).expect_err("it is out of range").to_string();
         assert_eq!(error, accepted);
     }
+    let bridge = "[bridge]\nlength = 0.01\nradius = 1.0\n".to_owned();
+    let error = text(&(bridge + &body("", "")), microphone).expect_err("a wide bridge rests").to_string();
+    assert!(
+        error.starts_with("body = a table is refused: there must be none beside a wide [bridge]"),
+        "{error}"
+    );
     let error = text("", microphone).expect_err("there is none").to_string();
     assert!(error.contains("pickup.kind") && error.contains("[body]"), "{error}");
     let crowded = body("mass", "0.01").replace("spacing = 45.0", "spacing = 5.0");
     let error = text(&crowded, microphone).expect_err("it is too light").to_string();
     assert!(
         error.starts_with("body.mass = 0.01 is refused: it must be at least 0.01")
-            && error.ends_with(" kg (under string[2])"),
+            && error.contains(" kg (under string["),
         "{error}"
     );
 }

@@ -1,6 +1,7 @@
 //! Tuning, from rendered sound at 48 kHz, `live`: the first partial between 0.25 and 1.35 s after a note
 //! at velocity 60 lies within a cent of equal temperament on every fret and every open string of every
-//! set-up, at a bridge that stands still (how far a body puts notes off is in `body`); and every semitone on a bare board within 10.
+//! set-up, at a bridge that stands still (how far a body puts notes off is in `body`); and every semitone on a bare board within
+//! 10.
 
 use std::f64::consts::TAU;
 

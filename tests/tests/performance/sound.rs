@@ -52,7 +52,8 @@ impl Alone {
     }
 }
 
-/// Runs a check on every set-up, [heard at its bridge](at_the_bridge), and the outer and a middle string of each, set-ups side by side.
+/// Runs a check on every set-up, [heard at its bridge](at_the_bridge), and the outer and a middle string of each, set-ups side by
+/// side.
 fn everywhere(check: impl Fn(Alone) + Sync) {
     std::thread::scope(|scope| {
         for name in Setup::BUILTIN {

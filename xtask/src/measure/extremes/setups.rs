@@ -144,11 +144,11 @@ fn set_up(draw: &mut Draw, setup: &mut Setup, close: f64) {
     // From what is nearly as light as the strings to what hardly gives way. (One that is too light is drawn anew.)
     setup.body = draw.chance(0.4).then(|| Body {
         frequency: draw.over(30.0, 2000.0),
-        mass: draw.over(0.01, 10.0),
-        area: draw.over(1e-3, 1.0),
+        mass: draw.over(0.01, 1000.0),
+        area: draw.over(1e-4, 1.0),
         quality: draw.over(1.0, 200.0),
-        spacing: draw.over(20.0, 1000.0),
-        volume: draw.over(1e-3, 1.0),
+        spacing: draw.over(5.0, 1000.0),
+        volume: draw.over(1e-4, 1.0),
         hole: draw.over(1e-5, 0.1),
     });
     if setup.body.is_none() && setup.pickup == (Pickup::Microphone {}) {

@@ -185,7 +185,8 @@ fn prepare_scene(string: &str, rest: &str, extra: &Extra) -> Result<Box<dyn FnMu
     }))
 }
 
-/// The default instrument with its lowest strings, as many of which are plucked as are to ring; with the body of `classical`, or none.
+/// The default instrument with its lowest strings, as many of which are plucked as are to ring; with the body of `classical`, or
+/// none.
 fn prepare_instrument(
     strings: usize,
     ringing: usize,

@@ -77,7 +77,7 @@ pub fn table(aims: &[Aim]) -> String {
         let met = if aim.is_met() { "met" } else { "**missed**" };
         text += &format!("| {} | {} | {} | {met} |\n", aim.what, plain(aim.at_most), shown(aim.found));
     }
-    text + "\nOnce an instrument is put in tune, all frets of the electric and acoustic guitars are within a cent at `live` \
+    text + "\nOnce an instrument is put in tune, all frets of the electric and acoustic guitars are within a cent at `live`, at a bridge that stands still \
             (`tests/tests/instrument/tuning.rs`).\n"
 }
 

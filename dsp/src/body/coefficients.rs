@@ -1,0 +1,66 @@
+//! What stays the same of a body's modes, side by side.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::field::LANES;
+use crate::setup::Mode;
+
+/// Modes side by side.
+pub(super) type Row = [f64; LANES];
+
+/// Coefficients of modes side by side; where there is none they are 0.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Coefficients {
+    /// What is left of the motion, (1 − ε)/(1 + ε) with ε = tanh(ωk/2Q).
+    pub kept: Row,
+    /// What the spring adds to it, (2 − 2√(1 − ε²) cos θ)/(1 + ε), θ the turn in a step, k√(ω² − (ω/2Q)²): together they have the mode
+    /// ring and die away as it would without steps.
+    pub spring: Row,
+    /// What 1 N on the bridge adds to it, k²φ/(1 + ε).
+    pub force: Row,
+    /// φ, 1/√kg.
+    pub bridge: Row,
+    /// Sound pressure for a change of the motion, Pa/(m√kg).
+    pub pressure: Row,
+    /// What the spring has of 1 kg, 1/s².
+    pub own: Row,
+}
+
+/// Modes above this part of the rate are left out.
+const HIGHEST: f64 = 0.4;
+
+impl Coefficients {
+    /// Those of so many modes, in rows, at a time step, s.
+    pub fn of(modes: Vec<Mode>, time_step: f64) -> Vec<Coefficients> {
+        let slow: Vec<_> = modes.into_iter().filter(|mode| mode.frequency * time_step < HIGHEST).collect();
+        let row = |modes: &[Mode]| {
+            let mut row = Coefficients::default();
+            for (lane, mode) in modes.iter().enumerate() {
+                row.set(lane, mode, time_step);
+            }
+            row
+        };
+        slow.chunks(LANES).map(row).collect()
+    }
+
+    fn set(&mut self, lane: usize, mode: &Mode, time_step: f64) {
+        let lossy = libm::tanh(PI * mode.frequency * time_step / mode.quality);
+        let half = 0.5 / mode.quality;
+        let turn = TAU * mode.frequency * time_step * (1.0 - half * half).sqrt();
+        let square = 2.0 - 2.0 * (1.0 - lossy * lossy).sqrt() * libm::cos(turn);
+        let (k2, lost) = (time_step * time_step, 1.0 / (1.0 + lossy));
+        self.kept[lane] = (1.0 - lossy) * lost;
+        self.spring[lane] = square * lost;
+        self.force[lane] = k2 * mode.bridge * lost;
+        self.bridge[lane] = mode.bridge;
+        self.pressure[lane] = mode.pressure / k2;
+        self.own[lane] = square / k2;
+    }
+
+    /// Σφ²·f(own) over the modes of several rows.
+    pub fn sum(rows: &[Coefficients], of_own: impl Fn(f64) -> f64) -> f64 {
+        let all = rows.iter().flat_map(|row| row.bridge.into_iter().zip(row.own));
+        // (Of a lane without a mode nothing is asked: its spring is none.)
+        all.filter(|(_, own)| *own > 0.0).map(|(phi, own)| phi * phi * of_own(own)).sum()
+    }
+}
