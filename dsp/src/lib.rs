@@ -127,7 +127,8 @@
 //! | R, D | `Ratio`, `DELAY` | – | steps of a string in a sample of the host's; samples of the host's by which all are late |
 //! | 𝔥, 𝔮, 𝔭 | [`Energies`], `power_loss` (its terms are [`Losses`]) and `power_solver`, `power_in` ([`Inputs`]) | J, W, W | stored, lost, put in |
 //!
-//! D is also the difference along the string (section 4), and in `docs/solver.md` the slopes of the laws.
+//! D is also the difference along the string (section 4), and in `docs/solver.md` the slopes of the laws. What section 9 of
+//! `docs/physics.md` says of bars and of bodies has letters of its own, each said where it is first used.
 
 mod active;
 mod band;
