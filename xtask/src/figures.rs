@@ -5,6 +5,7 @@
 //! everything else, so that a picture or a number cannot disagree with the code. Beside every picture there
 //! is a sound, which stays out of the repository.
 
+mod bodies;
 mod chaos;
 mod convergence;
 mod figure_2;
@@ -79,6 +80,7 @@ const FIGURES: &[Figure] = &[
     quick("beyond_convergence", convergence::make),
     quick("beyond_strings", strings::make),
     quick("beyond_chaos", chaos::make),
+    quick("beyond_bodies", bodies::make),
 ];
 
 /// The page, in `docs`.

@@ -76,15 +76,32 @@ impl Body {
         0.4 * self.area / self.mass
     }
 
-    /// What the bridge takes up of a force of a frequency, Hz, as Re Y of its velocity over that force, s/kg.
+    /// What the bridge takes up of a force of a frequency, Hz: the real part of its velocity over that force, s/kg.
     pub fn takes_up(&self, frequency: f64) -> f64 {
         let omega = TAU * frequency;
-        let of = |mode: Mode| {
+        // Of what stands in phase with the force and a quarter of a turn behind it, the latter is displacement that has velocity.
+        self.moved(frequency, |mode| mode.bridge * mode.bridge)[1] * omega
+    }
+
+    /// The sound pressure that a force of a frequency, Hz, on the bridge makes, Pa for each newton.
+    pub fn sounds(&self, frequency: f64) -> f64 {
+        let omega = TAU * frequency;
+        let [ahead, behind] = self.moved(frequency, |mode| mode.bridge * mode.pressure);
+        omega * omega * (ahead * ahead + behind * behind).sqrt()
+    }
+
+    /// The sum over all modes of what each is moved by a force of 1 N on 1 kg, m, times something of it: in phase with the force, and a
+    /// quarter of a turn behind.
+    fn moved(&self, frequency: f64, of: impl Fn(Mode) -> f64) -> [f64; 2] {
+        let omega = TAU * frequency;
+        let [mut ahead, mut behind] = [0.0; 2];
+        for mode in self.modes() {
             let own = TAU * mode.frequency;
             let (stiff, lossy) = (own * own - omega * omega, omega * own / mode.quality);
-            omega * mode.bridge * mode.bridge * lossy / (stiff * stiff + lossy * lossy)
-        };
-        self.modes().into_iter().map(of).sum()
+            let part = of(mode) / (stiff * stiff + lossy * lossy);
+            (ahead, behind) = (ahead + part * stiff, behind + part * lossy);
+        }
+        [ahead, behind]
     }
 
     /// All modes: the two in which soundboard and air swing together, then those of the soundboard alone.

@@ -6,7 +6,7 @@ use low_action_dsp::setup::Pickup;
 use low_action_dsp::{Gesture, Instrument, Quality, Setup, TimedGesture};
 use low_action_tests::numbers::{largest, rms};
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{Stage, at_the_bridge, decibels, hertz, off, on};
+use low_action_tests::stage::{Stage, at_the_bridge, decibels, hertz, off, on, peak};
 
 const RATE: f64 = 48_000.0;
 
@@ -121,6 +121,33 @@ fn a_body_rings_on_and_comes_to_rest() {
         assert!(stage.instrument.is_silent(), "{name} is at rest");
         assert!(sound[240_000..].iter().all(|&sample| sample == 0.0), "{name} is silent");
     }
+}
+
+/// The first sound comes as soon as without a body. When the hand comes down the body rings on, and yet what is heard falls fast.
+#[test]
+fn notes_begin_at_once_and_end_soon() {
+    let (mut latest, mut least) = (0.0_f64, f64::INFINITY);
+    for name in BODIES {
+        let setup = shipped(name);
+        for (index, spec) in setup.string.iter().enumerate() {
+            let mut stage = Stage::over_body(&Setup { string: vec![spec.clone()], ..setup.clone() });
+            for (fret, velocity) in [(0, 50), (5, 50), (12, 50), (0, 120), (5, 120), (12, 120)] {
+                let key = spec.pitch.round() as u8 + fret;
+                let played = stage.play(&[(0.0, on(key, velocity)), (0.3, off(key))], 0.6);
+                let sound = &played.strings[0];
+                let heard = 0.01 * peak(&sound[..1_920]);
+                let first =
+                    sound.iter().position(|&sample| f64::from(sample.abs()) > heard).expect("it sounds");
+                latest = latest.max(1e3 * first as f64 / RATE);
+                let before = decibels(peak(&sound[12_960..14_400]));
+                let down = before - decibels(peak(&sound[21_600..24_000]));
+                println!("{name}, string {index}, fret {fret} at {velocity}: {first}, {down:.1} dB down");
+                least = least.min(down);
+            }
+        }
+    }
+    println!("first after {latest:.2} ms, at least {least:.1} dB down after 150 ms");
+    assert!(latest < 3.0 && least > 30.0, "first after {latest} ms, {least} dB down");
 }
 
 /// Also while strings fall asleep, bodies ring out, and strings wake again.
