@@ -24,7 +24,7 @@ pub fn bridge_force(model: &Model, scratch: &Scratch, lift: f64) -> f64 {
     let [slope, bend] = end_shape([point(1), point(2), point(3), point(4)]);
     let tension = scratch.stiffness().tension + stretch_tension(model, scratch);
     let bending = model.string.linear_density * model.string.kappa_squared();
-    tension * (slope / h - lift / model.grid.length) + bending * bend / (h * h * h)
+    (tension * slope / h - tension * lift / model.grid.length) + bending * bend / (h * h * h)
 }
 
 /// −h ∂ₓu and h³ ∂ₓₓₓu of a string at its end x = L, m, from the displacements h, 2h, 3h and 4h before it, m.

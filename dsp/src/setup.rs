@@ -54,8 +54,8 @@ pub struct Setup {
     /// A bridge over which the strings wrap; none means that they end at an edge.
     #[serde(default)]
     pub bridge: Option<Bridge>,
-    /// What the bridge stands on, if it gives way; none means that it does not.
-    #[serde(default)]
+    /// What the bridge stands on, if it gives way; none, or `false` in a file, means that it does not.
+    #[serde(default, deserialize_with = "body::or_none")]
     pub body: Option<Body>,
     /// The player's hands.
     pub player: Player,

@@ -1,8 +1,11 @@
 //! The body of an instrument: what the strings move at the bridge, and what sounds in the air.
 
 use std::f64::consts::{PI, TAU};
+use std::fmt::{self, Formatter};
 
-use serde::{Deserialize, Serialize};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Unexpected, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::{Error, within};
 
@@ -24,6 +27,29 @@ pub struct Body {
     pub volume: f64,
     /// Area of its hole, m², 1e-5 to 0.1.
     pub hole: f64,
+}
+
+/// A body as a table, or `false` for none: what takes away the one that a set-up is based on.
+pub(super) fn or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Body>, D::Error> {
+    struct OrNone;
+
+    impl<'de> Visitor<'de> for OrNone {
+        type Value = Option<Body>;
+
+        fn expecting(&self, formatter: &mut Formatter) -> fmt::Result {
+            formatter.write_str("a table or `false`")
+        }
+
+        fn visit_bool<E: serde::de::Error>(self, value: bool) -> Result<Self::Value, E> {
+            if value { Err(E::invalid_type(Unexpected::Bool(true), &self)) } else { Ok(None) }
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+            Body::deserialize(MapAccessDeserializer::new(map)).map(Some)
+        }
+    }
+
+    deserializer.deserialize_any(OrNone)
 }
 
 /// One way in which body and air swing, by itself.

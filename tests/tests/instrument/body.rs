@@ -243,6 +243,13 @@ fn what_cannot_be_is_refused() {
         error.starts_with("body = a table is refused: there must be none beside a wide [bridge]"),
         "{error}"
     );
+    // What a set-up is based on may be taken away, and nothing else may stand in its place.
+    let rigid = "name = \"x\"\nbased_on = \"steel\"\nbody = false\npickup = { kind = \"bridge\" }";
+    assert_eq!(Setup::from_toml(rigid).expect("it is valid").body, None);
+    let error = Setup::from_toml(&rigid.replace("false", "true")).expect_err("it says nothing").to_string();
+    assert!(error.contains("body") && error.contains("a table or `false`"), "{error}");
+    let error = Setup::from_toml("based_on = \"steel\"\nbody = { mas = 1.0 }").expect_err("none").to_string();
+    assert!(error.contains("mas") && error.contains("mass"), "{error}");
     let error = text("", microphone).expect_err("there is none").to_string();
     assert!(error.contains("pickup.kind") && error.contains("[body]"), "{error}");
     let crowded = body("mass", "0.01").replace("spacing = 45.0", "spacing = 5.0");

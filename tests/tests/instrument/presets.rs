@@ -372,7 +372,7 @@ fn a_setup_can_be_another_with_a_few_things_changed() {
 #[test]
 fn limits_are_short_and_accepted_and_values_as_given() {
     let refused = |change: &str| {
-        Setup::from_toml(&format!("based_on = \"classical\"\n{change}")).expect_err(change).to_string()
+        Setup::from_toml(&format!("based_on = \"electric\"\n{change}")).expect_err(change).to_string()
     };
     for (table, key, rest, wrong, limited) in [
         ("bridge", "length", "radius = 1.0", "5.000000000001", "m, clear of the board"),
@@ -384,7 +384,7 @@ fn limits_are_short_and_accepted_and_values_as_given() {
         let limit =
             limit.and_then(|limit| limit.strip_suffix(limited)?.split(" and ").nth(1)).expect(&error).trim();
         assert!(limit.trim_start_matches(['0', '.']).len() <= 4, "{error}");
-        Setup::from_toml(&format!("based_on = \"classical\"\n{}", with(limit))).expect("it is accepted");
+        Setup::from_toml(&format!("based_on = \"electric\"\n{}", with(limit))).expect("it is accepted");
     }
     for (change, expected) in [
         ("player.pluck_position = -1e-12", "player.pluck_position = -1e-12 is refused: "),
