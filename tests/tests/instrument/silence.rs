@@ -2,7 +2,7 @@
 
 use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture, Touch};
 use low_action_tests::numbers::{largest, largest_step};
-use low_action_tests::stage::peak;
+use low_action_tests::stage::{at_the_bridge, peak};
 
 const RATE: f64 = 48_000.0;
 /// Energy at which a string falls asleep, J, as the documentation states it.
@@ -19,9 +19,9 @@ const HOVERING: Touch = Touch { mass: 5e-3, stiffness: 1e7, exponent: 2.0, dampi
 /// The second pluck, by when a damped string has long been silent.
 const AGAIN: u64 = 6 * RATE as u64;
 
-/// The highest string of an instrument alone, lossy enough to fall silent within seconds.
+/// The highest string of an instrument alone, at a bridge that stands still, lossy enough to fall silent within seconds.
 fn setup(name: &str) -> Setup {
-    let mut setup = Setup::builtin(name).expect("built in");
+    let mut setup = at_the_bridge(&Setup::builtin(name).expect("built in"));
     setup.string.truncate(1);
     setup.string[0].loss_0 = 20.0;
     setup
