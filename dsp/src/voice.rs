@@ -1,5 +1,6 @@
 //! One string of an instrument: its model, its motion, the hands on it and what is heard of it.
 
+mod handover;
 #[cfg(test)]
 mod tests;
 
@@ -19,11 +20,11 @@ use crate::observed::Observed;
 use crate::pickup::{Listener, PickupMix};
 use crate::ramp::Ramp;
 use crate::ratio::Ratio;
-use crate::roomy::Roomy;
 use crate::settings::EngineSettings;
 use crate::setup::Setup;
 use crate::state::State;
 use crate::string::Scratch;
+use handover::Settling;
 
 /// One string with all that belongs to it.
 #[derive(Debug, Clone)]
@@ -52,25 +53,12 @@ pub(crate) struct Voice {
     pub observed: Observed,
 }
 
-/// Frets and board on their way to where the model has them.
-#[derive(Debug, Clone)]
-struct Settling {
-    /// Heights from which they started, m, in the model's order.
-    from: Roomy<f64>,
-    /// How far they have come, 0 to 1.
-    part: Ramp,
-}
-
 /// Samples of the host's that a string is stepped through at a time, at most.
 pub(crate) const RUN: usize = 64;
 
 /// A string nobody touches sleeps once its energy is below this, J: a soft pluck holds 1e-6 J, so this
 /// is 140 dB under it.
 const SILENCE: f64 = 1e-20;
-
-/// The time frets and board take from where the string of another model left them to their own place, s:
-/// a millimetre at the speed of a slow finger.
-const SETTLING: f64 = 0.04;
 
 impl Voice {
     /// Tunes the string, places its frets, compiles its model; allocates.
@@ -116,7 +104,7 @@ impl Voice {
             asleep: true,
             run: vec![0.0; RUN],
             silent: true,
-            settling: Settling { from: Roomy::with_capacity(model.contacts.len()), part: Ramp::at(1.0) },
+            settling: Settling::none(&model),
             ledger: None,
             observed: Observed::new(&model),
             model,
@@ -250,20 +238,6 @@ impl Voice {
         self.rebook();
     }
 
-    /// Moves frets and board by a sample's share of their way.
-    #[cold]
-    fn settle(&mut self) {
-        let part = self.settling.part.step();
-        let way = self.settling.from.iter().zip(&self.model.contacts);
-        self.drive.heights.clear();
-        if part < 1.0 {
-            self.drive.heights.extend(way.map(|(from, contact)| from + (contact.height - from) * part));
-        } else {
-            // The last move ends exactly there; afterwards the barrier rests.
-            self.drive.heights.extend(way.map(|(_, contact)| contact.height));
-        }
-    }
-
     /// Has the ledger, if there is one, book what was done to the string beside its steps.
     fn rebook(&mut self) {
         if let Some(ledger) = &mut self.ledger {
@@ -274,37 +248,6 @@ impl Voice {
     /// Opens the ledger of the string in its present state; allocates.
     pub fn open_ledger(&mut self) {
         self.ledger = Some(Ledger::new(&self.model, &self.state, self.hands.tension()));
-    }
-
-    /// Takes over from another string of the same host's rate: its motion, the fingers on it, the
-    /// plucks under way, and its ledger, for which it leaves its own. Nothing is allocated or given back, but by ledgers.
-    pub fn take_over(&mut self, old: &mut Voice) {
-        if old.ledger.is_some() {
-            std::mem::swap(&mut self.ledger, &mut old.ledger);
-            old.rebook();
-        }
-        self.asleep = old.asleep;
-        self.hands.take_over(&old.hands, &self.model, &old.model);
-        self.listener.take_over(&old.listener);
-        self.decimator.take_over(&old.decimator);
-        if self.asleep {
-            // Nobody heard the old tension, and no ramp runs while nothing moves.
-            self.hands.arrive();
-        } else {
-            self.state.take_over(&self.model, &old.state, &old.model);
-            self.hands.keep_only(&self.state);
-        }
-        if let Some(body) = &mut self.body {
-            body.take_over(old.body.as_ref(), &self.model, &self.state, self.hands.tension());
-        }
-        if self.asleep {
-            return self.rebook();
-        }
-        self.settling.from.clear();
-        self.settling.from.extend_from_slice(self.state.heights());
-        self.settling.part = Ramp::at(0.0);
-        self.settling.part.go(1.0, (SETTLING / self.model.grid.time_step).round() as u64);
-        self.rebook();
     }
 
     /// Silence, with nobody near.
