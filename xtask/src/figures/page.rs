@@ -91,13 +91,13 @@ fn mark(name: &str) -> String {
     format!("<!-- {name} -->")
 }
 
-/// The section of a figure as it stands in a page.
+/// The section of a figure as it stands in a page, with the empty line after it that the last one of a page has not.
 pub fn section_of(page: &str, name: &str) -> Option<String> {
     let mark = mark(name);
     let start = page.find(&mark)?;
     let after = start + mark.len();
     let end = page[after..].find("<!-- ").map_or(page.len(), |length| after + length);
-    Some(page[start..end].to_owned())
+    Some(page[start..end].trim_end().to_owned() + "\n\n")
 }
 
 /// Puts the page together and counts what holds.
