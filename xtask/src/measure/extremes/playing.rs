@@ -11,7 +11,7 @@ use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedG
 use super::balance::Flow;
 use super::draw::Draw;
 use super::progress::Progress;
-use super::scenes;
+use super::{scenes, setups};
 
 const RATE: f64 = 48e3;
 const BLOCK: usize = 480;
@@ -160,6 +160,7 @@ fn other_setup(name: &str, draw: &mut Draw) -> Result<Setup> {
     // Some get a wide bridge, from one exchange to the next.
     setup.bridge =
         draw.chance(0.2).then(|| Bridge { length: draw.over(5e-3, 0.02), radius: draw.over(1e-2, 100.0) });
+    setups::bear(&mut setup);
     setup.tuning = draw.between(-0.5, 0.5);
     setup.tension_modulation = draw.chance(0.8);
     for string in &mut setup.string {

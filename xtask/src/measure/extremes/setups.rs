@@ -151,6 +151,14 @@ fn set_up(draw: &mut Draw, setup: &mut Setup, close: f64) {
         volume: draw.over(1e-4, 1.0),
         hole: draw.over(1e-5, 0.1),
     });
+    bear(setup);
+}
+
+/// Takes away the body of one that has a wide bridge, which stands still, and a microphone in front of none.
+pub fn bear(setup: &mut Setup) {
+    if setup.bridge.is_some() {
+        setup.body = None;
+    }
     if setup.body.is_none() && setup.pickup == (Pickup::Microphone {}) {
         setup.pickup = Pickup::Bridge {};
     }
