@@ -8,6 +8,10 @@ use super::trial::Fault;
 /// and beside that as much as the last digits of the numbers in the balance are worth.
 pub const TOLERANCE: f64 = 1e-9;
 
+/// Energy that is none, J. What runs ahead of a wave is set to rest below 1e-120 m, which takes 1e-230 J at a time: of a string that
+/// has 1e-224 J, as one had, that is more than the tolerance.
+const NOTHING: f64 = 1e-210;
+
 /// The balance of a whole trial as it goes on.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Balance {
@@ -105,7 +109,7 @@ impl Parts {
     /// # Errors
     /// When a promise is broken.
     pub fn of(ledger: &Ledger, put_in: f64) -> Result<Parts, Fault> {
-        let all = larger(put_in, f64::MIN_POSITIVE);
+        let all = larger(put_in, NOTHING);
         let parts = Parts {
             created: (ledger.energies().total() - ledger.put_in) / all,
             open: ledger.residual_sum.abs() / all,
