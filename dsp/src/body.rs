@@ -28,7 +28,7 @@ use swing::Swing;
 pub(crate) struct Body {
     instructions: Instructions,
     coefficients: Vec<Coefficients>,
-    /// How many of the last rows' lanes are modes: all bodies of as many are alike in kind.
+    /// How many there are: the last row need not be full.
     modes: usize,
     /// qⁿ and qⁿ − qⁿ⁻¹, m√kg.
     place: Vec<Row>,

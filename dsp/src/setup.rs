@@ -233,15 +233,16 @@ impl Setup {
         tension_ratio(self.max_bend)
     }
 
-    /// How fast a partial (1 for the lowest) of an open string dies away, 1/s: by [its own losses](SetupString::decay) and by what the
-    /// body takes up, 2f₁Z Re Y to first order, Z = √(Tρ) = 2Lf₁ρ its wave impedance; 0 without either.
+    /// How fast a partial (1 for the lowest, or between two) of an open string dies away, 1/s: by [its own
+    /// losses](SetupString::decay) and by what the body takes up, 2f₁Z Re Y to first order, Z = √(Tρ) = 2Lf₁ρ its wave impedance;
+    /// 0 without either.
     ///
     /// # Panics
     /// When there is no such string.
-    pub fn decay(&self, string: usize, partial: u32) -> f64 {
+    pub fn decay(&self, string: usize, partial: f64) -> f64 {
         let (spec, length) = (&self.string[string], self.neck.scale_length);
         let fundamental = frequency(spec.pitch + self.tuning);
-        let taken = self.body.map_or(0.0, |body| body.takes_up(f64::from(partial) * fundamental));
+        let taken = self.body.map_or(0.0, |body| body.takes_up(partial * fundamental));
         spec.decay(length, partial) + 4.0 * length * spec.linear_density * fundamental * fundamental * taken
     }
 

@@ -96,8 +96,9 @@ impl EngineOptions {
     pub fn tail(&self) -> f64 {
         // The slowest partial is the lowest, but over a body, which takes some more than others.
         let partials = if self.setup.body.is_some() { 10 } else { 1 };
-        let slowest =
-            |string| (1..=partials).map(|n| self.setup.decay(string, n)).fold(f64::INFINITY, f64::min);
+        let slowest = |string| {
+            (1..=partials).map(|n| self.setup.decay(string, f64::from(n))).fold(f64::INFINITY, f64::min)
+        };
         let time = |string| libm::log(1.0 / QUIET) / slowest(string);
         (0..self.setup.string.len()).map(time).fold(0.0, f64::max)
     }

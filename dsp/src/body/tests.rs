@@ -9,16 +9,7 @@ use crate::scene::{SolverSettings, Stencil};
 use crate::setup::Setup;
 use crate::string::Scratch;
 
-/// As a classical guitar may have it.
-const GUITAR: Description = Description {
-    frequency: 170.0,
-    mass: 0.1,
-    area: 0.05,
-    quality: 20.0,
-    spacing: 50.0,
-    volume: 0.0145,
-    hole: 0.0055,
-};
+const GUITAR: Description = Description::GUITAR;
 
 /// The low E of nylon, without losses of its own; with room for a body.
 fn low_string(stencil: Stencil) -> Model {

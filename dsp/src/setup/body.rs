@@ -198,25 +198,31 @@ impl Body {
 }
 
 #[cfg(test)]
+impl Body {
+    /// As a guitar may have it, for tests.
+    pub(crate) const GUITAR: Body = Body {
+        frequency: 170.0,
+        mass: 0.1,
+        area: 0.05,
+        quality: 20.0,
+        spacing: 50.0,
+        volume: 0.0145,
+        hole: 0.0055,
+    };
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
-
-    fn guitar() -> Body {
-        Body {
-            frequency: 170.0,
-            mass: 0.1,
-            area: 0.05,
-            quality: 20.0,
-            spacing: 50.0,
-            volume: 0.0145,
-            hole: 0.0055,
-        }
-    }
 
     /// Both modes together know what the matrix is made of: the sum and the product of their squares, and a mass of 1 kg each.
     #[test]
     fn board_and_air_swing_together() {
-        for body in [guitar(), Body { frequency: 60.0, ..guitar() }, Body { frequency: 900.0, ..guitar() }] {
+        for body in [
+            Body::GUITAR,
+            Body { frequency: 60.0, ..Body::GUITAR },
+            Body { frequency: 900.0, ..Body::GUITAR },
+        ] {
             let plug = AIR * body.hole * PLUG * (body.hole / PI).sqrt();
             let spring = AIR * SPEED * SPEED / body.volume;
             let helmholtz = (spring * body.hole * body.hole / plug).sqrt() / TAU;
@@ -255,7 +261,7 @@ mod tests {
     /// is what a plate of mass 4m takes up.
     #[test]
     fn higher_modes_take_up_as_much_as_a_plate() {
-        let body = guitar();
+        let body = Body::GUITAR;
         let band = 1000.0..6000.0;
         let own = body.higher(200.0).filter(|mode| band.contains(&mode.frequency));
         // Each mode has π/2 · φ² of ∫ Re Y dω.

@@ -38,10 +38,10 @@ fn alike() -> f64 {
 }
 
 impl SetupString {
-    /// How fast a partial (1 for the lowest) of a string of such a length, m, dies away, 1/s: σ₀ + σ₁γ², with the wavenumber γ
+    /// How fast a partial (1 for the lowest, or between two) of a string of such a length, m, dies away, 1/s: σ₀ + σ₁γ², with the wavenumber γ
     /// that it has where both ends are fixed; 0 without losses.
-    pub fn decay(&self, length: f64, partial: u32) -> f64 {
-        let wavenumber = std::f64::consts::PI * f64::from(partial) / length;
+    pub fn decay(&self, length: f64, partial: f64) -> f64 {
+        let wavenumber = std::f64::consts::PI * partial / length;
         self.loss_0 + self.loss_1 * wavenumber * wavenumber
     }
 

@@ -29,7 +29,8 @@ fn rings(room: &Room, instrument: &str, string: usize, key: u8) -> (f64, f32, St
 
 /// By its losses alone, s: the slowest partial's time to fall so far, which is the lowest but over a body.
 fn need(setup: &Setup, string: usize) -> f64 {
-    let slowest = (1..=10).map(|partial| setup.decay(string, partial)).fold(f64::INFINITY, f64::min);
+    let slowest =
+        (1..=10).map(|partial| setup.decay(string, f64::from(partial))).fold(f64::INFINITY, f64::min);
     f64::from(1.0 / QUIET).ln() / slowest
 }
 

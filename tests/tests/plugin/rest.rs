@@ -83,8 +83,9 @@ fn the_tail_is_as_long_as_the_strings_ring() {
         let setup = Setup::shipped(name).expect("it comes with the program");
         // Of the first ten partials the one that lasts longest: the lowest, but over a body.
         let all = (0..setup.string.len()).flat_map(|string| (1..=10).map(move |partial| (string, partial)));
-        let longest =
-            largest(all.map(|(string, partial)| -QUIET.ln() / (loss * setup.decay(string, partial))));
+        let longest = largest(
+            all.map(|(string, partial)| -QUIET.ln() / (loss * setup.decay(string, f64::from(partial)))),
+        );
         (longest * RATE) as u32
     };
     let ringing = |settings: &[(&str, f64)]| {

@@ -72,7 +72,7 @@ fn partials(setup: &Setup, index: usize) -> Result<Vec<Partial>> {
     let fundamental = low_action_dsp::setup::frequency(alone.string[0].pitch);
     let of = |n: u32| Partial {
         frequency: f64::from(n) * fundamental,
-        expected: alone.decay(0, n),
+        expected: alone.decay(0, f64::from(n)),
         found: libm::log(amplitudes[0][n as usize - 1] / amplitudes[1][n as usize - 1]) / LATER,
     };
     Ok((1..=PARTIALS).map(of).collect())
@@ -116,16 +116,11 @@ fn draw(strings: &[Vec<Partial>; 3]) -> Result<String> {
         Axis::log("T60, s", 0.3..30.0).ticks(3).cut(),
     );
     for ((index, name, stroke), partials) in STRINGS.into_iter().zip(strings) {
-        let (spec, length) = (&classical.string[index], classical.neck.scale_length);
-        let (body, lowest) = (classical.body.context("it has one")?, partials[0].frequency);
-        let decay = |f: f64| {
-            let wave = PI * f / lowest / length;
-            let own = spec.loss_0 + spec.loss_1 * wave * wave;
-            own + 4.0 * length * spec.linear_density * lowest * lowest * body.takes_up(f)
-        };
+        let lowest = partials[0].frequency;
         let t60 = |rate: f64| libm::log(1000.0) / rate;
         let highest = f64::from(PARTIALS) * lowest;
-        let line = sweep(lowest, highest, 400).map(|f| (f, t60(decay(f)))).collect();
+        let line =
+            sweep(lowest, highest, 400).map(|f| (f, t60(classical.decay(index, f / lowest)))).collect();
         let dots = partials.iter().map(|partial| (partial.frequency, t60(partial.found))).collect();
         times = times.with(Layer::line(name, stroke, line)).with(Layer::dots("", stroke, dots));
     }

@@ -34,7 +34,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
 
 /// Time in which a partial of an open string falls by 60 dB, s: infinite where it loses nothing.
 fn ringing_time(setup: &Setup, string: usize, partial: u32) -> f64 {
-    1000_f64.ln() / setup.decay(string, partial)
+    1000_f64.ln() / setup.decay(string, f64::from(partial))
 }
 
 /// A time as it is written beside its bar.
