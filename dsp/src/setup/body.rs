@@ -44,6 +44,11 @@ pub(super) fn or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Opti
             if value { Err(E::invalid_type(Unexpected::Bool(true), &self)) } else { Ok(None) }
         }
 
+        // As JSON has none: in labels, which hold the set-up whole.
+        fn visit_unit<E: serde::de::Error>(self) -> Result<Self::Value, E> {
+            Ok(None)
+        }
+
         fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
             Body::deserialize(MapAccessDeserializer::new(map)).map(Some)
         }
