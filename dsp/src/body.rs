@@ -1,4 +1,4 @@
-//! The body under one string's bridge: it gives way to the string, loses what the air and the wood take, and sounds.
+//! The body under the bridge, as far as one string moves it: it gives way to strings, loses what the air and the wood take, and sounds.
 //!
 //! Each mode is a mass of 1 kg on a spring. The bridge is where their motions q add up, w = Σφq. The string's end goes with it:
 //! seen from the straight line between its ends the string moves as one with fixed ends, so that the same passes do for it,
@@ -23,7 +23,7 @@ use end::End;
 pub(crate) use end::ROOM;
 use swing::Swing;
 
-/// A body as it moves.
+/// A body as one string moves it.
 #[derive(Debug, Clone)]
 pub(crate) struct Body {
     instructions: Instructions,
@@ -33,11 +33,13 @@ pub(crate) struct Body {
     /// qⁿ and qⁿ − qⁿ⁻¹, m√kg.
     place: Vec<Row>,
     motion: Vec<Row>,
-    /// How far the bridge is up, m.
+    /// How far the bridge is up by that, m.
     bridge: f64,
     end: End,
     time_step: f64,
     still: bool,
+    /// Whether it has never moved, nor taken over from another that has.
+    new: bool,
 }
 
 /// What is heard of a body at a sample.
@@ -45,7 +47,7 @@ pub(crate) struct Body {
 pub(crate) struct Heard {
     /// Sound pressure, Pa.
     pub pressure: f64,
-    /// How far the bridge is up, m.
+    /// How far the bridge is up, by all strings, m.
     pub lift: f64,
     /// The force on the bridge of a string that goes along in a straight line, N, up is positive.
     pub straight: f64,
@@ -57,19 +59,12 @@ pub(crate) fn most_tension(model: &Model, has_body: bool) -> f64 {
 }
 
 impl Body {
-    /// The body under a string.
-    ///
-    /// # Errors
-    /// When it is so light beside this string that the grid has no room for what both are together.
-    pub fn new(description: &Description, model: &Model) -> Result<Body, Error> {
+    /// The body under a string. Whether it is not too light has been [asked](check) of all its strings.
+    pub fn new(description: &Description, model: &Model) -> Body {
         let k = model.grid.time_step;
         let coefficients = Coefficients::of(description.modes(), k);
-        let most = most_tension(model, true);
-        if End::taken(model, most, &coefficients) > 1.0 {
-            return Err(too_light(description, model));
-        }
         let rows = coefficients.len();
-        Ok(Body {
+        Body {
             instructions: Instructions::best(),
             modes: coefficients.iter().flat_map(|row| row.own).filter(|own| *own > 0.0).count(),
             coefficients,
@@ -79,37 +74,44 @@ impl Body {
             end: End::new(model, model.string.tension),
             time_step: k,
             still: true,
-        })
+            new: true,
+        }
     }
 
-    /// What the bridge does to the string in the step to come, what is heard of it, and the body's own step by what the string does
-    /// to it. To be asked before the string moves.
+    /// How far the bridge is up by its string, m.
     #[inline]
-    pub fn step(&mut self, model: &Model, state: &State, tension: f64) -> (Push, Heard) {
+    pub fn lift(&self) -> f64 {
+        self.bridge
+    }
+
+    /// What a bridge that is `lift` m up does to the string in the step to come, what is heard of the body, and its own step by what
+    /// the string does to it. To be asked before the string moves.
+    #[inline]
+    pub fn step(&mut self, model: &Model, state: &State, tension: f64, lift: f64) -> (Push, Heard) {
         if tension != self.end.tension {
             self.end = End::new(model, tension);
         }
         let End { reading, pull, back, .. } = self.end;
-        let push = Push { reading, force: pull * self.bridge };
-        (push, self.swing(pull * reading.of(&state.displacement) - back * self.bridge))
+        let push = Push { reading, force: pull * lift };
+        (push, self.swing(pull * reading.of(&state.displacement) - back * lift, lift))
     }
 
     /// Goes on by itself, under a string at rest. Once nobody could hear it it rests, too; that is looked for in every sample, so that
     /// it does not depend on the pieces in which they come.
-    pub fn ring(&mut self) -> Heard {
-        if self.still {
+    pub fn ring(&mut self, lift: f64) -> Heard {
+        if self.still && lift == 0.0 {
             return Heard::default();
         }
-        let heard = self.swing(-self.end.line * self.bridge);
+        let heard = self.swing(-self.end.line * lift, lift);
         if self.energy() < STILLNESS {
-            self.reset();
+            self.be_still();
         }
         heard
     }
 
     /// Advances all modes under a force on the bridge, N.
     #[inline]
-    fn swing(&mut self, force: f64) -> Heard {
+    fn swing(&mut self, force: f64, lift: f64) -> Heard {
         let Body { coefficients, place, motion, .. } = self;
         let [bridge, pressure] = self.instructions.run(Swing { force, coefficients, place, motion });
         if force.abs() < STILL {
@@ -118,8 +120,7 @@ impl Body {
                 *number = if number.abs() < STILL { 0.0 } else { *number };
             }
         }
-        let lift = self.bridge;
-        (self.bridge, self.still) = (bridge, false);
+        (self.bridge, self.still, self.new) = (bridge, false, false);
         Heard { pressure, lift, straight: -self.end.line * lift }
     }
 
@@ -141,30 +142,37 @@ impl Body {
         self.still
     }
 
-    /// Takes over how another body moves, mode by mode; one that has fewer or more modes, or none, begins where the string holds it.
-    pub fn take_over(&mut self, old: Option<&Body>, model: &Model, state: &State, tension: f64) {
-        self.end = End::new(model, tension);
-        match old.filter(|old| old.modes == self.modes) {
-            Some(old) => {
-                let slower = self.time_step / old.time_step;
-                self.place.copy_from_slice(&old.place);
-                for (motion, old) in self.motion.iter_mut().zip(&old.motion) {
-                    *motion = old.map(|motion| motion * slower);
-                }
-            }
-            None => self.hold(state),
-        }
-        let rows = self.coefficients.iter().zip(&self.place);
-        let lanes = rows.flat_map(|(row, place)| row.bridge.into_iter().zip(*place));
-        self.bridge = lanes.map(|(phi, place)| phi * place).sum();
-        self.still = old.is_none_or(Body::is_still) && self.bridge == 0.0;
+    /// Whether it has never moved, nor taken over from one that has.
+    pub fn is_new(&self) -> bool {
+        self.new
     }
 
-    /// Rests where the string holds it: the bridge gives way to F = pull·u − back·w by w = CF, C = Σφ²/ω².
-    fn hold(&mut self, state: &State) {
+    /// Takes over how another body moves, mode by mode; one that has fewer or more modes, or none, leaves it new.
+    pub fn take_over(&mut self, old: Option<&Body>, model: &Model, tension: f64) {
+        self.end = End::new(model, tension);
+        let Some(old) = old.filter(|old| old.modes == self.modes) else { return };
+        let slower = self.time_step / old.time_step;
+        self.place.copy_from_slice(&old.place);
+        for (motion, old) in self.motion.iter_mut().zip(&old.motion) {
+            *motion = old.map(|motion| motion * slower);
+        }
+        self.find_bridge();
+        (self.still, self.new) = (old.is_still() && self.bridge == 0.0, old.new);
+    }
+
+    /// The force on the bridge of a string in a state, N, and what 1 m of the bridge's own takes away from it, N.
+    pub fn pulled(&self, state: &State) -> [f64; 2] {
         let End { reading, pull, back, .. } = self.end;
-        let gives = Coefficients::sum(&self.coefficients, |own| 1.0 / own);
-        let force = pull * reading.of(&state.displacement) / (1.0 + gives * back);
+        [pull * reading.of(&state.displacement), back]
+    }
+
+    /// How far the bridge gives way to 1 N that stays, m.
+    pub fn gives(&self) -> f64 {
+        Coefficients::sum(&self.coefficients, |own| 1.0 / own)
+    }
+
+    /// Rests under a force that stays, N.
+    pub fn rest_under(&mut self, force: f64) {
         for (row, place) in self.coefficients.iter().zip(&mut self.place) {
             let at = |lane: usize| {
                 if row.own[lane] > 0.0 { row.bridge[lane] * force / row.own[lane] } else { 0.0 }
@@ -172,31 +180,56 @@ impl Body {
             *place = std::array::from_fn(at);
         }
         self.motion.fill(Row::default());
+        self.find_bridge();
+        self.still = self.bridge == 0.0;
     }
 
-    /// At rest.
-    pub fn reset(&mut self) {
+    fn find_bridge(&mut self) {
+        let rows = self.coefficients.iter().zip(&self.place);
+        let lanes = rows.flat_map(|(row, place)| row.bridge.into_iter().zip(*place));
+        self.bridge = lanes.map(|(phi, place)| phi * place).sum();
+    }
+
+    fn be_still(&mut self) {
         self.place.fill(Row::default());
         self.motion.fill(Row::default());
         (self.bridge, self.still) = (0.0, true);
     }
+
+    /// At rest, as if it had never moved.
+    pub fn reset(&mut self) {
+        self.be_still();
+        self.new = true;
+    }
 }
 
-/// The refusal of a body that is too light for a string, with the mass that would do.
-fn too_light(description: &Description, model: &Model) -> Error {
-    let most = most_tension(model, true);
-    let k = model.grid.time_step;
+/// Refuses a body so light beside the strings over it, all of one rate, that their grids have no room for what all are together.
+pub(crate) fn check(description: &Description, strings: &[&Model]) -> Result<(), Error> {
+    if taken(description, strings) > 1.0 { Err(too_light(description, strings)) } else { Ok(()) }
+}
+
+/// How much a body takes of what strings leave; they are stable up to 1.
+fn taken(description: &Description, strings: &[&Model]) -> f64 {
+    let each = |model: &&Model| {
+        let modes = Coefficients::of(description.modes(), model.grid.time_step);
+        End::taken(model, most_tension(model, true), &modes)
+    };
+    strings.iter().map(each).sum()
+}
+
+/// The refusal of a body that is too light for its strings, with the mass that would do.
+fn too_light(description: &Description, strings: &[&Model]) -> Error {
     let mut heavier = *description;
     // What is taken goes nearly with 1/mass.
     for _ in 0..100 {
-        let taken = End::taken(model, most, &Coefficients::of(heavier.modes(), k));
+        let taken = taken(&heavier, strings);
         if taken <= 1.0 {
             let accepted = format!("it must be at least {} kg", plain(at_least(heavier.mass)));
             return Error::range("body.mass", plain(description.mass), accepted);
         }
         heavier.mass *= taken.clamp(1.001, 1e3);
     }
-    let accepted = "no mass will do: a string so stiff leaves no room on its grid";
+    let accepted = "no mass will do: strings so stiff leave no room on their grids";
     Error::range("body.mass", plain(description.mass), accepted)
 }
 

@@ -120,6 +120,11 @@ impl Decimator {
         self.second = 0;
     }
 
+    /// Has its next sample be the first or the second of two that share a step, whichever that of another is.
+    pub fn follow(&mut self, other: &Decimator) {
+        self.second = other.second;
+    }
+
     /// Forgets the past.
     pub fn reset(&mut self) {
         self.values.fill(0.0);

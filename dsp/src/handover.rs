@@ -23,6 +23,7 @@ use crate::model::{Contact, ContactKind, Model};
 use crate::ramp::Ramp;
 use crate::scene::SolverSettings;
 use crate::state::State;
+use crate::together;
 
 /// The time in which one sound fades into the other, s.
 const FADE: f64 = 0.02;
@@ -49,8 +50,10 @@ impl Instrument {
         successor.goes_on = self.continues_in(&successor);
         if successor.goes_on {
             successor.queue.take_over(&self.queue);
-            for (voice, old) in successor.voices.iter_mut().zip(&mut self.voices) {
-                voice.take_over(old);
+            let together = successor.together;
+            let old = self.voices.chunks_mut(together);
+            for (strings, old) in successor.voices.chunks_mut(together).zip(old) {
+                together::take_over(strings, old);
             }
         }
         // Whoever looks goes on looking, at what there is now.
@@ -133,7 +136,7 @@ impl Instrument {
     ) {
         let Some(before) = &mut self.before else { return };
         let run = span.len();
-        before.voices.iter_mut().for_each(|voice| voice.run(run));
+        before.run(run);
         for (i, at) in span.enumerate() {
             // All that follows is the new sound to the last bit, as in runs that begin later.
             if self.fade.rests() {

@@ -1,15 +1,16 @@
 //! An instrument: strings over a neck under two hands, heard through a pickup.
 //!
-//! Everything is allocated when it is built. Strings do not hear each other, so each is stepped through
-//! a whole run of samples at a time, at a multiple of the sample rate of its own ([`crate::settings`]);
-//! gestures cut runs at their exact samples, and so the samples are the same however they are asked for.
+//! Everything is allocated when it is built. Strings on a bridge that stands still do not hear each other, so each is stepped through
+//! a whole run of samples at a time, at a multiple of the sample rate of its own ([`crate::settings`]); those over a body go on
+//! together. Gestures cut runs at their exact samples, and so the samples are the same however they are asked for.
 
 use std::ops::Range;
 
+use crate::body;
 use crate::decimate::DELAY;
 use crate::drive::Drive;
 use crate::error::Error;
-use crate::gesture::TimedGesture;
+use crate::gesture::{Gesture, TimedGesture};
 use crate::intonation::{Behind, finger_position};
 use crate::model::Model;
 use crate::observed::Observed;
@@ -21,6 +22,7 @@ use crate::settings::EngineSettings;
 use crate::setup::Setup;
 use crate::state::State;
 use crate::string::Scratch;
+use crate::together;
 use crate::voice::{RUN, Voice};
 
 /// What a player needs to know of one string.
@@ -52,6 +54,8 @@ impl StringGeometry {
 #[derive(Debug, Clone)]
 pub struct Instrument {
     pub(crate) voices: Vec<Voice>,
+    /// How many strings, next to each other, move together: one, or all over a body.
+    pub(crate) together: usize,
     pub(crate) queue: Queue,
     pub(crate) now: u64,
     pub(crate) level: Level,
@@ -84,7 +88,11 @@ impl Instrument {
         let voices = (0..setup.string.len())
             .map(|index| Voice::new(setup, index, settings))
             .collect::<Result<Vec<_>, Error>>()?;
+        if let Some(body) = &setup.body {
+            body::check(body, &voices.iter().map(|voice| &voice.model).collect::<Vec<_>>())?;
+        }
         Ok(Instrument {
+            together: if setup.body.is_some() { voices.len() } else { 1 },
             voices,
             queue: Queue::new(),
             now: 0,
@@ -206,20 +214,32 @@ impl Instrument {
         let mut done = 0;
         while done < count {
             while let Some(due) = self.queue.pop_due(self.now) {
-                if let Some(voice) = self.voices.get_mut(due.string) {
-                    voice.begin(due.gesture);
-                }
+                self.begin(due.string, due.gesture);
                 // What fades out while its strings go on is played on, so that an attack does not fade in.
-                if let Some(voice) = self.fading().and_then(|before| before.voices.get_mut(due.string)) {
-                    voice.begin(due.gesture);
+                if let Some(before) = self.fading() {
+                    before.begin(due.string, due.gesture);
                 }
             }
             let until_gesture = self.queue.next_time().map_or(RUN as u64, |time| time - self.now);
             let run = (count - done).min(RUN).min(usize::try_from(until_gesture).unwrap_or(RUN));
-            self.voices.iter_mut().for_each(|voice| voice.run(run));
+            self.run(run);
             self.mix(done..done + run, stems, left, right);
             done += run;
         }
+    }
+
+    /// Begins a gesture on a string, if it is there.
+    fn begin(&mut self, string: usize, gesture: Gesture) {
+        if let Some(strings) = self.voices.chunks_mut(self.together).nth(string / self.together)
+            && string % self.together < strings.len()
+        {
+            together::begin(strings, string % self.together, gesture);
+        }
+    }
+
+    /// Steps all strings through so many samples, at most [`RUN`].
+    pub(crate) fn run(&mut self, samples: usize) {
+        self.voices.chunks_mut(self.together).for_each(|strings| together::run(strings, samples));
     }
 
     /// Mixes what the strings have played last into the samples `span`, and goes on to the next.

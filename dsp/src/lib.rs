@@ -176,6 +176,7 @@ mod solver;
 pub mod state;
 pub mod string;
 mod threads;
+mod together;
 mod touching;
 mod voice;
 

@@ -67,8 +67,18 @@ impl EngineSettings {
         }
     }
 
-    /// How many steps a string of a set-up takes in a sample: as few as its grid's spacing allows.
+    /// How many steps a string of a set-up takes in a sample: as few as its grid's spacing allows, or, where strings hear each other
+    /// through a body, that of the string that needs most.
     pub fn ratio(&self, setup: &Setup, string: &SetupString) -> Ratio {
+        if setup.body.is_none() {
+            return self.own_ratio(setup, string);
+        }
+        let all = setup.string.iter().map(|string| self.own_ratio(setup, string));
+        all.max().unwrap_or(Ratio::ONE)
+    }
+
+    /// That of a string by itself.
+    fn own_ratio(&self, setup: &Setup, string: &SetupString) -> Ratio {
         let parameters = flexible(setup, string);
         let most = Ratio::of_halves((2.0 * HIGHEST_RATE / self.sample_rate.max(*RATES.start())) as usize);
         let widest = self.widest(setup);

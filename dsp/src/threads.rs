@@ -1,11 +1,13 @@
-//! Strings shared out among threads, for rendering. Strings do not hear each other, so each can be played through a whole
-//! stretch by whichever thread is free, and what they have played is added up in their order as ever: the same bits.
+//! Strings shared out among threads, for rendering. Those that do not hear each other can each be played through a whole
+//! stretch by whichever thread is free, and what they have played is added up in their order as ever: the same bits. Strings over a
+//! body are one thread's work.
 
 use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use crate::instrument::Instrument;
+use crate::together;
 
 impl Instrument {
     /// The samples of [`Instrument::process_stems`], the strings shared out among so many threads. The longer the stretch, the
@@ -22,18 +24,22 @@ impl Instrument {
         right: &mut [f32],
     ) {
         let count = left.len().min(right.len());
-        let threads = threads.get().min(self.voices.len());
+        let threads = threads.get().min(self.voices.len().div_ceil(self.together));
         if threads == 1 || count == 0 || self.is_fading() {
             return self.process_stems(stems, left, right);
         }
         let now = self.now;
         let last = now + (count - 1) as u64;
         let gestures: Vec<_> = std::iter::from_fn(|| self.queue.pop_due(last)).collect();
-        let strings = Mutex::new(self.voices.iter_mut().enumerate());
+        let size = self.together;
+        let strings = Mutex::new(self.voices.chunks_mut(size).enumerate());
         let next = || strings.lock().unwrap_or_else(PoisonError::into_inner).next();
         let work = || {
-            while let Some((string, voice)) = next() {
-                voice.play(now, gestures.iter().filter(|gesture| gesture.string == string), count);
+            while let Some((index, strings)) = next() {
+                let first = index * size;
+                let of_these = first..first + strings.len();
+                let theirs = gestures.iter().filter(|gesture| of_these.contains(&gesture.string));
+                together::play(strings, now, theirs.map(|gesture| (gesture.string - first, gesture)), count);
             }
         };
         thread::scope(|scope| {

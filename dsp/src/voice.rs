@@ -11,7 +11,7 @@ use crate::decimate::Decimator;
 use crate::drive::Drive;
 use crate::energy::Ledger;
 use crate::error::Error;
-use crate::gesture::{FINGERS_PER_STRING, Gesture, TimedGesture};
+use crate::gesture::{FINGERS_PER_STRING, Gesture};
 use crate::hands::Hands;
 use crate::instrument::StringGeometry;
 use crate::intonation::intonate;
@@ -34,15 +34,15 @@ pub(crate) struct Voice {
     pub scratch: Scratch,
     pub drive: Drive,
     hands: Hands,
-    /// What the bridge stands on, if it gives way.
-    body: Option<Body>,
+    /// What the bridge stands on, if it gives way, as far as this string moves it.
+    pub body: Option<Body>,
     listener: Listener,
     decimator: Decimator,
     pub geometry: StringGeometry,
     gain: f64,
     pub pan: [f64; 2],
     asleep: bool,
-    /// The last samples heard: up to [`RUN`], or as many as [`Voice::play`] was last asked for.
+    /// The last samples heard: up to [`RUN`], or as many as [`Voice::make_room`] was last asked for.
     pub run: Vec<f64>,
     /// Whether `run` holds nothing but zeros, throughout, because nothing is left to be heard.
     pub silent: bool,
@@ -56,8 +56,8 @@ pub(crate) struct Voice {
 /// Samples of the host's that a string is stepped through at a time, at most.
 pub(crate) const RUN: usize = 64;
 
-/// A string nobody touches sleeps once its energy is below this, J: a soft pluck holds 1e-6 J, so this
-/// is 140 dB under it.
+/// A string nobody touches sleeps once its energy is below this, J, and that of all others over its body, and of the body: a
+/// soft pluck holds 1e-6 J, so this is 140 dB under it.
 const SILENCE: f64 = 1e-20;
 
 impl Voice {
@@ -80,8 +80,7 @@ impl Voice {
         {
             model.finger_law(&touch).map_err(|error| error.under(section).under(&name))?;
         }
-        let body = setup.body.as_ref().map(|body| Body::new(body, &model)).transpose();
-        let body = body.map_err(|error| error.under(&name))?;
+        let body = setup.body.as_ref().map(|body| Body::new(body, &model));
         let angle = 0.25 * std::f64::consts::PI * (spec.pan + 1.0);
         Ok(Voice {
             geometry: StringGeometry {
@@ -111,14 +110,18 @@ impl Voice {
         })
     }
 
-    /// Begins a gesture.
-    pub fn begin(&mut self, gesture: Gesture) {
-        if self.is_at_rest() {
+    /// Wakes the string, which may have been `at_rest`.
+    pub fn wake(&mut self, at_rest: bool) {
+        if at_rest {
             // It wakes with the first of two samples that may share a step: its sound does not depend on when. (While filters still
             // ring from before it fell asleep they go on, and it wakes with either.)
             self.decimator.reset();
         }
         self.asleep = false;
+    }
+
+    /// Begins a gesture; it is awake.
+    pub fn begin(&mut self, gesture: Gesture) {
         if self.hands.begin(gesture, &self.model, &mut self.state) {
             self.observed.see_gesture(&gesture);
         }
@@ -129,65 +132,59 @@ impl Voice {
         self.decimator.ratio()
     }
 
-    /// Steps the string through so many samples of the host's into `run`.
-    pub fn run(&mut self, samples: usize) {
-        if self.is_at_rest() {
-            if !self.silent {
-                self.run.fill(0.0);
-                self.silent = true;
-            }
-            return;
-        }
-        self.silent = false;
-        self.sound(0..samples);
+    /// Steps that it takes in the next so many samples of the host's.
+    pub fn steps(&self, samples: usize) -> usize {
+        self.decimator.steps(samples)
     }
 
-    /// Plays a stretch from sample `now` on into `run`, with its gestures in order of time: the same samples as those of
-    /// one [`Voice::run`] after another. Allocates where the stretch is longer than any before.
-    pub fn play<'a>(&mut self, now: u64, gestures: impl Iterator<Item = &'a TimedGesture>, samples: usize) {
+    /// Has room for so many samples in `run`.
+    pub fn make_room(&mut self, samples: usize) {
         if self.run.len() < samples {
             self.run.resize(samples, 0.0);
         }
-        let mut gestures = gestures.peekable();
-        let (mut done, mut sounded) = (0, false);
-        while done < samples {
-            let time = now + done as u64;
-            while let Some(due) = gestures.next_if(|next| next.time <= time) {
-                self.begin(due.gesture);
-            }
-            let until_gesture = gestures.peek().map_or(u64::MAX, |next| next.time - time);
-            let run = (samples - done).min(RUN).min(usize::try_from(until_gesture).unwrap_or(RUN));
-            let span = done..done + run;
-            if self.is_at_rest() {
-                self.run[span].fill(0.0);
-            } else {
-                sounded = true;
-                self.sound(span);
-            }
-            done += run;
-        }
-        self.silent = !sounded;
-        if self.silent {
-            self.run.fill(0.0);
-        }
     }
 
-    /// Steps the string through the samples `span` of `run`, at most [`RUN`].
-    fn sound(&mut self, span: Range<usize>) {
-        for index in 0..self.decimator.steps(span.len()) {
-            let value = self.gain * self.next();
-            self.decimator.take(index, value);
-        }
+    /// How far the bridge is up by this string, m.
+    #[inline]
+    pub fn lift(&self) -> f64 {
+        self.body.as_ref().map_or(0.0, Body::lift)
+    }
+
+    /// Takes the step of index `index` since samples were last given, over a bridge that is `lift` m up. Whether it may fall
+    /// asleep then: nobody could hear what is left of its motion.
+    #[inline]
+    pub fn step(&mut self, index: usize, lift: f64) -> bool {
+        let (signal, may_rest) = self.next(lift);
+        self.decimator.take(index, self.gain * signal);
+        may_rest
+    }
+
+    /// Gives the samples `span` of `run`, after the steps of so many.
+    pub fn give(&mut self, span: Range<usize>) {
+        self.silent = false;
         self.decimator.give(&mut self.run[span]);
         self.observed.see_shape(&self.state);
     }
 
+    /// Gives nothing but zeros.
+    pub fn be_silent(&mut self) {
+        if !self.silent {
+            self.run.fill(0.0);
+            self.silent = true;
+        }
+    }
+
     /// Whether it rests, and nothing that it has sent out is still on its way.
-    fn is_at_rest(&mut self) -> bool {
+    pub fn is_at_rest(&mut self) -> bool {
         self.asleep
             && self.decimator.is_empty()
             && self.body.as_ref().is_none_or(Body::is_still)
             && self.listener.is_still()
+    }
+
+    /// Whether it rests.
+    pub fn is_asleep(&self) -> bool {
+        self.asleep
     }
 
     /// Whether it rests, and nothing of it is left to be heard.
@@ -195,11 +192,16 @@ impl Voice {
         self.asleep && self.silent
     }
 
+    /// Whether nothing that its part of the body does would be heard of a string.
+    pub fn has_quiet_body(&self) -> bool {
+        self.body.as_ref().is_none_or(|body| body.energy() < SILENCE)
+    }
+
     #[inline]
-    fn next(&mut self) -> f64 {
+    fn next(&mut self, lift: f64) -> (f64, bool) {
         if self.asleep {
-            let heard = self.body.as_mut().map_or(Heard::default(), Body::ring);
-            return self.listener.hear_nothing(heard);
+            let heard = self.body.as_mut().map_or(Heard::default(), |body| body.ring(lift));
+            return (self.listener.hear_nothing(heard), false);
         }
         self.hands.drive(&mut self.state, &mut self.drive);
         if !self.settling.part.rests() {
@@ -211,7 +213,7 @@ impl Voice {
         let pushed = !self.drive.pushes.is_empty();
         let mut heard = Heard::default();
         if let Some(body) = &mut self.body {
-            let (push, of_body) = body.step(&self.model, &self.state, self.drive.tension);
+            let (push, of_body) = body.step(&self.model, &self.state, self.drive.tension, lift);
             self.drive.pushes.push(push);
             heard = of_body;
         }
@@ -223,15 +225,13 @@ impl Voice {
         let signal = self.listener.hear(&self.model, &self.state, &self.scratch, heard);
         // (That energy is from before the step: what was pushed in it is not in it yet.)
         let is_left_alone = self.hands.idle() && !pushed;
-        if is_left_alone && self.settling.part.rests() && self.scratch.string_energy() < SILENCE {
-            self.fall_asleep();
-        }
-        signal
+        let may_rest = is_left_alone && self.settling.part.rests() && self.scratch.string_energy() < SILENCE;
+        (signal, may_rest)
     }
 
     /// Brings the string to rest; nobody could hear what is left of its motion.
     #[cold]
-    fn fall_asleep(&mut self) {
+    pub fn fall_asleep(&mut self) {
         self.state.reset(&self.model);
         self.scratch.reset();
         self.asleep = true;

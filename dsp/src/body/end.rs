@@ -46,7 +46,7 @@ impl End {
     /// Both together are where 4/k² − K is not negative, K what drives string and body back, by masses of 1 kg. The string's
     /// own part of that is r·4/k² at least, r what is left. By what couples both, b = φ·pull·weights/√(ρh), the body then needs
     /// 4/k² − ω² − φφᵀ(back + |pull·weights|²/(ρh r 4/k²)) not to be negative for all its modes, which it is not while
-    /// (back + …) Σφ²/(4/k² − ω²) ≤ 1.
+    /// (back + …) Σφ²/(4/k² − ω²) ≤ 1. Of several strings over one body the brackets add up.
     pub fn taken(model: &Model, most: f64, modes: &[Coefficients]) -> f64 {
         let End { reading, pull, back, .. } = End::new(model, most);
         let (k, density) = (model.grid.time_step, model.string.linear_density);

@@ -59,7 +59,7 @@ impl Voice {
             self.hands.keep_only(&self.state);
         }
         if let Some(body) = &mut self.body {
-            body.take_over(old.body.as_ref(), &self.model, &self.state, self.hands.tension());
+            body.take_over(old.body.as_ref(), &self.model, self.hands.tension());
         }
         if self.asleep {
             return self.rebook();
@@ -69,5 +69,10 @@ impl Voice {
         self.settling.part = Ramp::at(0.0);
         self.settling.part.go(1.0, (SETTLING / self.model.grid.time_step).round() as u64);
         self.rebook();
+    }
+
+    /// Shares steps with the host's samples as another string of the same rate does.
+    pub fn follow(&mut self, other: &Voice) {
+        self.decimator.follow(&other.decimator);
     }
 }

@@ -1,7 +1,10 @@
+use std::slice::from_mut;
+
 use super::{RUN, Voice};
 use crate::gesture::Gesture;
 use crate::quality::Quality;
 use crate::setup::{Pickup, Setup};
+use crate::together;
 
 /// Samples of 20 s.
 const LENGTH: usize = 20 * 48_000;
@@ -21,6 +24,7 @@ const HOLDS: [Hold; 3] = [Hold::Pads([0.09, 0.054], 0.735), Hold::Pads([0.6, 0.4
 /// A string of a set-up that is plucked and held.
 fn held(setup: &Setup, hold: Hold) -> Voice {
     let mut voice = Voice::new(setup, 2, &Quality::Live.settings(48e3)).expect("it comes with the program");
+    voice.wake(true);
     let (damper, length) = (&setup.player.damper, voice.geometry.length);
     match hold {
         Hold::Pads(places, times) => {
@@ -52,9 +56,9 @@ fn filters_of_a_string_that_is_held_never_hold_subnormal_numbers() {
         }
         let [mut whole, mut single] = [0, 1].map(|_| held(&setup, hold));
         for block in 0..LENGTH / RUN {
-            whole.run(RUN);
+            together::run(from_mut(&mut whole), RUN);
             for sample in 0..RUN {
-                single.run(1);
+                together::run(from_mut(&mut single), 1);
                 let seconds = (block * RUN + sample) as f64 / 48e3;
                 let found = single.listener.filters().find(|filter| filter.holds_subnormal());
                 assert!(found.is_none(), "{name}, {hold:?}, after {seconds} s: {found:?}");
