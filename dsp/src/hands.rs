@@ -101,6 +101,10 @@ pub(crate) struct Hands {
     pub sample_rate: f64,
     pub plucks: Roomy<Pluck>,
     pub stilling: Stilling,
+    /// What hands add to the loss of a string that nobody plays, 1/s.
+    idle_loss: f64,
+    /// Whether the string is played: plucked or under a finger, and no hand has been laid along it since.
+    pub played: bool,
     pub fingers: [Option<Held>; FINGERS_PER_STRING],
     /// Tension that the string is bent to, N.
     pub bent: Ramp,
@@ -111,12 +115,14 @@ pub(crate) struct Hands {
 }
 
 impl Hands {
-    /// No hand near the string, which bears so much tension, N.
-    pub fn new(model: &Model, sample_rate: f64, most_tension: f64) -> Self {
+    /// Nobody plays the string, which bears so much tension, N.
+    pub fn new(model: &Model, sample_rate: f64, most_tension: f64, idle_loss: f64) -> Self {
         Hands {
             sample_rate,
             plucks: Roomy::with_capacity(PUSHES),
             stilling: Stilling::default(),
+            idle_loss,
+            played: false,
             fingers: [None; FINGERS_PER_STRING],
             bent: Ramp::at(model.string.tension),
             tuned: Ramp::at(1.0),
@@ -128,6 +134,7 @@ impl Hands {
     pub fn reset(&mut self, model: &Model) {
         self.plucks.clear();
         self.stilling = Stilling::default();
+        self.played = false;
         self.fingers = [None; FINGERS_PER_STRING];
         self.bent = Ramp::at(model.string.tension);
         self.tuned = Ramp::at(1.0);
@@ -170,6 +177,7 @@ impl Hands {
                 let ends = duration.is_finite() && release.is_finite();
                 let begins = self.plucks.len() < PUSHES && is_possible(force) && ends;
                 if begins {
+                    self.played = true;
                     let position = inside(position);
                     let reading = model.grid.reading(position);
                     let [duration, release] = [duration, release].map(|time| time.max(0.0));
@@ -212,6 +220,7 @@ impl Hands {
             Gesture::Still { loss, duration } => {
                 let begins = loss >= 0.0 && loss.is_finite() && duration.is_finite();
                 if begins {
+                    self.played = false;
                     self.stilling = Stilling { loss, left: self.samples(duration) };
                 }
                 begins
@@ -243,6 +252,7 @@ impl Hands {
         }
         // A finger that cannot be leaves the one that is there.
         let Some(law) = model.finger_law_if(&touch) else { return false };
+        self.played = true;
         let reading = model.grid.reading(place);
         let now = state.displacement_at(&reading);
         // Touching nothing a step ago either: a string that comes from above would be inside it.
@@ -267,7 +277,8 @@ impl Hands {
         drive.tension = self.tension();
         self.bent.step();
         self.tuned.step();
-        drive.loss = self.stilling.step();
+        let idle = if self.played { 0.0 } else { self.idle_loss };
+        drive.loss = self.stilling.step().max(idle);
         drive.pushes.clear();
         let rate = self.sample_rate;
         self.plucks.retain_mut(|pluck| {

@@ -94,7 +94,7 @@ impl Voice {
             state: State::new(&model),
             scratch: Scratch::new(&model),
             drive: Drive::new(&model),
-            hands: Hands::new(&model, rate, most_tension(&model, body.is_some())),
+            hands: Hands::new(&model, rate, most_tension(&model, body.is_some()), setup.player.idle_loss),
             body,
             listener: Listener::new(&PickupMix::of(setup, &placed.string), &model, rate),
             decimator: Decimator::new(ratio, RUN),

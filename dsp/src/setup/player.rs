@@ -19,6 +19,10 @@ pub struct Player {
     pub pluck_release: f64,
     /// Largest force of a pluck at velocity 127, N, 1e-3 to 1e3.
     pub pluck_force: f64,
+    /// What hands that lie on strings nobody plays add to their loss, 1/s, 0 to 1000: where strings hear each other through a body,
+    /// 0 leaves them free to sing along.
+    #[serde(default)]
+    pub idle_loss: f64,
     /// The finger that stops a string.
     pub fretting: Fretting,
     /// The finger or palm that silences a string.
@@ -85,6 +89,7 @@ impl Player {
         ranged("player.pluck_duration", self.pluck_duration, PLUCK_DURATION, "s")?;
         ranged("player.pluck_release", self.pluck_release, PLUCK_RELEASE, "s")?;
         ranged("player.pluck_force", self.pluck_force, PLUCK_FORCE, "N")?;
+        within("player.idle_loss", self.idle_loss, 0.0, 1000.0, "1/s")?;
         let Fretting { touch, force, hover, landing, behind, nearest } = &self.fretting;
         touch.check("player.fretting")?;
         ranged("player.fretting.force", *force, FRETTING_FORCE, "N")?;

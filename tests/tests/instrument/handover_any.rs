@@ -38,10 +38,14 @@ fn any_setup(which: usize, numbers: &[f64]) -> Setup {
 }
 
 /// The ledger of every string has closed in every sample so far.
-fn books(instrument: &Instrument) -> Result<(), TestCaseError> {
+///
+/// A string that only hears others moves with the bridge, w: it holds Tw²/2L, out of what the bridge pushes, Tw²/h, and what the
+/// points next to it push back. So its balance is known to some (L/h)ε of what it holds, with some 100 intervals to 2e-14 a term.
+fn books(instrument: &Instrument, over_body: bool) -> Result<(), TestCaseError> {
+    let known = if over_body { 1e-13 } else { 1e-14 };
     for string in 0..instrument.string_count() {
         let ledger = instrument.ledger(string).expect("it is open");
-        prop_assert!(ledger.worst_residual <= 1e-14, "string {string}: {:e}", ledger.worst_residual);
+        prop_assert!(ledger.worst_residual <= known, "string {string}: {:e}", ledger.worst_residual);
         let sum = ledger.residual_sum.abs();
         prop_assert!(sum <= 1e-12 * ledger.largest, "string {string}: {sum:e} of {:e}", ledger.largest);
         let energy = ledger.energies().total();
@@ -62,6 +66,7 @@ proptest! {
         // Once much the same strings, once perhaps others.
         let bases = [bases[0], bases[0], bases[1]];
         let setups: Vec<Setup> = bases.iter().zip(&setups).map(|(base, numbers)| any_setup(*base, numbers)).collect();
+        let over_body = setups.iter().any(|setup| setup.body.is_some());
         let mut instrument = build(&setups[0]);
         instrument.open_ledgers();
         strike(&mut instrument, &setups[0]);
@@ -70,7 +75,7 @@ proptest! {
         for (setup, base) in setups[1..].iter().zip(&bases[1..]) {
             prop_assert!(peak(&sound[sound.len() - samples.min(300)..]) > 0.0, "nothing is handed over");
             // Ledgers of strings that do not go on stay behind.
-            books(&instrument)?;
+            books(&instrument, over_body)?;
             prop_assert!(instrument.hand_over(Box::new(build(setup))).is_ok());
             if instrument.ledger(0).is_none() {
                 // Other strings, which begin at rest.
@@ -82,6 +87,6 @@ proptest! {
             instrument.take_before();
         }
         prop_assert!(sound.iter().all(|sample| sample.is_finite()));
-        books(&instrument)?;
+        books(&instrument, over_body)?;
     }
 }

@@ -18,6 +18,7 @@ mod setups;
 mod silence;
 mod stilling;
 mod string_rates;
+mod sympathy;
 mod tension_room;
 mod threads;
 mod timed_chord;

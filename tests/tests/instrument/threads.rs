@@ -11,8 +11,8 @@ const RATE: f64 = 48_000.0;
 const SAMPLES: usize = 72_000;
 
 /// Stereo sound and stems of a few chords, bends and rests, by so many threads in blocks of this size.
-fn play(threads: usize, block: usize) -> Vec<u32> {
-    let setup = Setup::builtin("electric").expect("it is built in");
+fn play(name: &str, threads: usize, block: usize) -> Vec<u32> {
+    let setup = Setup::builtin(name).expect("it is built in");
     let threads = NonZeroUsize::new(threads).expect("there is one");
     let options = EngineOptions { threads, ..EngineOptions::new(setup, RATE) };
     let mut engine = Engine::new(&options).expect("it can be built");
@@ -58,8 +58,17 @@ fn score() -> Vec<(usize, PlayerEvent)> {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    let expected = play(1, 512);
+    let expected = play("electric", 1, 512);
     for (threads, block) in [(2, 8_192), (2, 100), (3, SAMPLES), (64, 5_000)] {
-        assert!(play(threads, block) == expected, "{threads} threads in blocks of {block}");
+        assert!(play("electric", threads, block) == expected, "{threads} threads in blocks of {block}");
+    }
+}
+
+/// They hear each other, so that one thread plays them all.
+#[test]
+fn strings_over_a_body_give_the_same_bits() {
+    let expected = play("steel", 1, 512);
+    for (threads, block) in [(2, 8_192), (6, SAMPLES)] {
+        assert!(play("steel", threads, block) == expected, "{threads} threads in blocks of {block}");
     }
 }
