@@ -12,6 +12,7 @@ use crate::drive::Drive;
 use crate::error::Error;
 use crate::gesture::{Gesture, TimedGesture};
 use crate::intonation::{Behind, finger_position};
+use crate::level::Level;
 use crate::model::Model;
 use crate::observed::Observed;
 use crate::queue::Queue;
@@ -68,9 +69,6 @@ pub struct Instrument {
     /// Whether the strings of that one go on in these.
     pub(crate) goes_on: bool,
 }
-
-/// The time over which [`Instrument::level`] looks back, s.
-const LEVEL_TIME: f64 = 0.05;
 
 impl Instrument {
     /// How much later than it happens everything is heard, samples: the same for all instruments, so that
@@ -308,39 +306,4 @@ impl Instrument {
 #[inline]
 pub(crate) fn heard(sample: f64) -> f32 {
     if sample.abs() < f64::from(f32::MIN_POSITIVE) { 0.0 } else { sample as f32 }
-}
-
-/// The largest output of the last while.
-#[derive(Debug, Clone)]
-pub(crate) struct Level {
-    window: u64,
-    left: u64,
-    present: f64,
-    before: f64,
-}
-
-impl Level {
-    fn new(sample_rate: f64) -> Self {
-        let window = (LEVEL_TIME * sample_rate) as u64;
-        Level { window, left: window, present: 0.0, before: 0.0 }
-    }
-
-    #[inline]
-    fn see(&mut self, left: f64, right: f64) {
-        if self.left == 0 {
-            self.before = self.present;
-            self.present = 0.0;
-            self.left = self.window;
-        }
-        self.left -= 1;
-        self.present = self.present.max(left.abs()).max(right.abs());
-    }
-
-    fn value(&self) -> f64 {
-        self.present.max(self.before)
-    }
-
-    fn reset(&mut self) {
-        *self = Level { left: self.window, present: 0.0, before: 0.0, ..*self };
-    }
 }

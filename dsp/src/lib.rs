@@ -155,6 +155,7 @@ mod instructions;
 pub mod instrument;
 pub mod intonation;
 mod kernel;
+mod level;
 pub mod model;
 pub mod neck;
 pub mod observed;

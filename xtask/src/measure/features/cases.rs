@@ -28,7 +28,6 @@ enum What {
     Scene(&'static str, &'static str, Extra),
     /// The bare string with nobody to ask what else there is: its model stepped by hand.
     ByHand,
-    /// An instrument in which so many strings ring, of so many that are asked for.
     /// An instrument in which so many strings ring, of so many that are asked for, over a body or none.
     Instrument { strings: usize, ringing: usize, fretted: bool, body: bool },
 }
@@ -119,6 +118,11 @@ pub const CASES: &[Case] = &[
         name: "a guitar's body under one string",
         over: ONE_RINGS,
         what: What::Instrument { strings: 1, ringing: 1, fretted: false, body: true },
+    },
+    Case {
+        name: "… under six, one of them ringing",
+        over: ONE_RINGS,
+        what: What::Instrument { strings: 6, ringing: 1, fretted: false, body: true },
     },
 ];
 
