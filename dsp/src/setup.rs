@@ -150,7 +150,8 @@ impl Setup {
     /// what is heard of the other pickup), but for the place of the coil, back to what a set-up may have.
     pub fn limit(&mut self) {
         self.neck.limit();
-        let alike = [(&mut self.tuning, TUNING), (&mut self.blend, BLEND)];
+        let idle = (&mut self.player.idle_loss, player::IDLE_LOSS);
+        let alike = [(&mut self.tuning, TUNING), (&mut self.blend, BLEND), idle];
         let of_strings = self.string.iter_mut().flat_map(|SetupString { pitch, loss_0, loss_1, .. }| {
             [(pitch, PITCH), (loss_0, StringParameters::LOSS_0), (loss_1, StringParameters::LOSS_1)]
         });

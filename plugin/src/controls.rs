@@ -30,6 +30,8 @@ pub struct Luthier {
     pub pickup_position: f64,
     /// How much of the other kind of pickup is heard, 0 to 1.
     pub pickup_blend: f64,
+    /// Factor of what hands take of strings that nobody plays.
+    pub idle_hands: f64,
     /// Raises all strings, semitones.
     pub tuning: f64,
     /// Raises each open string, semitones.
@@ -49,6 +51,7 @@ impl Default for Luthier {
             tension_modulation: true,
             pickup_position: 0.0,
             pickup_blend: 0.0,
+            idle_hands: 1.0,
             tuning: 0.0,
             strings: [0.0; crate::params::TUNED_STRINGS],
         }
@@ -71,6 +74,7 @@ impl Luthier {
         }
         setup.blend = setup.blend.max(self.pickup_blend);
         setup.tension_modulation &= self.tension_modulation;
+        setup.player.idle_loss *= self.idle_hands;
         setup.tuning += self.tuning;
         for (index, string) in setup.string.iter_mut().enumerate() {
             string.loss_0 *= self.loss_0;

@@ -158,6 +158,9 @@ pub struct PlayerParams {
     /// Factor of the damping of the hand behind it.
     #[id = "hand_damping"]
     pub hand_damping: FloatParam,
+    /// Factor of how much hands take of strings that nobody plays.
+    #[id = "idle_hands"]
+    pub idle_hands: FloatParam,
 }
 
 /// How notes and controllers are taken.

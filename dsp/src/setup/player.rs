@@ -65,6 +65,8 @@ pub struct Damper {
 const PLUCK_DURATION: [f64; 2] = [1e-4, 0.1];
 const PLUCK_RELEASE: [f64; 2] = [0.0, 0.1];
 const PLUCK_FORCE: [f64; 2] = [1e-3, 1e3];
+/// What hands may take of strings that nobody plays, 1/s.
+pub(super) const IDLE_LOSS: [f64; 2] = [0.0, 1000.0];
 const FRETTING_FORCE: [f64; 2] = [0.1, 100.0];
 const HOVER: [f64; 2] = [0.0, 0.1];
 
@@ -89,7 +91,7 @@ impl Player {
         ranged("player.pluck_duration", self.pluck_duration, PLUCK_DURATION, "s")?;
         ranged("player.pluck_release", self.pluck_release, PLUCK_RELEASE, "s")?;
         ranged("player.pluck_force", self.pluck_force, PLUCK_FORCE, "N")?;
-        within("player.idle_loss", self.idle_loss, 0.0, 1000.0, "1/s")?;
+        ranged("player.idle_loss", self.idle_loss, IDLE_LOSS, "1/s")?;
         let Fretting { touch, force, hover, landing, behind, nearest } = &self.fretting;
         touch.check("player.fretting")?;
         ranged("player.fretting.force", *force, FRETTING_FORCE, "N")?;

@@ -230,6 +230,7 @@ fn usual(params: &LowActionParams) -> Values {
             &player.finger_mass,
             &player.finger_hover,
             &player.hand_damping,
+            &player.idle_hands,
         ]
         .map(one),
     );

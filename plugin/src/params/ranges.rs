@@ -112,6 +112,7 @@ impl Default for PlayerParams {
             finger_mass: factor("Finger mass", 0.1, 10.0),
             finger_hover: factor("Finger hover", 0.0, 30.0),
             hand_damping: factor("Hand damping", 0.05, 5.0),
+            idle_hands: factor("Idle hands", 0.0, 20.0),
         }
     }
 }

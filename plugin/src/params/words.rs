@@ -9,7 +9,7 @@ use super::LowActionParams;
 use crate::engine::Quality;
 
 /// What is heard of a parameter, by its [identifier](LowActionParams). All strings' tunings share one.
-const HEARD: [(&str, &str); 39] = [
+const HEARD: [(&str, &str); 40] = [
     ("instrument", "The instrument: strings, neck, hands and pickup."),
     ("instrument_file", "An instrument of your own, from your folder, in place of that one."),
     (
@@ -54,6 +54,10 @@ const HEARD: [(&str, &str); 39] = [
     ("finger_mass", "A heavy finger lands with more of a thump."),
     ("finger_hover", "How high fingers hover: from higher up they strike harder and later."),
     ("hand_damping", "How much the hand swallows of what shakes the finger."),
+    (
+        "idle_hands",
+        "How firmly hands lie on strings nobody plays, of instruments with a body: at 0 these sing along with the others.",
+    ),
     (
         "input_mode",
         "What MIDI channels mean: one keyboard, a channel for each string, or a channel for each note.",

@@ -32,7 +32,7 @@ impl Order {
     }
 
     fn read(params: &LowActionParams, sample_rate: f32, offline: bool, exact: Exact) -> Self {
-        let LowActionParams { instrument, setup, strings, .. } = params;
+        let LowActionParams { instrument, setup, strings, player, .. } = params;
         let live = instrument.quality.value().0;
         let quality = if offline { instrument.render_quality.value().quality(live) } else { live };
         let luthier = Luthier {
@@ -46,6 +46,7 @@ impl Order {
             tension_modulation: setup.tension_modulation.value(),
             pickup_position: 1e-3 * exact(&setup.pickup_position),
             pickup_blend: exact(&setup.pickup_blend),
+            idle_hands: exact(&player.idle_hands),
             tuning: 0.01 * exact(&setup.tuning),
             strings: std::array::from_fn(|index| exact(&strings[index].tuning)),
         };
@@ -219,7 +220,7 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
             page.add_param(&setup.tension_modulation);
             page.add_param(&output.bypass);
             page.add_param(&control.ignore_rpn);
-            page.add_spacer();
+            page.add_param(&player.idle_hands);
         });
         section.add_page("Control", |page| {
             page.add_param(&control.input_mode);

@@ -330,7 +330,7 @@ fn nothing_stands_above_the_strings() {
 #[test]
 fn what_is_limited_is_accepted() {
     type Number = fn(&mut Setup) -> &mut f64;
-    let numbers: [Number; 19] = [
+    let numbers: [Number; 20] = [
         |setup| &mut setup.neck.nut_clearance,
         |setup| &mut setup.neck.action,
         |setup| &mut setup.neck.relief,
@@ -342,6 +342,7 @@ fn what_is_limited_is_accepted() {
         |setup| &mut setup.string[2].loss_1,
         |setup| &mut setup.player.pluck_duration,
         |setup| &mut setup.player.pluck_release,
+        |setup| &mut setup.player.idle_loss,
         |setup| &mut setup.player.pluck_force,
         |setup| &mut setup.player.fretting.force,
         |setup| &mut setup.player.fretting.hover,

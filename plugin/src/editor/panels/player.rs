@@ -24,6 +24,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
         finger_mass,
         finger_hover,
         hand_damping,
+        idle_hands,
     } = &given.params.player;
     let ControlParams {
         input_mode,
@@ -46,6 +47,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
         pluck_softest,
         velocity_curve,
         variation,
+        idle_hands,
     ];
     for param in plucks {
         slider(ui, given, param, cells.next());
