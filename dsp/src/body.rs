@@ -182,7 +182,7 @@ impl Body {
         }
         self.motion.fill(Row::default());
         self.find_bridge();
-        self.still = self.bridge == 0.0;
+        (self.still, self.new) = (self.bridge == 0.0, false);
     }
 
     fn find_bridge(&mut self) {

@@ -83,6 +83,11 @@ impl Stilling {
         self.left = left;
         self.loss
     }
+
+    /// Whether the next step is its last.
+    fn ends(&self) -> bool {
+        self.left == 1 && self.loss > 0.0
+    }
 }
 
 impl Held {
@@ -103,7 +108,7 @@ pub(crate) struct Hands {
     pub stilling: Stilling,
     /// What hands add to the loss of a string that nobody plays, 1/s.
     idle_loss: f64,
-    /// Whether the string is played: plucked or under a finger, and no hand has been laid along it since.
+    /// Whether the string is played: something was plucked, or thrown at it, and no hand has lain along it to the end since.
     pub played: bool,
     pub fingers: [Option<Held>; FINGERS_PER_STRING],
     /// Tension that the string is bent to, N.
@@ -191,6 +196,7 @@ impl Hands {
             Gesture::Throw { finger, touch, position, clearance, speed } => {
                 // Anything but a number counts as at rest.
                 let speed = if speed > 0.0 { speed.min(FASTEST_THROW) } else { 0.0 };
+                self.played = true;
                 self.put(finger, touch, inside(position), [clearance, speed], model, state)
             }
             Gesture::Press { force, .. } | Gesture::Lift { force, .. } if !is_possible(force) => false,
@@ -220,7 +226,6 @@ impl Hands {
             Gesture::Still { loss, duration } => {
                 let begins = loss >= 0.0 && loss.is_finite() && duration.is_finite();
                 if begins {
-                    self.played = false;
                     self.stilling = Stilling { loss, left: self.samples(duration) };
                 }
                 begins
@@ -252,7 +257,6 @@ impl Hands {
         }
         // A finger that cannot be leaves the one that is there.
         let Some(law) = model.finger_law_if(&touch) else { return false };
-        self.played = true;
         let reading = model.grid.reading(place);
         let now = state.displacement_at(&reading);
         // Touching nothing a step ago either: a string that comes from above would be inside it.
@@ -277,6 +281,7 @@ impl Hands {
         drive.tension = self.tension();
         self.bent.step();
         self.tuned.step();
+        self.played &= !self.stilling.ends();
         let idle = if self.played { 0.0 } else { self.idle_loss };
         drive.loss = self.stilling.step().max(idle);
         drive.pushes.clear();

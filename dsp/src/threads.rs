@@ -24,22 +24,18 @@ impl Instrument {
         right: &mut [f32],
     ) {
         let count = left.len().min(right.len());
-        let threads = threads.get().min(self.voices.len().div_ceil(self.together));
-        if threads == 1 || count == 0 || self.is_fading() {
+        let threads = threads.get().min(self.voices.len());
+        if threads == 1 || self.together > 1 || count == 0 || self.is_fading() {
             return self.process_stems(stems, left, right);
         }
         let now = self.now;
         let last = now + (count - 1) as u64;
         let gestures: Vec<_> = std::iter::from_fn(|| self.queue.pop_due(last)).collect();
-        let size = self.together;
-        let strings = Mutex::new(self.voices.chunks_mut(size).enumerate());
+        let strings = Mutex::new(self.voices.iter_mut().enumerate());
         let next = || strings.lock().unwrap_or_else(PoisonError::into_inner).next();
         let work = || {
-            while let Some((index, strings)) = next() {
-                let first = index * size;
-                let of_these = first..first + strings.len();
-                let theirs = gestures.iter().filter(|gesture| of_these.contains(&gesture.string));
-                together::play(strings, now, theirs.map(|gesture| (gesture.string - first, gesture)), count);
+            while let Some((index, string)) = next() {
+                together::play(string, now, gestures.iter().filter(|gesture| gesture.string == index), count);
             }
         };
         thread::scope(|scope| {

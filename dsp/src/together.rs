@@ -1,6 +1,7 @@
 //! Strings that move together, sample by sample: those over one body, of which each hears all others, or one by itself.
 
 use std::ops::Range;
+use std::slice::from_mut;
 
 use crate::body::Body;
 use crate::gesture::{Gesture, TimedGesture};
@@ -22,27 +23,28 @@ pub(crate) fn run(strings: &mut [Voice], samples: usize) {
     }
 }
 
-/// Plays a stretch from sample `now` on into the `run` of each, with their gestures in order of time, each with the index of its
-/// string among them: the same samples as those of one [`run`] after another. Allocates where the stretch is longer than any before.
+/// Plays a string that is by itself through a stretch from sample `now` on into its `run`, with its gestures in order of time: the
+/// same samples as those of one [`run`] after another. Allocates where the stretch is longer than any before.
 pub(crate) fn play<'a>(
-    strings: &mut [Voice],
+    string: &mut Voice,
     now: u64,
-    gestures: impl Iterator<Item = (usize, &'a TimedGesture)>,
+    gestures: impl Iterator<Item = &'a TimedGesture>,
     samples: usize,
 ) {
-    strings.iter_mut().for_each(|string| string.make_room(samples));
+    string.make_room(samples);
+    let strings = from_mut(string);
     let mut gestures = gestures.peekable();
     let (mut done, mut sounded) = (0, false);
     while done < samples {
         let time = now + done as u64;
-        while let Some((index, due)) = gestures.next_if(|(_, next)| next.time <= time) {
-            begin(strings, index, due.gesture);
+        while let Some(due) = gestures.next_if(|next| next.time <= time) {
+            begin(strings, 0, due.gesture);
         }
-        let until_gesture = gestures.peek().map_or(u64::MAX, |(_, next)| next.time - time);
+        let until_gesture = gestures.peek().map_or(u64::MAX, |next| next.time - time);
         let run = (samples - done).min(RUN).min(usize::try_from(until_gesture).unwrap_or(RUN));
         let span = done..done + run;
         if are_at_rest(strings) {
-            strings.iter_mut().for_each(|string| string.run[span.clone()].fill(0.0));
+            strings[0].run[span].fill(0.0);
         } else {
             sounded = true;
             sound(strings, span);
@@ -50,7 +52,7 @@ pub(crate) fn play<'a>(
         done += run;
     }
     if !sounded {
-        strings.iter_mut().for_each(Voice::be_silent);
+        strings[0].be_silent();
     }
 }
 

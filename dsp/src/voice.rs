@@ -56,8 +56,8 @@ pub(crate) struct Voice {
 /// Samples of the host's that a string is stepped through at a time, at most.
 pub(crate) const RUN: usize = 64;
 
-/// A string nobody touches sleeps once its energy is below this, J, and that of all others over its body, and of the body: a
-/// soft pluck holds 1e-6 J, so this is 140 dB under it.
+/// A string nobody touches sleeps once its energy is below this, J, over a body once that of every string is, and what each has the
+/// body do: a soft pluck holds 1e-6 J, so this is 140 dB under it.
 const SILENCE: f64 = 1e-20;
 
 impl Voice {
@@ -81,6 +81,7 @@ impl Voice {
             model.finger_law(&touch).map_err(|error| error.under(section).under(&name))?;
         }
         let body = setup.body.as_ref().map(|body| Body::new(body, &model));
+        let idle_loss = if body.is_some() { setup.player.idle_loss } else { 0.0 };
         let angle = 0.25 * std::f64::consts::PI * (spec.pan + 1.0);
         Ok(Voice {
             geometry: StringGeometry {
@@ -94,7 +95,7 @@ impl Voice {
             state: State::new(&model),
             scratch: Scratch::new(&model),
             drive: Drive::new(&model),
-            hands: Hands::new(&model, rate, most_tension(&model, body.is_some()), setup.player.idle_loss),
+            hands: Hands::new(&model, rate, most_tension(&model, body.is_some()), idle_loss),
             body,
             listener: Listener::new(&PickupMix::of(setup, &placed.string), &model, rate),
             decimator: Decimator::new(ratio, RUN),
@@ -234,6 +235,7 @@ impl Voice {
     pub fn fall_asleep(&mut self) {
         self.state.reset(&self.model);
         self.scratch.reset();
+        self.hands.played = false;
         self.asleep = true;
         self.rebook();
     }
