@@ -8,36 +8,25 @@
 
 mod coefficients;
 mod end;
+mod modes;
 mod swing;
 
 use crate::digits::{at_least, plain};
 use crate::drive::Push;
 use crate::error::Error;
-use crate::field::LANES;
-use crate::instructions::Instructions;
-use crate::kernel::STILL;
 use crate::model::Model;
 use crate::setup::Body as Description;
 use crate::state::State;
-use coefficients::{Coefficients, Row};
-use end::End;
-pub(crate) use end::ROOM;
-use swing::Swing;
+use coefficients::Coefficients;
+pub(crate) use coefficients::Row;
+pub(crate) use end::End;
+pub(crate) use modes::Modes;
 
 /// A body as one string moves it.
 #[derive(Debug, Clone)]
 pub(crate) struct Body {
-    instructions: Instructions,
-    coefficients: Vec<Coefficients>,
-    /// How many there are: the last row need not be full.
-    modes: usize,
-    /// qⁿ and qⁿ − qⁿ⁻¹, m√kg.
-    place: Vec<Row>,
-    motion: Vec<Row>,
-    /// How far the bridge is up by that, m.
-    bridge: f64,
+    modes: Modes,
     end: End,
-    time_step: f64,
     still: bool,
     /// Whether it has never moved, nor taken over from another that has.
     new: bool,
@@ -56,24 +45,20 @@ pub(crate) struct Heard {
 
 /// The most tension that hands may ask for, N: what is left beyond it is for a body, if there is one.
 pub(crate) fn most_tension(model: &Model, has_body: bool) -> f64 {
-    model.string.tension_limit / if has_body { 1.0 + ROOM } else { 1.0 }
+    model.string.tension_limit / room(has_body)
+}
+
+/// How much more tension grids bear than that, as a factor.
+pub(crate) fn room(has_body: bool) -> f64 {
+    if has_body { 1.0 + end::ROOM } else { 1.0 }
 }
 
 impl Body {
     /// The body under a string. Whether it is not too light has been [asked](check) of all its strings.
     pub fn new(description: &Description, model: &Model) -> Body {
-        let k = model.grid.time_step;
-        let coefficients = Coefficients::of(description.modes(), k);
-        let rows = coefficients.len();
         Body {
-            instructions: Instructions::best(),
-            modes: coefficients.iter().flat_map(|row| row.own).filter(|own| *own > 0.0).count(),
-            coefficients,
-            place: vec![Row::default(); rows],
-            motion: vec![Row::default(); rows],
-            bridge: 0.0,
+            modes: Modes::new(description, model.grid.time_step),
             end: End::new(model, model.string.tension),
-            time_step: k,
             still: true,
             new: true,
         }
@@ -82,19 +67,15 @@ impl Body {
     /// How far the bridge is up by its string, m.
     #[inline]
     pub fn lift(&self) -> f64 {
-        self.bridge
+        self.modes.lift()
     }
 
     /// What a bridge that is `lift` m up does to the string in the step to come, what is heard of the body, and its own step by what
     /// the string does to it. To be asked before the string moves.
     #[inline]
     pub fn step(&mut self, model: &Model, state: &State, tension: f64, lift: f64) -> (Push, Heard) {
-        if tension != self.end.tension {
-            self.end = End::new(model, tension);
-        }
-        let End { reading, pull, back, .. } = self.end;
-        let push = Push { reading, force: pull * lift };
-        (push, self.swing(pull * reading.of(&state.displacement) - back * lift, lift))
+        self.end.pull_at(model, tension);
+        (self.end.push(lift), self.swing(self.end.force(state, lift), lift))
     }
 
     /// Goes on by itself, under a string at rest. Once nobody could hear it it rests, too; that is looked for in every sample, so that
@@ -113,29 +94,14 @@ impl Body {
     /// Advances all modes under a force on the bridge, N.
     #[inline]
     fn swing(&mut self, force: f64, lift: f64) -> Heard {
-        let Body { coefficients, place, motion, .. } = self;
-        let [bridge, pressure] = self.instructions.run(Swing { force, coefficients, place, motion });
-        if force.abs() < STILL {
-            // Nothing drives them, and what fades would become subnormal numbers.
-            for number in self.place.iter_mut().chain(&mut self.motion).flatten() {
-                *number = if number.abs() < STILL { 0.0 } else { *number };
-            }
-        }
-        (self.bridge, self.still, self.new) = (bridge, false, false);
+        let pressure = self.modes.swing(force);
+        (self.still, self.new) = (false, false);
         Heard { pressure, lift, straight: -self.end.line * lift }
     }
 
     /// Energy of its motion half a step ago, J.
     pub fn energy(&self) -> f64 {
-        let rate = 1.0 / self.time_step;
-        let mut sum = 0.0;
-        for (row, (place, motion)) in self.coefficients.iter().zip(self.place.iter().zip(&self.motion)) {
-            for lane in 0..LANES {
-                let speed = motion[lane] * rate;
-                sum += speed * speed + row.own[lane] * place[lane] * (place[lane] - motion[lane]);
-            }
-        }
-        0.5 * sum
+        self.modes.energy()
     }
 
     /// Whether nothing is left to be heard of it.
@@ -151,14 +117,9 @@ impl Body {
     /// Takes over how another body moves, mode by mode; one that has fewer or more modes, or none, leaves it new.
     pub fn take_over(&mut self, old: Option<&Body>, model: &Model, tension: f64) {
         self.end = End::new(model, tension);
-        let Some(old) = old.filter(|old| old.modes == self.modes) else { return };
-        let slower = self.time_step / old.time_step;
-        self.place.copy_from_slice(&old.place);
-        for (motion, old) in self.motion.iter_mut().zip(&old.motion) {
-            *motion = old.map(|motion| motion * slower);
+        if let Some(old) = old.filter(|old| self.modes.take_over(&old.modes)) {
+            (self.still, self.new) = (old.is_still() && self.lift() == 0.0, old.new);
         }
-        self.find_bridge();
-        (self.still, self.new) = (old.is_still() && self.bridge == 0.0, old.new);
     }
 
     /// The force on the bridge of a string in a state, N, and what 1 m of the bridge's own takes away from it, N.
@@ -169,32 +130,18 @@ impl Body {
 
     /// How far the bridge gives way to 1 N that stays, m.
     pub fn gives(&self) -> f64 {
-        Coefficients::sum(&self.coefficients, |own| 1.0 / own)
+        self.modes.gives()
     }
 
     /// Rests under a force that stays, N.
     pub fn rest_under(&mut self, force: f64) {
-        for (row, place) in self.coefficients.iter().zip(&mut self.place) {
-            let at = |lane: usize| {
-                if row.own[lane] > 0.0 { row.bridge[lane] * force / row.own[lane] } else { 0.0 }
-            };
-            *place = std::array::from_fn(at);
-        }
-        self.motion.fill(Row::default());
-        self.find_bridge();
-        (self.still, self.new) = (self.bridge == 0.0, false);
-    }
-
-    fn find_bridge(&mut self) {
-        let rows = self.coefficients.iter().zip(&self.place);
-        let lanes = rows.flat_map(|(row, place)| row.bridge.into_iter().zip(*place));
-        self.bridge = lanes.map(|(phi, place)| phi * place).sum();
+        self.modes.rest_under(force);
+        (self.still, self.new) = (self.lift() == 0.0, false);
     }
 
     fn be_still(&mut self) {
-        self.place.fill(Row::default());
-        self.motion.fill(Row::default());
-        (self.bridge, self.still) = (0.0, true);
+        self.modes.be_still();
+        self.still = true;
     }
 
     /// At rest, as if it had never moved.

@@ -4,8 +4,12 @@
 //! touches what it measures. Stored energy lives half way between samples, at n + ½; power at n. The
 //! balance 𝔥ⁿ⁺½ − 𝔥ⁿ⁻½ + k(𝔮 − 𝔭) = 0 holds exactly in exact arithmetic, whatever the solver's cap.
 
+mod account;
+mod body;
 mod rounding;
 mod string;
+
+use std::ops::Deref;
 
 use crate::drive::Drive;
 use crate::entry::{Energies, Entry, Inputs};
@@ -14,62 +18,46 @@ use crate::finger::Finger;
 use crate::model::Model;
 use crate::state::State;
 use crate::string::Scratch;
+pub use account::Account;
+pub use body::BodyLedger;
 use rounding::gross;
 use string::{Shapes, stiffness_change, string_energy, string_losses};
 
 /// The running ledger of one string.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ledger {
-    energies: Energies,
+    account: Account,
     /// The part of the contact energy that is board and frets, J.
     board: f64,
     /// Tension in the last step, N.
     tension: f64,
     finger_changes: u64,
-    /// Energy there was when the ledger was opened, J.
-    pub initial: f64,
-    /// The largest total energy so far, J.
-    pub largest: f64,
-    /// Energy put in so far, J, the initial energy included and what was taken out again counted off: what is stored is never
-    /// more.
-    pub put_in: f64,
-    /// The same with what was taken out again not counted off, J: all that has gone through the balance, of which so many last
-    /// digits are lost.
-    pub put_in_gross: f64,
-    /// Sum of the residuals, J.
-    pub residual_sum: f64,
-    /// The largest |residual| over the largest energy up to its sample.
-    pub worst_residual: f64,
-    /// How well the balance can be known at all, J: what a unit in the last place of every number that enters
-    /// it is worth, summed over all steps.
-    pub rounding: f64,
     shapes: Shapes,
+}
+
+impl Deref for Ledger {
+    type Target = Account;
+    fn deref(&self) -> &Account {
+        &self.account
+    }
 }
 
 impl Ledger {
     /// Opens the ledger of a string in its present state, at the model's own tension or the one given.
     pub fn new(model: &Model, state: &State, tension: f64) -> Ledger {
         let mut ledger = Ledger {
-            energies: Energies::default(),
+            account: Account::new(Energies::default()),
             board: 0.0,
             tension,
             finger_changes: 0,
-            initial: 0.0,
-            largest: 0.0,
-            put_in: 0.0,
-            put_in_gross: 0.0,
-            residual_sum: 0.0,
-            worst_residual: 0.0,
-            rounding: 0.0,
             shapes: Shapes::default(),
         };
-        ledger.look(model, state, tension);
-        let initial = ledger.energies.total();
-        Ledger { initial, largest: initial, put_in: initial, put_in_gross: initial, ..ledger }
+        ledger.account = Account::new(ledger.look(model, state, tension));
+        ledger
     }
 
     /// Looks at what there is, without a step that would lead to it.
-    fn look(&mut self, model: &Model, state: &State, tension: f64) {
+    fn look(&mut self, model: &Model, state: &State, tension: f64) -> Energies {
         let past = before(&state.displacement, &state.motion);
         let stiffness = model.stiffness(tension);
         self.shapes.take(model, &past, &state.motion, state);
@@ -77,9 +65,9 @@ impl Ledger {
         self.board = board_energy(model, &state.heights, &state.displacement, &past, state);
         let contact = self.board + fingers_energy(&state.fingers, &state.displacement, &past);
         let finger = fingers_motion(model, &state.fingers);
-        self.energies = Energies { string, tension: stretched, contact, finger };
         self.tension = tension;
         self.finger_changes = state.finger_changes;
+        Energies { string, tension: stretched, contact, finger, ..Energies::default() }
     }
 
     /// Counts what the fingers held before the step anew if any has been placed or taken away since the last one.
@@ -90,12 +78,13 @@ impl Ledger {
         }
         self.finger_changes = state.finger_changes;
         let (now, motion_now) = (&scratch.displacement, &scratch.motion);
-        let before_that = self.energies.total();
+        let energies = &mut self.account.energies;
+        let before_that = energies.total();
         let past = state.fingers.iter().zip(&scratch.fingers);
         let past: Vec<_> = past.map(|(now, past)| Some((*now)?.back(past.as_ref()?))).collect();
-        self.energies.contact = self.board + fingers_energy(&past, now, &before(now, motion_now));
-        self.energies.finger = fingers_motion(model, &past);
-        self.energies.total() - before_that
+        energies.contact = self.board + fingers_energy(&past, now, &before(now, motion_now));
+        energies.finger = fingers_motion(model, &past);
+        energies.total() - before_that
     }
 
     /// Books the step that has just been taken under `drive`.
@@ -111,15 +100,17 @@ impl Ledger {
         self.board = board_energy(model, &state.heights, &state.displacement, now, state);
         let contact = self.board + fingers_energy(&state.fingers, &state.displacement, now);
         let finger = fingers_motion(model, &state.fingers);
-        let energies = Energies { string, tension: stretched, contact, finger };
+        let energies = Energies { string, tension: stretched, contact, finger, ..Energies::default() };
 
         let mut losses = string_losses(model, scratch.coasting.loss_0, &self.shapes);
         let mut loss = losses.loss_0 + losses.loss_1 + losses.hand;
         let mut inputs = Inputs { finger: entered / k, ..Inputs::default() };
         let mut input = inputs.finger;
         for push in &drive.pushes {
-            let motion = push.reading.of(&state.motion) + push.reading.of(motion_now);
-            book(push.force * motion / two_k, &mut input, &mut inputs.pluck);
+            book(push.power(motion_now, &state.motion, k), &mut input, &mut inputs.pluck);
+        }
+        if let Some(push) = &drive.bridge {
+            inputs.bridge = push.power(motion_now, &state.motion, k);
         }
         for (slot, finger) in state.fingers.iter().enumerate() {
             let (Some(finger), Some(old)) = (finger, &scratch.fingers[slot]) else { continue };
@@ -152,37 +143,19 @@ impl Ledger {
             book(change / k, &mut input, &mut inputs.tension);
             self.tension = stiffness.tension;
         }
-        self.rounding += f64::EPSILON * gross(model, &stiffness, &self.shapes, state, scratch);
-        let residual =
-            energies.total() - (self.energies.total() - entered) + k * (lost_elsewhere + taken - input);
-        self.energies = energies;
-        self.largest = self.largest.max(energies.total());
-        self.put_in += k * input;
-        self.put_in_gross += (k * input).max(0.0);
-        self.residual_sum += residual;
-        // What is not a number is the worst there is, and stays.
-        let open = residual.abs() / self.largest.max(f64::MIN_POSITIVE);
-        if open.is_nan() || open > self.worst_residual {
-            self.worst_residual = open;
-        }
+        self.account.rounding += f64::EPSILON * gross(model, &stiffness, &self.shapes, state, scratch);
+        let put_in = input + inputs.bridge;
+        let residual = energies.total() - (self.account.energies.total() - entered)
+            + k * (lost_elsewhere + taken - put_in);
+        self.account.book(energies, energies.total(), k * put_in, residual);
         Entry { energies, power_loss: loss, losses, power_solver: solver, power_in: input, inputs, residual }
     }
 
     /// Books what was done to the string beside its steps, such as another model put under its motion: what
     /// it holds now less what it held counts as put in. Gives that back, J.
     pub fn rebook(&mut self, model: &Model, state: &State, tension: f64) -> f64 {
-        let before = self.energies.total();
-        self.look(model, state, tension);
-        let entered = self.energies.total() - before;
-        self.put_in += entered;
-        self.put_in_gross += entered.max(0.0);
-        self.largest = self.largest.max(self.energies.total());
-        entered
-    }
-
-    /// Stored energies at the last sample booked.
-    pub fn energies(&self) -> Energies {
-        self.energies
+        let energies = self.look(model, state, tension);
+        self.account.rebook(energies)
     }
 }
 

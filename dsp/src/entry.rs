@@ -13,12 +13,15 @@ pub struct Energies {
     pub contact: f64,
     /// Of the fingers' motion.
     pub finger: f64,
+    /// Of the body under the strings of a scene: of its modes, and of what its bridge, out of its place, has in common with the
+    /// strings, which is below 0 where it gives way to them.
+    pub body: f64,
 }
 
 impl Energies {
     /// All of it, J.
     pub fn total(&self) -> f64 {
-        self.string + self.tension + self.contact + self.finger
+        self.string + self.tension + self.contact + self.finger + self.body
     }
 }
 
@@ -28,6 +31,7 @@ impl AddAssign for Energies {
         self.tension += other.tension;
         self.contact += other.contact;
         self.finger += other.finger;
+        self.body += other.body;
     }
 }
 
@@ -43,6 +47,8 @@ pub struct Losses {
     pub contact: f64,
     /// In the hands behind the fingers, and in one laid along the string.
     pub hand: f64,
+    /// In the body under the strings of a scene: to wood, and to air, which sounds.
+    pub body: f64,
 }
 
 impl AddAssign for Losses {
@@ -51,14 +57,18 @@ impl AddAssign for Losses {
         self.loss_1 += other.loss_1;
         self.contact += other.contact;
         self.hand += other.hand;
+        self.body += other.body;
     }
 }
 
 /// Powers put in at n, W, negative where they are taken out.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Inputs {
-    /// By pushes on the string, which are plucks, and by a bridge that gives way.
+    /// By pushes on the string, which are plucks.
     pub pluck: f64,
+    /// By a bridge that gives way: into a string, or by strings into the body under it. In all that comes to nothing, and it is no
+    /// part of what is put in from outside.
+    pub bridge: f64,
     /// By the hands' forces on the fingers.
     pub hand: f64,
     /// By slides: fingers in contact whose places move along a string that is not level.
@@ -74,6 +84,7 @@ pub struct Inputs {
 impl AddAssign for Inputs {
     fn add_assign(&mut self, other: Inputs) {
         self.pluck += other.pluck;
+        self.bridge += other.bridge;
         self.hand += other.hand;
         self.slide += other.slide;
         self.barrier += other.barrier;
@@ -82,18 +93,18 @@ impl AddAssign for Inputs {
     }
 }
 
-/// One sample of the ledger. The terms of a loss or an input add up to it but for rounding.
+/// One sample of the ledger. The terms of a loss or an input add up to it but for rounding (all but what a bridge has put in).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Entry {
     /// Stored energies at n + ½.
     pub energies: Energies,
-    /// Power lost at n: string losses, hands, pads, frets and board, W.
+    /// Power lost at n: string losses, hands, pads, frets and board, body, W.
     pub power_loss: f64,
     /// The terms of that.
     pub losses: Losses,
     /// Power lost to inexact contact forces (negative when they put energy in), W.
     pub power_solver: f64,
-    /// Power put in at n: pushes, hands, slides, moving tension and frets, fingers placed or removed, W.
+    /// Power put in from outside at n: pushes, hands, slides, moving tension and frets, fingers placed or removed, W.
     pub power_in: f64,
     /// The terms of that.
     pub inputs: Inputs,

@@ -197,6 +197,11 @@ impl Reading {
         (w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3])
     }
 
+    /// The value of a field of which nothing cancels.
+    pub(crate) fn size(&self, v: &Field) -> f64 {
+        self.cells.iter().zip(self.weights).map(|(cell, weight)| (weight * v[*cell as usize]).abs()).sum()
+    }
+
     /// The values of several fields of the same grid. (Their lengths are compared once, and where a number stands once for
     /// all of them.)
     #[inline(always)]

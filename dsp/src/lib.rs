@@ -182,7 +182,7 @@ mod touching;
 mod voice;
 
 pub use drive::Drive;
-pub use energy::Ledger;
+pub use energy::{Account, BodyLedger, Ledger};
 pub use entry::{Energies, Entry, Inputs, Losses};
 pub use error::Error;
 pub use gesture::{FINGERS_PER_STRING, FingerSlot, Gesture, TimedGesture, Touch};

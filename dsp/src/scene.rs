@@ -14,6 +14,7 @@ use crate::choice::choice;
 use crate::curve::{CountOrList, Curve, OneOrEach};
 use crate::error::Error;
 use crate::gesture::Touch;
+use crate::setup::Body;
 
 /// A whole simulation: strings, what they may hit, what acts on them, what is listened to.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -30,6 +31,9 @@ pub struct Scene {
     pub string: Vec<StringSpec>,
     /// What the strings may hit; without it no contact is modelled.
     pub fretboard: Option<FretboardSpec>,
+    /// What the bridge under all strings stands on, heavy enough for all of them; without it the bridge stands still, and strings do
+    /// not hear each other.
+    pub body: Option<Body>,
     /// Pushes on strings.
     #[serde(default)]
     pub pluck: Vec<PluckSpec>,
@@ -276,12 +280,13 @@ fn no_force() -> Curve {
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OutputSpec {
-    /// A point whose velocity is heard, m from the nut, or `"bridge"` for the force on the bridge.
+    /// A point whose velocity is heard, m from the nut, `"bridge"` for the force on the bridge, or `"air"` for the sound before the
+    /// body, which there must be then.
     #[serde(default)]
     pub position: ListeningPoint,
 }
 
-/// A point of the string, or the bridge.
+/// A point of the string, the bridge, or the air.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ListeningPoint {
     /// The transverse force of the string on the bridge, N.
@@ -289,6 +294,8 @@ pub enum ListeningPoint {
     Bridge,
     /// The velocity of the string at a place, m from the nut, in m/s.
     At(f64),
+    /// The sound pressure 1 m in front of the body, Pa.
+    Air,
 }
 
 impl<'de> Deserialize<'de> for ListeningPoint {
@@ -297,7 +304,7 @@ impl<'de> Deserialize<'de> for ListeningPoint {
         impl serde::de::Visitor<'_> for PointVisitor {
             type Value = ListeningPoint;
             fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-                f.write_str("a place in m from the nut or \"bridge\"")
+                f.write_str("a place in m from the nut, \"bridge\" or \"air\"")
             }
             fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<ListeningPoint, E> {
                 Ok(ListeningPoint::At(value))
@@ -308,6 +315,7 @@ impl<'de> Deserialize<'de> for ListeningPoint {
             fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<ListeningPoint, E> {
                 match value {
                     "bridge" => Ok(ListeningPoint::Bridge),
+                    "air" => Ok(ListeningPoint::Air),
                     _ => Err(E::invalid_value(serde::de::Unexpected::Str(value), &self)),
                 }
             }

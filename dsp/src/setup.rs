@@ -250,8 +250,7 @@ impl Setup {
     /// The factor up to which the grid of a string bears a higher tension: bends, and in any case what fingers and plucks stretch.
     pub(crate) fn tension_room(&self) -> f64 {
         // (A body takes a part of its own.)
-        let body = if self.body.is_some() { 1.0 + crate::body::ROOM } else { 1.0 };
-        tension_ratio(self.max_bend.max(LEAST_ROOM)) * body
+        tension_ratio(self.max_bend.max(LEAST_ROOM)) * crate::body::room(self.body.is_some())
     }
 }
 

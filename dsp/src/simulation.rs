@@ -1,14 +1,17 @@
 //! A scene as it runs: strings stepped by the forces and positions of the scene, one sample at a time.
 
+mod scene_body;
 mod scene_string;
 
+use crate::body;
 use crate::digits::{at_most, plain};
-use crate::energy::Ledger;
+use crate::energy::{Account, BodyLedger, Ledger};
 use crate::entry::Entry;
 use crate::error::Error;
 pub use crate::model::MOST_NUMBERS;
 use crate::model::{Model, StringParameters};
-use crate::scene::Scene;
+use crate::scene::{ListeningPoint, Scene};
+use scene_body::SceneBody;
 use scene_string::Clock;
 pub use scene_string::{FingerReport, PluckReport, SceneString};
 
@@ -16,18 +19,27 @@ pub use scene_string::{FingerReport, PluckReport, SceneString};
 #[derive(Debug, Clone)]
 pub struct Simulation {
     strings: Vec<SceneString>,
+    body: Option<SceneBody>,
+    listening: ListeningPoint,
     sample_rate: f64,
     samples: u64,
     step: u64,
-    ledgers: Option<Vec<Ledger>>,
+    ledgers: Option<Ledgers>,
+}
+
+/// What is booked of a scene.
+#[derive(Debug, Clone)]
+struct Ledgers {
+    strings: Vec<Ledger>,
+    body: Option<BodyLedger>,
 }
 
 impl Simulation {
     /// Compiles a scene.
     ///
     /// # Errors
-    /// When a value is out of range, a string too short for its grid, a contact too stiff for the rate,
-    /// or the whole more than [`MOST_POINTS`], [`MOST_NUMBERS`] and [`MOST_WORK`] allow.
+    /// When a value is out of range, a string too short for its grid, a contact too stiff for the rate, a body too light for the
+    /// strings, or the whole more than [`MOST_POINTS`], [`MOST_NUMBERS`] and [`MOST_WORK`] allow.
     pub fn new(scene: &Scene) -> Result<Simulation, Error> {
         scene.check()?;
         let points = check_size(scene)?;
@@ -37,10 +49,14 @@ impl Simulation {
             .map(|index| SceneString::new(scene, index, &mut left))
             .collect::<Result<Vec<_>, Error>>()?;
         let contacts = strings.iter().fold(0.0, |sum, string| sum + string.model.contact_work());
-        check_work(scene, points, contacts)?;
+        let body = scene.body.as_ref().map(|body| SceneBody::new(body, &strings)).transpose()?;
+        let modes = body.as_ref().map_or(0, SceneBody::count);
+        check_work(scene, points, modes, contacts)?;
         strings.iter_mut().for_each(SceneString::begin);
         Ok(Simulation {
             strings,
+            body,
+            listening: scene.output.position,
             sample_rate: scene.sample_rate,
             samples: scene.samples(),
             step: 0,
@@ -52,15 +68,29 @@ impl Simulation {
     /// exactly as they would without.
     pub fn open_ledger(&mut self) {
         let open = |string: &SceneString| Ledger::new(&string.model, &string.state, string.last_tension());
-        self.ledgers = Some(self.strings.iter().map(open).collect());
+        self.ledgers = Some(Ledgers {
+            strings: self.strings.iter().map(open).collect(),
+            body: self.body.as_ref().map(|body| body.open_ledger(&self.strings)),
+        });
     }
 
     /// The strings' ledgers, if they are open.
     pub fn ledgers(&self) -> &[Ledger] {
-        self.ledgers.as_deref().unwrap_or_default()
+        self.ledgers.as_ref().map_or(&[], |ledgers| &ledgers.strings)
     }
 
-    /// Advances every string from sample n to n + 1. Returns the sum of the ledgers' entries.
+    /// The ledger of the body, if there is one and ledgers are open.
+    pub fn body_ledger(&self) -> Option<&BodyLedger> {
+        self.ledgers.as_ref()?.body.as_ref()
+    }
+
+    /// What has gone through the ledgers that are open: of each string, and then of the body, if there is one.
+    pub fn accounts(&self) -> impl Iterator<Item = &Account> {
+        let body = self.body_ledger().map(|ledger| &**ledger);
+        self.ledgers().iter().map(|ledger| &**ledger).chain(body)
+    }
+
+    /// Advances every string, and the body, from sample n to n + 1. Returns the sum of the ledgers' entries.
     #[inline(always)]
     pub fn step(&mut self) -> Option<Entry> {
         self.step_under(|_, _| {})
@@ -68,36 +98,43 @@ impl Simulation {
 
     /// The same under more than the scene describes: before each string is stepped, `act` may change what
     /// acts on it (its `drive`, as the scene has filled it) and place fingers or take them away. A tension
-    /// above the model's limit is not allowed: the grid has no room for it.
+    /// above [the most](SceneString::most_tension) is not allowed: the grid has no room for it. (What the bridge of a body does to
+    /// strings is no one else's to change.)
     #[inline(always)]
-    pub fn step_under(&mut self, mut act: impl FnMut(usize, &mut SceneString)) -> Option<Entry> {
+    pub fn step_under(&mut self, act: impl FnMut(usize, &mut SceneString)) -> Option<Entry> {
         if self.ledgers.is_some() {
             return Some(self.step_booked(act));
         }
+        self.advance(act);
+        None
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, mut act: impl FnMut(usize, &mut SceneString)) {
         let clock = self.clock();
         for (index, string) in self.strings.iter_mut().enumerate() {
             string.prepare(clock);
             act(index, string);
-            string.advance();
         }
+        if let Some(body) = &mut self.body {
+            body.step(&mut self.strings);
+        }
+        self.strings.iter_mut().for_each(SceneString::advance);
         self.step += 1;
-        None
     }
 
     /// The same with ledgers.
     #[inline(never)]
-    fn step_booked(&mut self, mut act: impl FnMut(usize, &mut SceneString)) -> Entry {
-        let clock = self.clock();
+    fn step_booked(&mut self, act: impl FnMut(usize, &mut SceneString)) -> Entry {
+        self.advance(act);
         let mut sum = Entry::default();
-        for (index, (string, ledger)) in
-            self.strings.iter_mut().zip(self.ledgers.iter_mut().flatten()).enumerate()
-        {
-            string.prepare(clock);
-            act(index, string);
-            string.advance();
+        let Some(ledgers) = &mut self.ledgers else { return sum };
+        for (string, ledger) in self.strings.iter().zip(&mut ledgers.strings) {
             sum += ledger.record(&string.model, &string.state, &string.scratch, &string.drive);
         }
-        self.step += 1;
+        if let (Some(body), Some(ledger)) = (&self.body, &mut ledgers.body) {
+            sum += body.book(ledger, &self.strings, sum.inputs.bridge);
+        }
         sum
     }
 
@@ -125,6 +162,11 @@ impl Simulation {
         &self.strings
     }
 
+    /// Whether there is a body under the strings.
+    pub fn has_body(&self) -> bool {
+        self.body.is_some()
+    }
+
     /// One string, 0 for the first.
     ///
     /// # Panics
@@ -134,9 +176,15 @@ impl Simulation {
     }
 
     /// What is heard after the last step: the sum over strings of the velocity at the listening point
-    /// (m/s) or of the force on the bridge (N).
+    /// (m/s) or of the force on the bridge (N), or the sound pressure before the body (Pa).
     pub fn output(&self) -> f64 {
-        self.strings.iter().map(SceneString::output).sum()
+        match (self.listening, &self.body) {
+            (ListeningPoint::Air, body) => body.as_ref().map_or(0.0, |body| body.pressure),
+            (_, body) => {
+                let lift = body.as_ref().map_or(0.0, |body| body.lift);
+                self.strings.iter().map(|string| string.output(lift)).sum()
+            }
+        }
     }
 }
 
@@ -144,16 +192,22 @@ impl Simulation {
 /// string gets at most that asks for more.)
 pub const MOST_POINTS: usize = 1_000_000;
 
-/// The most steps of grid points, plucks, fingers and what contacts that share grid points may take that a scene may ask for: hours
+/// The string of an index of a scene at its first moment, with the room on its grid that a body takes.
+fn parameters(scene: &Scene, index: usize) -> StringParameters {
+    let string = StringParameters::from_spec(&scene.string[index]);
+    let tension_limit = string.tension_limit * body::room(scene.body.is_some());
+    StringParameters { tension_limit, ..string }
+}
+
+/// The most steps of grid points, modes of a body, plucks, fingers and what contacts that share grid points may take that a scene may ask for: hours
 /// of computing. Contacts may take two numbers for each two of a crowd, and a third of its cube to solve for them.
 pub const MOST_WORK: f64 = 1e13;
 
 /// Refuses a scene that would fill the memory, before anything of its size is made. Returns how many grid points it has.
 fn check_size(scene: &Scene) -> Result<usize, Error> {
     let mut points = 0;
-    for (index, spec) in scene.string.iter().enumerate() {
-        let string = StringParameters::from_spec(spec);
-        let grid = Model::grid(&string, scene.solver.stencil, 1.0 / scene.sample_rate);
+    for index in 0..scene.string.len() {
+        let grid = Model::grid(&parameters(scene, index), scene.solver.stencil, 1.0 / scene.sample_rate);
         points += grid.map_err(|error| error.under(&format!("string[{}]", index + 1)))?.intervals;
         if points >= MOST_POINTS {
             let accepted = format!(
@@ -166,9 +220,10 @@ fn check_size(scene: &Scene) -> Result<usize, Error> {
     Ok(points)
 }
 
-/// Refuses a scene of so many grid points that would never end, in each sample of which contacts may take so many steps.
-fn check_work(scene: &Scene, points: usize, contacts: f64) -> Result<(), Error> {
-    let things = (points + scene.pluck.len() + scene.finger.len()) as f64 + contacts;
+/// Refuses a scene of so many grid points, and modes of a body, that would never end, in each sample of which contacts may take so
+/// many steps.
+fn check_work(scene: &Scene, points: usize, modes: usize, contacts: f64) -> Result<(), Error> {
+    let things = (points + modes + scene.pluck.len() + scene.finger.len()) as f64 + contacts;
     let work = things * scene.duration * scene.sample_rate;
     if work <= MOST_WORK {
         return Ok(());

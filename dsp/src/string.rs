@@ -204,6 +204,18 @@ impl State {
         scratch.instructions.run(Step { state: self, model, drive, scratch })
     }
 
+    /// The tension, N, at which the next step will be taken under a drive.
+    #[inline]
+    pub(crate) fn tension_under(&self, drive: &Drive, scratch: &Scratch) -> f64 {
+        if self.lets_hands_rest(scratch) { scratch.stiffness.tension } else { drive.tension }
+    }
+
+    /// Whether there is so much energy that hands neither slide nor bend.
+    #[inline(always)]
+    fn lets_hands_rest(&self, scratch: &Scratch) -> bool {
+        self.energy_scale.max(scratch.string_energy) > MOST_ENERGY
+    }
+
     #[inline(always)]
     fn step_by<S: Simd>(
         &mut self,
@@ -213,7 +225,7 @@ impl State {
         scratch: &mut Scratch,
     ) -> Convergence {
         // What is known of the energy before anything is computed.
-        let resting = self.energy_scale.max(scratch.string_energy) > MOST_ENERGY;
+        let resting = self.lets_hands_rest(scratch);
         let bends = drive.tension != scratch.stiffness.tension && !resting;
         if bends || drive.loss != scratch.loss {
             if bends {
@@ -264,7 +276,7 @@ impl State {
         let (k, h) = (model.grid.time_step, model.grid.spacing);
         scratch.string_energy = 0.5 * model.string.linear_density * h / (k * k) * products.motion
             + 0.5 * scratch.stiffness.tension / h * steepness;
-        for push in &drive.pushes {
+        for push in drive.pushes.iter().chain(&drive.bridge) {
             let motion = mobility * push.force;
             push.reading.spread(&mut scratch.prediction, motion);
             products.along += motion * push.reading.of(&self.curvature);

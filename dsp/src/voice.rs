@@ -210,12 +210,11 @@ impl Voice {
         } else if !self.drive.heights.is_empty() {
             self.drive.heights.clear();
         }
-        // (What the bridge does is nothing that is done to the string from outside.)
-        let pushed = !self.drive.pushes.is_empty();
         let mut heard = Heard::default();
         if let Some(body) = &mut self.body {
-            let (push, of_body) = body.step(&self.model, &self.state, self.drive.tension, lift);
-            self.drive.pushes.push(push);
+            let tension = self.state.tension_under(&self.drive, &self.scratch);
+            let (push, of_body) = body.step(&self.model, &self.state, tension, lift);
+            self.drive.bridge = Some(push);
             heard = of_body;
         }
         let convergence = self.state.step(&self.model, &self.drive, &mut self.scratch);
@@ -225,7 +224,7 @@ impl Voice {
         }
         let signal = self.listener.hear(&self.model, &self.state, &self.scratch, heard);
         // (That energy is from before the step: what was pushed in it is not in it yet.)
-        let is_left_alone = self.hands.idle() && !pushed;
+        let is_left_alone = self.hands.idle() && self.drive.pushes.is_empty();
         let may_rest = is_left_alone && self.settling.part.rests() && self.scratch.string_energy() < SILENCE;
         (signal, may_rest)
     }

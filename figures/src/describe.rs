@@ -5,6 +5,7 @@ use low_action_dsp::curve::{CountOrList, Curve, OneOrEach};
 use low_action_dsp::scene::{
     BoardHeights, BoardSpec, FingerSpec, FretPlacement, FretboardSpec, PluckSpec, SolverSettings, StringSpec,
 };
+use low_action_dsp::setup::Body;
 
 use crate::axis::power_of_ten;
 
@@ -21,6 +22,7 @@ pub fn describe(scene: &Scene) -> String {
     let mut sentences = Vec::new();
     sentences.extend(listed("strings", &scene.string, string));
     sentences.extend(scene.fretboard.as_ref().map(fretboard));
+    sentences.extend(scene.body.as_ref().map(body));
     sentences.extend(listed("plucks", &scene.pluck, |spec| pluck(spec, &on(spec.string))));
     sentences.extend(listed("fingers", &scene.finger, |spec| finger(spec, &on(spec.string))));
     sentences.push(computed(scene));
@@ -47,6 +49,20 @@ fn computed(scene: &Scene) -> String {
         parts.push(format!("tolerance {} m", number(solver.tolerance)));
     }
     format!("{}.", parts.join(", "))
+}
+
+fn body(spec: &Body) -> String {
+    let Body { frequency, mass, area, quality, spacing, volume, hole } = *spec;
+    format!(
+        "Body: {} kg and {} cm² at {} Hz, Q = {}, modes {} Hz apart, {} l of air, a hole of {} cm².",
+        number(mass),
+        number(1e4 * area),
+        number(frequency),
+        number(quality),
+        number(spacing),
+        number(1e3 * volume),
+        number(1e4 * hole)
+    )
 }
 
 fn string(spec: &StringSpec) -> String {

@@ -1,7 +1,7 @@
 //! The picture of any scene: where its strings have been, and what it cost and what it held.
 
 use anyhow::Result;
-use low_action_dsp::{Entry, Scene, Simulation};
+use low_action_dsp::{Energies, Entry, Scene, Simulation};
 
 use crate::axis::{Axis, unit_for};
 use crate::course::{BINS, Course};
@@ -27,7 +27,7 @@ pub struct SceneFigure {
     moments: u64,
     strings: Vec<StringRecord>,
     string_count: usize,
-    energies: [Course; 5],
+    energies: [Course; 6],
     explained: Course,
     balance: f64,
     forces: [Course; 3],
@@ -46,12 +46,13 @@ struct StringRecord {
 }
 
 /// Names and lines of the energies, in the order of [`SceneFigure::energies`].
-const ENERGIES: [(&str, Stroke); 5] = [
+const ENERGIES: [(&str, Stroke); 6] = [
     ("all", Stroke::new(colour::INK)),
     ("string", Stroke::thin(colour::BLUE)),
     ("stretching", Stroke::thin(colour::SKY)),
     ("contacts", Stroke::thin(colour::VERMILION)),
     ("fingers", Stroke::thin(colour::GREEN)),
+    ("body", Stroke::thin(colour::PURPLE)),
 ];
 
 /// Names and lines of the forces, in the order of [`SceneFigure::forces`].
@@ -74,7 +75,7 @@ impl SceneFigure {
                 reach: at_first.collect(),
             }
         });
-        let opened = simulation.ledgers().iter().map(|ledger| ledger.initial).sum();
+        let opened = simulation.accounts().map(|account| account.initial).sum();
         SceneFigure {
             caption: describe(scene),
             samples,
@@ -110,7 +111,8 @@ impl SceneFigure {
             }
         }
         let energies = &entry.energies;
-        let parts = [energies.total(), energies.string, energies.tension, energies.contact, energies.finger];
+        let Energies { string, tension, contact, finger, body } = *energies;
+        let parts = [energies.total(), string, tension, contact, finger, body];
         self.energies.iter_mut().zip(parts).for_each(|(course, part)| course.add(part));
         self.balance += self.step * (entry.power_in - entry.power_loss - entry.power_solver);
         self.explained.add(self.balance);

@@ -6,11 +6,11 @@ use crate::field::LANES;
 use crate::setup::Mode;
 
 /// Modes side by side.
-pub(super) type Row = [f64; LANES];
+pub(crate) type Row = [f64; LANES];
 
 /// Coefficients of modes side by side; where there is none they are 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Coefficients {
+pub(crate) struct Coefficients {
     /// What is left of the motion, (1 − ε)/(1 + ε) with ε = tanh(ωk/2Q).
     pub kept: Row,
     /// What the spring adds to it, (2 − 2√(1 − ε²) cos θ)/(1 + ε), θ the turn in a step, k√(ω² − (ω/2Q)²): together they have the mode

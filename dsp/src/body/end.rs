@@ -1,15 +1,17 @@
 //! The end of a string on a bridge that gives way: what one does to the other.
 
 use super::coefficients::Coefficients;
+use crate::drive::Push;
 use crate::grid::Reading;
 use crate::model::{Model, Stiffness};
+use crate::state::State;
 
 /// How much more tension grids bear than hands and tuning ask for, as a part of it, where there is a body.
-pub(crate) const ROOM: f64 = 0.02;
+pub(super) const ROOM: f64 = 0.02;
 
 /// How the string pulls at the bridge at a tension.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct End {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct End {
     /// N.
     pub tension: f64,
     /// Reads the string where the bridge's motion is felt.
@@ -39,6 +41,39 @@ impl End {
         let held: f64 = near.iter().zip(line).map(|(force, line)| force * line).sum();
         let line = tension / grid.length;
         End { tension, reading, pull, back: held + line, line }
+    }
+
+    /// Pulls as at another tension, N, from now on.
+    #[inline]
+    pub fn pull_at(&mut self, model: &Model, tension: f64) {
+        if tension != self.tension {
+            *self = End::new(model, tension);
+        }
+    }
+
+    /// What a bridge that is `lift` m up does to the string.
+    #[inline]
+    pub fn push(&self, lift: f64) -> Push {
+        Push { reading: self.reading, force: self.pull * lift }
+    }
+
+    /// What the string does to a bridge that is `lift` m up, N.
+    #[inline]
+    pub fn force(&self, state: &State, lift: f64) -> f64 {
+        self.pull * self.reading.of(&state.displacement) - self.back * lift
+    }
+
+    /// What string and bridge have in common between two samples, J, by what is read of the string at both and how far the bridge is up
+    /// then, m: less where the bridge goes along with the string.
+    pub fn common(&self, string: [f64; 2], lift: [f64; 2]) -> f64 {
+        0.5 * self.back * lift[0] * lift[1] - 0.5 * self.pull * (lift[1] * string[0] + lift[0] * string[1])
+    }
+
+    /// The same if nothing cancelled.
+    pub fn common_size(&self, string: [f64; 2], lift: [f64; 2]) -> f64 {
+        let [string, lift] = [string.map(f64::abs), lift.map(f64::abs)];
+        0.5 * self.back * lift[0] * lift[1]
+            + 0.5 * self.pull.abs() * (lift[1] * string[0] + lift[0] * string[1])
     }
 
     /// How much a body takes of what the grid of a string has left where it is tautest, at `most` N: the scheme is stable up to 1.

@@ -6,8 +6,10 @@ use crate::curve::Curve;
 use crate::drive::Drive;
 use crate::energy::Ledger;
 use crate::model::StringParameters;
-use crate::scene::{SolverSettings, Stencil};
+use crate::pickup::bridge_force;
+use crate::scene::{Scene, SolverSettings, Stencil};
 use crate::setup::Setup;
+use crate::simulation::{SceneString, Simulation};
 use crate::string::Scratch;
 
 const GUITAR: Description = Description::GUITAR;
@@ -22,7 +24,7 @@ fn low_string_at(stencil: Stencil, rate: f64) -> Model {
         length: 0.65,
         linear_density: 6.24e-3,
         tension: 71.6,
-        tension_limit: 71.6 * 1.06 * (1.0 + ROOM),
+        tension_limit: 71.6 * 1.06 * room(true),
         youngs_modulus: 2.234e10,
         core_radius: 2.387e-4,
         loss_0: 0.0,
@@ -66,29 +68,26 @@ fn step(strings: &mut [Pair]) -> f64 {
     let before = lift(strings);
     let (mut energy, mut coupling) = (0.0, Vec::new());
     for Pair { model, state, scratch, drive, ledger, body, heard } in &mut *strings {
-        let End { reading, pull, back, .. } = body.end;
-        let string_before = reading.of(&state.displacement);
+        let string_before = body.end.reading.of(&state.displacement);
         let (push, of_body) = body.step(model, state, drive.tension, before);
         *heard = of_body;
-        drive.pushes.push(push);
+        drive.bridge = Some(push);
         state.step(model, drive, scratch);
         energy += ledger.record(model, state, scratch, drive).energies.total();
-        drive.pushes.clear();
-        coupling.push((pull, back, string_before, reading.of(&state.displacement)));
+        coupling.push((body.end, [string_before, body.end.reading.of(&state.displacement)]));
     }
     let after = lift(strings);
-    for (pull, back, string_before, string_after) in coupling {
-        energy -= 0.5 * pull * (after * string_before + before * string_after);
-        energy += 0.5 * back * before * after;
+    for (end, string) in coupling {
+        energy += end.common(string, [before, after]);
     }
     // All that the strings have the modes do is one motion.
-    let mut whole = strings[0].body.clone();
-    for Pair { body, .. } in &strings[1..] {
+    let mut whole = strings[0].body.modes.clone();
+    for Pair { body: Body { modes, .. }, .. } in &strings[1..] {
         let add = |to: &mut Vec<Row>, from: &[Row]| {
             to.iter_mut().flatten().zip(from.iter().flatten()).for_each(|(to, from)| *to += from);
         };
-        add(&mut whole.place, &body.place);
-        add(&mut whole.motion, &body.motion);
+        add(&mut whole.place, &modes.place);
+        add(&mut whole.motion, &modes.motion);
     }
     energy + whole.energy()
 }
@@ -275,7 +274,7 @@ fn the_force_on_a_bridge_that_gives_way_is_known() {
         let (mut low, mut sum) = (0.0, 0.0);
         for _ in 0..(0.3 * rate) as usize {
             pair.step();
-            let heard = crate::pickup::bridge_force(&pair.model, &pair.scratch, pair.heard.lift);
+            let heard = bridge_force(&pair.model, &pair.scratch, pair.heard.lift);
             low += (heard - low) * (1.0 - libm::exp(-TAU * 2000.0 / rate));
             sum += low * low;
         }
@@ -302,14 +301,15 @@ fn a_body_begins_where_the_string_holds_it() {
         pair.body.take_over(None, &pair.model, tension);
         let [pull, back] = pair.body.pulled(&pair.state);
         pair.body.rest_under(pull / (1.0 + pair.body.gives() * back));
-        let begins = pair.body.bridge;
+        let begins = pair.body.lift();
         let mut farthest: f64 = 0.0;
         for _ in 0..48_000 {
             pair.drive.pushes.push(push);
             pair.step();
-            farthest = farthest.min(pair.body.bridge);
+            pair.drive.pushes.clear();
+            farthest = farthest.min(pair.body.lift());
         }
-        let rests = pair.body.bridge;
+        let rests = pair.body.lift();
         assert!(begins < 0.0 && begins > rests, "{mass} kg: it begins at {begins} and rests at {rests} m");
         assert!(farthest > 2.0 * rests, "{mass} kg: it swings to {farthest} and rests at {rests} m");
     }
@@ -326,10 +326,64 @@ fn a_body_that_fades_is_forgotten() {
     while !pair.body.is_still() {
         pair.body.ring(pair.body.lift());
         steps += 1;
-        let numbers = pair.body.place.iter().chain(&pair.body.motion).flatten();
+        let numbers = pair.body.modes.place.iter().chain(&pair.body.modes.motion).flatten();
         assert!(numbers.into_iter().all(|number| !number.is_subnormal()));
         assert!(steps < 96_000, "it comes to rest");
     }
     assert!(steps > 4_800, "it rings");
     assert_eq!(pair.body.ring(0.0), Heard::default());
+}
+
+/// A scene of so many strings like that of [`low_string`], the first of them plucked, over a body.
+fn scene(count: usize, position: &str) -> Simulation {
+    let string = "[[string]]\nlength = 0.65\nlinear_density = 6.24e-3\ntension = 71.6\nyoungs_modulus = 2.234e10\n\
+                  core_radius = 2.387e-4\ntension_modulation = true\n";
+    let Description { frequency, mass, area, quality, spacing, volume, hole } = GUITAR;
+    let text = format!(
+        "sample_rate = 48000\nduration = 1.0\n{}[body]\nfrequency = {frequency}\nmass = {mass}\narea = {area}\n\
+         quality = {quality}\nspacing = {spacing}\nvolume = {volume}\nhole = {hole}\n\
+         [[pluck]]\nduration = 0.002\nposition = 0.5\nforce = 1.0\n[output]\nposition = \"{position}\"\n",
+        string.repeat(count)
+    );
+    Simulation::new(&Scene::from_toml(&text).expect("it is legal")).expect("it can be built")
+}
+
+/// Over a scene's body a string moves as over one of an instrument, and the same is heard, at the bridge and in the air, to the bit; and
+/// several do but for rounding, though there each has a bank of modes to itself.
+#[test]
+fn strings_of_a_scene_and_of_an_instrument_hear_the_same_body() {
+    // (Last digits of displacements are a k² larger part of accelerations, which is what sounds.)
+    for (count, apart) in [(1, 0.0), (3, 1e-10)] {
+        let [mut of_air, mut of_bridge] = ["air", "bridge"].map(|position| scene(count, position));
+        let new = |string: &SceneString| Pair::new(string.model.clone(), &GUITAR);
+        let mut strings: Vec<Pair> = of_air.strings().iter().map(new).collect();
+        let mut loudest = [0.0; 2];
+        for _ in 0..24_000 {
+            of_bridge.step();
+            of_air.step_under(|index, string| {
+                strings[index].drive.pushes.clear();
+                strings[index].drive.pushes.extend_from_slice(&string.drive.pushes);
+            });
+            step(&mut strings);
+            let force = |pair: &Pair| bridge_force(&pair.model, &pair.scratch, pair.heard.lift);
+            let heard = [
+                (of_air.output(), strings.iter().map(|pair| pair.heard.pressure).sum::<f64>()),
+                (of_bridge.output(), strings.iter().map(force).sum::<f64>()),
+            ];
+            for (most, (found, expected)) in loudest.iter_mut().zip(heard) {
+                *most = expected.abs().max(*most);
+                assert!((found - expected).abs() <= apart * *most, "{count}: {found} and not {expected}");
+            }
+            for (string, pair) in of_air.strings().iter().zip(&strings) {
+                let both = string.state.displacement().zip(pair.state.displacement());
+                for (found, expected) in both {
+                    assert!(
+                        (found - expected).abs() <= apart * 1e-3,
+                        "{count}: {found} and not {expected} m"
+                    );
+                }
+            }
+        }
+        assert!(loudest[0] > 0.01 && loudest[1] > 0.1, "{loudest:?}");
+    }
 }

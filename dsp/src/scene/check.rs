@@ -38,6 +38,9 @@ impl Scene {
         if let Some(fretboard) = &self.fretboard {
             fretboard.check()?;
         }
+        if let Some(body) = &self.body {
+            body.check()?;
+        }
         for (i, pluck) in self.pluck.iter().enumerate() {
             let name = format!("pluck[{}]", i + 1);
             let length = self.length_of(&name, pluck.string)?;
@@ -59,12 +62,18 @@ impl Scene {
                 return Err(Error::range(format!("number of fingers on string[{number}]"), count, accepted));
             }
         }
-        if let ListeningPoint::At(place) = self.output.position {
-            for string in &self.string {
-                on_string("output.position", place, string.length)?;
+        match self.output.position {
+            ListeningPoint::Bridge => Ok(()),
+            ListeningPoint::At(place) => self
+                .string
+                .iter()
+                .try_for_each(|string| on_string("output.position", place, string.length).map(drop)),
+            ListeningPoint::Air if self.body.is_some() => Ok(()),
+            ListeningPoint::Air => {
+                let accepted = "only a [body] is heard in the air, and there is none";
+                Err(Error::range("output.position", "\"air\"", accepted))
             }
         }
-        Ok(())
     }
 
     fn length_of(&self, name: &str, string: usize) -> Result<f64, Error> {

@@ -91,7 +91,7 @@ const SPREAD: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.54
 
 impl Body {
     /// Refuses values outside their range.
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         within("body.frequency", self.frequency, 30.0, 2000.0, "Hz")?;
         within("body.mass", self.mass, 0.01, 1000.0, "kg")?;
         within("body.area", self.area, 1e-4, 1.0, "m²")?;

@@ -1,13 +1,14 @@
 //! One string of a running scene: the forces and positions that the scene has act on it.
 
-use super::MOST_NUMBERS;
+use super::{MOST_NUMBERS, parameters};
+use crate::body::most_tension;
 use crate::curve::Curve;
 use crate::digits::plain;
 use crate::drive::{Drive, Hand, Push};
 use crate::error::Error;
 use crate::gesture::pluck_push;
 use crate::grid::Reading;
-use crate::model::{Barrier, ContactKind, Model, StringParameters};
+use crate::model::{Barrier, ContactKind, Model};
 use crate::pickup::bridge_force;
 use crate::scene::{ListeningPoint, PluckSpec, Scene};
 use crate::solver::Convergence;
@@ -36,6 +37,8 @@ pub struct SceneString {
     begins_held: bool,
     listening: Option<Reading>,
     fret_count: usize,
+    /// The most tension that it may be given, N.
+    most_tension: f64,
 }
 
 /// How a finger of a running scene is.
@@ -101,9 +104,8 @@ impl SceneString {
         let fingers: Vec<_> =
             scene.finger.iter().enumerate().filter(|(_, finger)| finger.string == number).collect();
         let barrier = scene.fretboard.as_ref().map(|b| Barrier::from_spec(b, spec.length)).transpose()?;
-        let parameters = StringParameters::from_spec(spec);
-        let slots = fingers.len();
-        let model = Model::of_any_crowd(parameters, barrier.as_ref(), slots, scene.solver, scene.sample_rate)
+        let (string, slots) = (parameters(scene, index), fingers.len());
+        let model = Model::of_any_crowd(string, barrier.as_ref(), slots, scene.solver, scene.sample_rate)
             .map_err(|error| error.under(&format!("string[{number}]")))?;
         *left = left.checked_sub(model.numbers()).ok_or_else(|| too_crowded(number))?;
         let mut state = State::new(&model);
@@ -152,9 +154,10 @@ impl SceneString {
             begins_held: spec.shape.is_some() || spec.velocity.is_some() || !fingers.is_empty(),
             fret_count: barrier.as_ref().map_or(0, |barrier| barrier.frets.len()),
             listening: match scene.output.position {
-                ListeningPoint::Bridge => None,
+                ListeningPoint::Bridge | ListeningPoint::Air => None,
                 ListeningPoint::At(place) => Some(model.grid.reading(place)),
             },
+            most_tension: most_tension(&model, scene.body.is_some()),
             scratch: Scratch::new(&model),
             drive,
             convergence: Convergence::default(),
@@ -210,11 +213,23 @@ impl SceneString {
         self.scratch.stiffness().tension
     }
 
-    pub(super) fn output(&self) -> f64 {
+    /// What is heard of it over a bridge that is `lift` m up.
+    pub(super) fn output(&self, lift: f64) -> f64 {
         match &self.listening {
             Some(reading) => self.state.velocity_at(&self.model, reading),
-            None => bridge_force(&self.model, &self.scratch, 0.0),
+            None => bridge_force(&self.model, &self.scratch, lift),
         }
+    }
+
+    /// The most tension that may be asked for, N: what the grid bears, less what a body takes of it.
+    pub fn most_tension(&self) -> f64 {
+        self.most_tension
+    }
+
+    /// What the bridge of a body has put into the string in the last step, W: below 0 where the string has moved the bridge.
+    pub fn bridge_power(&self) -> f64 {
+        let (before, after) = (&self.scratch.motion, &self.state.motion);
+        self.drive.bridge.map_or(0.0, |push| push.power(before, after, self.model.grid.time_step))
     }
 
     /// Place of each interior point, m from the nut.

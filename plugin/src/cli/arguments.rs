@@ -150,6 +150,14 @@ A scene, a file in TOML (docs/formats.md has all that may stand in one):
   exponent = 2.0
   position = 0.09            # m, or a course over time: [[s, m], ...]
   force = 3.0                # N, downwards
+  [body]                     # if the bridge is to give way and to sound
+  frequency = 170.0          # Hz
+  mass = 0.1                 # kg
+  area = 0.05                # m²
+  quality = 20.0
+  spacing = 50.0             # Hz
+  volume = 0.0145            # m³
+  hole = 0.0055              # m²
   [[pluck]]                  # none or more
   start = 0.1                # s
   duration = 0.002           # s
@@ -166,15 +174,17 @@ the energies half a sample later.
   force_board_S, force_fret_S_F,
   force_finger_N               N
   force_pluck_N                N; the push of each pluck
-  output                       m/s or N, as the scene's [output] asks
+  power_bridge_S               W; what the bridge puts into a string, if there is a body
+  output                       m/s, N or Pa, as the scene's [output] asks
   iterations                   of the contact solver, all strings together
   energy_string, energy_tension,
-  energy_contact, energy_finger
-                               J
+  energy_contact, energy_finger,
+  energy_body                  J
   power_loss, power_solver,
   power_in                     W
   power_loss_0, power_loss_1, power_loss_contact,
-  power_loss_hand              W; the terms of power_loss
+  power_loss_hand, power_loss_body
+                               W; the terms of power_loss
   power_in_pluck, power_in_hand, power_in_slide,
   power_in_tension             W; the terms of power_in, all but in the first sample of a
                                string that is thrown and begins inside board or frets

@@ -16,7 +16,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, anyhow, bail};
 use low_action_dsp::digits::{at_least, at_most, plain};
 use low_action_dsp::pickup::stretch_tension;
-use low_action_dsp::{Ledger, Scene, Simulation};
+use low_action_dsp::{Account, Scene, Simulation};
 use low_action_figures::SceneFigure;
 
 use super::names::shown;
@@ -65,8 +65,9 @@ pub(super) fn run(arguments: &SceneArgs) -> Outcome {
     let summary =
         Summary { arguments, scene: &scene, simulation: &simulation, seen, sound, trace_size, elapsed };
     summary.print();
-    check(&name, &seen, sound.as_ref(), simulation.ledgers())?;
-    warnings::coarse(simulation.ledgers())
+    let strings = simulation.strings().len();
+    check(&name, &seen, sound.as_ref(), strings, simulation.accounts())?;
+    warnings::coarse(strings, simulation.accounts())
         .iter()
         .for_each(|warning| say("warning", &format!("{name}: {warning}")));
     Ok(())
@@ -249,7 +250,13 @@ fn compute(name: &str, simulation: &mut Simulation, outputs: &mut Outputs) -> Re
 }
 
 /// Whether the result of a scene that is so called may be believed.
-fn check(name: &str, seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) -> Outcome {
+fn check<'a>(
+    name: &str,
+    seen: &Seen,
+    sound: Option<&Findings>,
+    strings: usize,
+    accounts: impl Iterator<Item = &'a Account>,
+) -> Outcome {
     let fails = |text: String| Err(Failure::Check(format!("{name}: {text}")));
     if let Some(sample) = seen.not_finite {
         return fails(format!("the result is not finite from sample {sample} on; it is kept"));
@@ -261,12 +268,13 @@ fn check(name: &str, seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) 
         let count = sound.not_finite;
         return fails(format!("{count} samples are too large for 32 bits; the file is kept"));
     }
-    for (number, ledger) in (1..).zip(ledgers) {
-        let (open, limit) = (open_part(ledger), BALANCE + rounding_part(ledger));
+    for (index, account) in accounts.enumerate() {
+        let (open, limit) = (open_part(account), BALANCE + rounding_part(account));
         if open.is_nan() || open > limit {
             return fails(format!(
-                "the energy balance of string {number} is open by {} of its largest energy or of all that was put in, over \
+                "the energy balance of {} is open by {} of its largest energy or of all that was put in, over \
                  the limit of {}; the result is kept",
+                named(index, strings),
                 plain(at_least(open)),
                 plain(at_most(limit))
             ));
@@ -275,55 +283,61 @@ fn check(name: &str, seen: &Seen, sound: Option<&Findings>, ledgers: &[Ledger]) 
     Ok(())
 }
 
+/// What the account of an index is of, where the first are of so many strings.
+fn named(index: usize, strings: usize) -> String {
+    if index < strings { format!("string {}", index + 1) } else { "the body".into() }
+}
+
 /// How far a ledger is open in all, as a part of the largest energy or of all that was put in.
-fn open_part(ledger: &Ledger) -> f64 {
-    if ledger.residual_sum == 0.0 { 0.0 } else { ledger.residual_sum.abs() / flow(ledger) }
+fn open_part(account: &Account) -> f64 {
+    if account.residual_sum == 0.0 { 0.0 } else { account.residual_sum.abs() / flow(account) }
 }
 
 /// How far rounding alone may open it, as the same part.
-fn rounding_part(ledger: &Ledger) -> f64 {
-    ledger.rounding / flow(ledger)
+fn rounding_part(account: &Account) -> f64 {
+    account.rounding / flow(account)
 }
 
 /// What a balance is judged by, J: above 0. (What hands take out again has gone through it, too.)
-fn flow(ledger: &Ledger) -> f64 {
-    ledger.largest.max(ledger.put_in_gross).max(f64::MIN_POSITIVE)
+fn flow(account: &Account) -> f64 {
+    account.largest.max(account.put_in_gross).max(f64::MIN_POSITIVE)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn ledgers() -> Vec<Ledger> {
+    fn accounts() -> Vec<Account> {
         let text = "sample_rate = 44100\nduration = 0.01\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\n\
                     tension = 60.0\nshape = [[0.0, 0.0], [0.3, 0.001], [0.65, 0.0]]\n";
         let mut simulation = Simulation::new(&Scene::from_toml(text).unwrap()).unwrap();
         simulation.open_ledger();
         simulation.step();
-        simulation.ledgers().to_vec()
+        simulation.accounts().cloned().collect()
     }
 
     #[test]
     fn a_good_result_passes() {
-        assert!(check("it", &Seen::default(), Some(&Findings::default()), &ledgers()).is_ok());
+        assert!(check("it", &Seen::default(), Some(&Findings::default()), 1, accounts().iter()).is_ok());
     }
 
     #[test]
     fn what_is_not_finite_or_not_balanced_fails_with_3() {
         let code = |outcome: Outcome| outcome.err().map(|failure| failure.code());
+        let nothing = [].iter();
         let seen = Seen { not_finite: Some(7), ..Seen::default() };
-        assert_eq!(code(check("it", &seen, None, &[])), Some(3));
+        assert_eq!(code(check("it", &seen, None, 1, nothing.clone())), Some(3));
         let seen = Seen { ends_not_finite: true, ..Seen::default() };
-        assert_eq!(code(check("it", &seen, None, &[])), Some(3));
+        assert_eq!(code(check("it", &seen, None, 1, nothing.clone())), Some(3));
         let sound = Findings { not_finite: 1, ..Findings::default() };
-        assert_eq!(code(check("it", &Seen::default(), Some(&sound), &[])), Some(3));
+        assert_eq!(code(check("it", &Seen::default(), Some(&sound), 1, nothing)), Some(3));
         for part in [2.0 * BALANCE, -2.0 * BALANCE, f64::NAN] {
-            let mut open = ledgers();
+            let mut open = accounts();
             open[0].residual_sum = part * open[0].largest;
-            assert_eq!(code(check("it", &Seen::default(), None, &open)), Some(3));
+            assert_eq!(code(check("it", &Seen::default(), None, 1, open.iter())), Some(3));
             // Where more than that has gone through it, and been taken out again, it passes.
             open[0].put_in_gross = 10.0 * open[0].largest;
-            let outcome = check("it", &Seen::default(), None, &open);
+            let outcome = check("it", &Seen::default(), None, 1, open.iter());
             assert_eq!(code(outcome), part.is_nan().then_some(3));
         }
     }

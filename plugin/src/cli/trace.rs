@@ -20,6 +20,8 @@ const LARGEST: u64 = 1_000_000_000_000;
 struct StringArrays {
     displacement: usize,
     tension: usize,
+    /// Of the bridge of a body.
+    bridge: Option<usize>,
     board: Option<usize>,
     /// The first of its frets' arrays; the others follow.
     frets: usize,
@@ -35,20 +37,23 @@ struct FingerArrays {
 /// What an array of the ledger holds of an entry.
 type Part = fn(&Entry) -> f64;
 
-/// The ledger's arrays, without what only instruments do: moving frets, placing fingers. (There is an
+/// The ledger's arrays, without what only instruments do: moving frets, placing fingers, and without what the bridge of a body puts
+/// into strings, which in all is what it takes from them: each string has an array of its own for that. (There is an
 /// exception: under a string that is thrown and begins inside board or frets these count as risen in the first sample, by
 /// `inputs.barrier`, and there the terms of `power_in` here are less than all of it.) Readers add up all whose names begin with
 /// `energy_`: no other may.
-const LEDGER: [(&str, Part); 16] = [
+const LEDGER: [(&str, Part); 18] = [
     ("energy_string", |entry| entry.energies.string),
     ("energy_tension", |entry| entry.energies.tension),
     ("energy_contact", |entry| entry.energies.contact),
     ("energy_finger", |entry| entry.energies.finger),
+    ("energy_body", |entry| entry.energies.body),
     ("power_loss", |entry| entry.power_loss),
     ("power_loss_0", |entry| entry.losses.loss_0),
     ("power_loss_1", |entry| entry.losses.loss_1),
     ("power_loss_contact", |entry| entry.losses.contact),
     ("power_loss_hand", |entry| entry.losses.hand),
+    ("power_loss_body", |entry| entry.losses.body),
     ("power_solver", |entry| entry.power_solver),
     ("power_in", |entry| entry.power_in),
     ("power_in_pluck", |entry| entry.inputs.pluck),
@@ -87,6 +92,7 @@ impl Plan {
         };
         array("t".into(), Kind::Real, &[rows]);
         array("scene".into(), Kind::Text(text.chars().count() as u64), &[]);
+        let has_body = simulation.has_body();
         let mut strings = Vec::new();
         let mut pluck_count = 0;
         let mut finger_numbers = Vec::new();
@@ -95,13 +101,14 @@ impl Plan {
             array(format!("x_{number}"), Kind::Real, &[points]);
             let displacement = array(format!("u_{number}"), Kind::Real, &[rows, points]);
             let tension = array(format!("tension_{number}"), Kind::Real, &[rows]);
+            let bridge = has_body.then(|| array(format!("power_bridge_{number}"), Kind::Real, &[rows]));
             let board =
                 string.has_board().then(|| array(format!("force_board_{number}"), Kind::Real, &[rows]));
-            let frets = tension + 1 + usize::from(board.is_some());
+            let frets = tension + 1 + usize::from(bridge.is_some()) + usize::from(board.is_some());
             for fret in 1..=string.fret_count() {
                 array(format!("force_fret_{number}_{fret}"), Kind::Real, &[rows]);
             }
-            strings.push(StringArrays { displacement, tension, board, frets });
+            strings.push(StringArrays { displacement, tension, bridge, board, frets });
             pluck_count += string.plucks().count();
             finger_numbers.extend(string.fingers().map(|finger| finger.number));
         }
@@ -231,6 +238,9 @@ impl Trace {
         let arrays = &self.plan.strings[index];
         let tension = string.scratch.stiffness().tension + stretch_tension(&string.model, &string.scratch);
         self.npz.add(arrays.tension, &[tension])?;
+        if let Some(bridge) = arrays.bridge {
+            self.npz.add(bridge, &[string.bridge_power()])?;
+        }
         if let Some(board) = arrays.board {
             self.npz.add(board, &[string.board_force()])?;
         }

@@ -13,7 +13,8 @@ use low_action_tests::numbers::largest;
 use low_action_tests::scenes::PLUCKED_AND_TAPPED as SCENE;
 
 /// The ledger's arrays, by the alphabet.
-const LEDGER: [&str; 16] = [
+const LEDGER: [&str; 18] = [
+    "energy_body",
     "energy_contact",
     "energy_finger",
     "energy_string",
@@ -26,6 +27,7 @@ const LEDGER: [&str; 16] = [
     "power_loss",
     "power_loss_0",
     "power_loss_1",
+    "power_loss_body",
     "power_loss_contact",
     "power_loss_hand",
     "power_solver",
@@ -130,11 +132,13 @@ fn the_trace_holds_the_ledger() {
         ("energy_tension", column(|entry| entry.energies.tension)),
         ("energy_contact", column(|entry| entry.energies.contact)),
         ("energy_finger", column(|entry| entry.energies.finger)),
+        ("energy_body", column(|entry| entry.energies.body)),
         ("power_loss", column(|entry| entry.power_loss)),
         ("power_loss_0", column(|entry| entry.losses.loss_0)),
         ("power_loss_1", column(|entry| entry.losses.loss_1)),
         ("power_loss_contact", column(|entry| entry.losses.contact)),
         ("power_loss_hand", column(|entry| entry.losses.hand)),
+        ("power_loss_body", column(|entry| entry.losses.body)),
         ("power_solver", column(|entry| entry.power_solver)),
         ("power_in", column(|entry| entry.power_in)),
         ("power_in_pluck", column(|entry| entry.inputs.pluck)),

@@ -81,6 +81,50 @@ fn the_scene_itself_is_accepted() {
     assert_eq!(place.run(&["scene", "scene.toml"]).code, 0);
 }
 
+/// A body that the scene's string bears.
+const BODY: &str = "[body]\nfrequency = 170.0\nmass = 0.1\narea = 0.05\nquality = 20.0\nspacing = 50.0\nvolume = 0.0145\n\
+                    hole = 0.0055\n[[pluck]]";
+
+#[test]
+fn bodies_that_cannot_be_are_refused() {
+    let heard = "[output]\nposition = \"air\"\n[[pluck]]";
+    let cases: &[(&str, &str, &[&str])] = &[
+        ("", heard, &["output.position = \"air\"", "only a [body] is heard in the air"]),
+        ("mass = 0.1", "mass = 0.0", &["body.mass = 0 ", "between 0.01 and 1000 kg"]),
+        ("hole = 0.0055", "hole = 1.0", &["body.hole = 1 ", "between 0.00001 and 0.1 m²"]),
+        ("hole = 0.0055", "", &["body", "hole"]),
+        ("hole = 0.0055", "hole = 0.0055\ntop = 1.0", &["top", "unknown"]),
+        ("[body]", "[[body]]", &["body"]),
+    ];
+    for (from, to, words) in cases {
+        let body = if from.is_empty() { (*to).to_owned() } else { BODY.replacen(from, to, 1) };
+        assert_scene_refused("[[pluck]]", &body, words);
+    }
+    // Whoever takes the mass that is named has one that is just heavy enough for all strings of the scene.
+    let string = "[[string]]\nlength = 0.65\nlinear_density = 0.5\ntension = 6000.0\nloss_1 = 0.01\n";
+    let scene = |count: usize, mass: &str| {
+        let body = BODY.replacen("mass = 0.1", mass, 1);
+        SCENE.replacen("[fretboard]", &format!("{}[fretboard]", string.repeat(count)), 1).replacen(
+            "[[pluck]]",
+            &body,
+            1,
+        )
+    };
+    let place = workplace();
+    let mut least = Vec::new();
+    for count in [1, 3] {
+        place.write("scene.toml", scene(count, "mass = 0.01"));
+        let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
+        assert_refused(&done, 1, &["scene.toml", "body.mass = 0.01 ", "it must be at least ", " kg"]);
+        let mass = done.error.trim_end().rsplit(' ').nth(1).expect("a mass");
+        place.write("scene.toml", scene(count, &format!("mass = {mass}")));
+        let done = place.run(&["scene", "scene.toml"]);
+        assert_eq!(done.code, 0, "{mass} kg: {}", done.error);
+        least.push(mass.parse::<f64>().expect("a number"));
+    }
+    assert!(least[1] > 2.5 * least[0], "{least:?} kg");
+}
+
 #[test]
 fn values_out_of_range_are_refused() {
     let cases: &[(&str, &str, &[&str])] = &[

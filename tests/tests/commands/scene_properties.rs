@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::f64::consts::PI;
 
-use low_action_dsp::{Ledger, Scene, Simulation};
+use low_action_dsp::{Account, Scene, Simulation};
 use low_action_tests::cases::cases;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -49,7 +49,7 @@ fn compute(simulation: &mut Simulation) -> bool {
         assert!(simulation.output().is_finite(), "output at {}", simulation.steps());
         touched |= simulation.strings().iter().any(|string| string.convergence.active > 0);
     }
-    for ledger in simulation.ledgers() {
+    for ledger in simulation.accounts() {
         let open = ledger.residual_sum.abs();
         assert!(
             open <= BALANCE * ledger.largest + ledger.rounding,
@@ -304,8 +304,8 @@ fn accepted_scenes_stay_finite_and_balanced() {
             Ok(mut simulation) => {
                 touched.set(touched.get() + u32::from(compute(&mut simulation)));
                 accepted.set(accepted.get() + 1);
-                let rounds = |ledger: &Ledger| ledger.rounding > BALANCE * ledger.largest;
-                coarse.set(coarse.get() + u32::from(simulation.ledgers().iter().any(rounds)));
+                let rounds = |ledger: &Account| ledger.rounding > BALANCE * ledger.largest;
+                coarse.set(coarse.get() + u32::from(simulation.accounts().any(rounds)));
             }
             // What does not fit its grid is refused only now.
             Err(error) => {

@@ -125,3 +125,36 @@ fn fingers_are_where_the_scene_has_them() {
         assert!(found["x_finger_2"].numbers.iter().all(|&place| place == 0.25));
     }
 }
+
+/// What the bridge of a body has put into each string it has taken from the body, and nothing of it is in `power_in`.
+#[test]
+fn what_strings_and_a_body_give_each_other_is_told() {
+    let body = "[body]\nfrequency = 170.0\nmass = 0.1\narea = 0.05\nquality = 20.0\nspacing = 50.0\nvolume = 0.0145\nhole = 0.0055\n";
+    let place = workplace();
+    place.write("scene.toml", format!("{SCENE}{body}[output]\nposition = \"air\"\n"));
+    let done = place.run(&["scene", "scene.toml", "--trace", "out.npz", "--wav", "out.wav"]);
+    assert_eq!(done.code, 0, "{}", done.error);
+    assert!(done.text().contains("out.wav: sound pressure before the body, at most "), "{}", done.text());
+    let found = arrays(&place.path("out.npz"));
+    let numbers = |name: &str| &found[name].numbers;
+    let (energy, lost) = (numbers("energy_body"), numbers("power_loss_body"));
+    let [first, second] = ["power_bridge_1", "power_bridge_2"].map(numbers);
+    let largest = largest(energy.iter().copied());
+    let mut given = 0.0;
+    for row in 1..energy.len() {
+        let put_in = -(first[row] + second[row]);
+        let open = energy[row] - energy[row - 1] + (lost[row] - put_in) / RATE;
+        assert!(open.abs() < 1e-14 * largest, "row {row}: {open} of {largest} J");
+        given += put_in / RATE;
+    }
+    assert!(given > 1e-9 && largest > 1e-9 && second.iter().any(|power| *power > 0.0), "{given} J");
+    assert!(!found.contains_key("power_in_bridge"));
+    // Without a body there is none of that.
+    place.write("scene.toml", SCENE);
+    assert_eq!(place.run(&["scene", "scene.toml", "--trace", "out.npz"]).code, 0);
+    let found = arrays(&place.path("out.npz"));
+    assert!(
+        ["energy_body", "power_loss_body"].iter().all(|name| found[*name].numbers.iter().all(|&x| x == 0.0))
+    );
+    assert!(!found.contains_key("power_bridge_1"));
+}

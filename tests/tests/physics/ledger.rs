@@ -9,7 +9,8 @@ use std::thread;
 use low_action_dsp::drive::Push;
 use low_action_dsp::simulation::SceneString;
 use low_action_dsp::{
-    Barrier, Drive, Entry, Inputs, Ledger, Losses, Model, Scene, Scratch, Simulation, State, StringParameters,
+    Barrier, Drive, Energies, Entry, Inputs, Ledger, Losses, Model, Scene, Scratch, Simulation, State,
+    StringParameters,
 };
 use low_action_tests::numbers::largest;
 
@@ -41,6 +42,9 @@ const PRESS: &str = "[[finger]]\nmass = 5e-3\nstiffness = 1e8\nexponent = 1.5\np
 const SLIDE: &str = "[[finger]]\nmass = 5e-3\nstiffness = 1e8\nexponent = 2.0\n\
                      position = [[0.0, 0.2], [1.0, 0.2], [6.0, 0.31], [9.0, 0.15]]\n\
                      height = 1e-4\nforce = 6.0\nhand_damping = 5.0\ndamping = 1.0\n";
+
+const BODY: &str = "[body]\nfrequency = 170.0\nmass = 0.1\narea = 0.05\nquality = 20.0\nspacing = 50.0\nvolume = 0.0145\n\
+                    hole = 0.0055\n";
 
 /// A fretboard that loses energy; steel has 0.3 s/m.
 fn lossy(fretboard: &str, damping: f64) -> String {
@@ -271,17 +275,19 @@ fn moving_frets(fretboard: &str) {
 }
 
 /// Names of what is lost and of what is put in, in the order of [`losses`] and [`inputs`].
-const LOST: [&str; 4] = ["loss_0", "loss_1", "contact", "hand"];
+const LOST: [&str; 5] = ["loss_0", "loss_1", "contact", "hand", "body"];
 const PUT_IN: [&str; 6] = ["pluck", "hand", "slide", "barrier", "tension", "finger"];
 
 // (Taken apart whole, so that no term can be left out of them.)
-fn losses(entry: &Entry) -> [f64; 4] {
-    let Losses { loss_0, loss_1, contact, hand } = entry.losses;
-    [loss_0, loss_1, contact, hand]
+fn losses(entry: &Entry) -> [f64; 5] {
+    let Losses { loss_0, loss_1, contact, hand, body } = entry.losses;
+    [loss_0, loss_1, contact, hand, body]
 }
 
 fn inputs(entry: &Entry) -> [f64; 6] {
-    let Inputs { pluck, hand, slide, barrier, tension, finger } = entry.inputs;
+    let Inputs { pluck, bridge, hand, slide, barrier, tension, finger } = entry.inputs;
+    // What it puts into strings it takes from them.
+    assert_eq!(bridge, 0.0);
     [pluck, hand, slide, barrier, tension, finger]
 }
 
@@ -326,7 +332,7 @@ fn terms_add_up_to_what_is_lost_and_put_in() {
         .replace("duration = 10.0", "duration = 1.0")
         .replace("tension = 60.0", "tension = [[0.3, 60.0], [0.5, 66.0]]");
     let slide = SLIDE.replace("[1.0, 0.2], [6.0, 0.31], [9.0, 0.15]", "[0.2, 0.2], [0.8, 0.31]");
-    let scene = format!("{bent}{LOSSES}{PLUCK}{slide}{}", lossy(ALL, 0.3));
+    let scene = format!("{bent}{LOSSES}{PLUCK}{slide}{BODY}{}", lossy(ALL, 0.3));
     let touch = Scene::from_toml(&scene).expect("the scene is valid").finger[0].touch();
     let entries = entries(&scene, |n, string| {
         sway(n, string);
@@ -383,6 +389,7 @@ fn each_term_is_booked_by_its_name() {
         string.drive.loss = if n > 4000 { 300.0 } else { 0.0 };
     };
     books(&format!("{string}{PLUCK}"), braked, &["hand"], &["pluck"]);
+    books(&format!("{string}{PLUCK}{BODY}"), alone, &["body"], &["pluck"]);
 }
 
 /// What is taken out again is counted off what was put in, and not off what has gone through the balance.
@@ -415,7 +422,8 @@ fn nothing_holds_no_energy() {
         Simulation::new(&Scene::from_toml(STRING).expect("it is valid")).expect("it can be built");
     simulation.open_ledger();
     let energies = simulation.step().expect("the ledger is open").energies;
-    for energy in [energies.string, energies.tension, energies.contact, energies.finger] {
+    let Energies { string, tension, contact, finger, body } = energies;
+    for energy in [string, tension, contact, finger, body] {
         assert!(energy == 0.0 && energy.is_sign_positive(), "{energies:?}");
     }
 }

@@ -22,5 +22,6 @@ mod paper_slide;
 mod paper_tap;
 mod passivity;
 mod pluck_tone;
+mod scene_body;
 mod short_blows;
 mod struck_strings;

@@ -6,6 +6,7 @@
 
 mod balance;
 mod beginnings;
+mod bodies;
 mod campaign;
 mod draw;
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use low_action_dsp::scene::ListeningPoint;
-use low_action_dsp::{Ledger, Scene, Simulation};
+use low_action_dsp::{Account, Scene, Simulation};
 
 use super::{Seen, open_part};
 use crate::cli::SceneArgs;
@@ -82,16 +82,17 @@ impl Summary<'_> {
     }
 
     fn energy(&self) -> String {
-        let ledgers = self.simulation.ledgers();
-        if ledgers.is_empty() {
+        let accounts: Vec<_> = self.simulation.accounts().collect();
+        if accounts.is_empty() {
             return "energy: not measured (with --trace or --figure it is)".into();
         }
-        let most = |of: fn(&Ledger) -> f64| ledgers.iter().map(of).fold(0.0, f64::max);
-        let (largest, worst) = (most(|l| l.largest), most(|l| l.worst_residual));
+        let most = |of: fn(&Account) -> f64| accounts.iter().map(|account| of(account)).fold(0.0, f64::max);
+        let (largest, worst) = (most(|account| account.largest), most(|account| account.worst_residual));
+        let place = if self.simulation.has_body() { "a string or the body" } else { "a string" };
         format!(
-            "energy: at most {largest:.3e} J in a string; the balance is open in a sample by at most {worst:.1e} of the \
+            "energy: at most {largest:.3e} J in {place}; the balance is open in a sample by at most {worst:.1e} of the \
              largest so far, {}",
-            in_all(ledgers)
+            in_all(&accounts)
         )
     }
 
@@ -102,6 +103,9 @@ impl Summary<'_> {
             lines.push(match self.scene.output.position {
                 ListeningPoint::Bridge => format!("{path}: force on the bridge, at most {peak:.4} N"),
                 ListeningPoint::At(place) => format!("{path}: velocity at {place} m, at most {peak:.4} m/s"),
+                ListeningPoint::Air => {
+                    format!("{path}: sound pressure before the body, at most {peak:.4} Pa")
+                }
             });
         }
         if let (Some(path), Some((rows, bytes))) = (&self.arguments.trace, self.trace_size) {
@@ -113,8 +117,8 @@ impl Summary<'_> {
 }
 
 /// How far the ledgers are open in all at the end, where it is most, and what of.
-fn in_all(ledgers: &[Ledger]) -> String {
-    let Some(worst) = ledgers.iter().max_by(|a, b| open_part(a).total_cmp(&open_part(b))) else {
+fn in_all(accounts: &[&Account]) -> String {
+    let Some(worst) = accounts.iter().max_by(|a, b| open_part(a).total_cmp(&open_part(b))) else {
         return String::new();
     };
     let (part, put_in, largest) = (open_part(worst), worst.put_in_gross, worst.largest);

@@ -1,9 +1,9 @@
 //! What a scene says that is allowed and hardly meant: strings that begin inside something, and parts that do nothing.
 
 use low_action_dsp::digits::plain;
-use low_action_dsp::{Ledger, Scene, Simulation};
+use low_action_dsp::{Account, Ledger, Scene, Simulation};
 
-use super::{COARSE, open_part, rounding_part};
+use super::{COARSE, named, open_part, rounding_part};
 
 /// Contacts that begin with less energy than this, J, are not warned of: a pluck of 1 N that moves its place by 2 mm gives as much.
 const NO_THROW: f64 = 1e-3;
@@ -17,16 +17,18 @@ pub(super) fn of(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     warnings
 }
 
-/// What to warn of afterwards: a balance of which rounding leaves little or nothing to be checked, of the string where it leaves
-/// the least.
-pub(super) fn coarse(ledgers: &[Ledger]) -> Option<String> {
-    let parts = (1..).zip(ledgers).map(|(number, ledger)| (number, rounding_part(ledger), open_part(ledger)));
-    let (number, rounding, open) = parts.max_by(|a, b| a.1.total_cmp(&b.1))?;
+/// What to warn of afterwards: a balance of which rounding leaves little or nothing to be checked, of the string or body where it
+/// leaves the least.
+pub(super) fn coarse<'a>(strings: usize, accounts: impl Iterator<Item = &'a Account>) -> Option<String> {
+    let parts =
+        accounts.enumerate().map(|(index, account)| (index, rounding_part(account), open_part(account)));
+    let (index, rounding, open) = parts.max_by(|a, b| a.1.total_cmp(&b.1))?;
     (rounding.is_nan() || rounding > COARSE).then(|| {
         format!(
-            "the energy balance of string {number} is checked only to {rounding:.1e} of its largest energy or of all that was \
+            "the energy balance of {} is checked only to {rounding:.1e} of its largest energy or of all that was \
              put in, and is open by {open:.1e}: forces or stretching are so large against what they move that rounding alone may \
-             come to that"
+             come to that",
+            named(index, strings)
         )
     })
 }

@@ -1,6 +1,6 @@
 //! What flows into strings and what they hold, held to the promises.
 
-use low_action_dsp::{Entry, Ledger, Simulation};
+use low_action_dsp::{Account, Entry, Ledger, Simulation};
 
 use super::trial::Fault;
 
@@ -17,7 +17,7 @@ const NOTHING: f64 = 1e-210;
 pub struct Balance {
     time_step: f64,
     /// All that was put in, what was taken out again not counted off, J. (Not the sum of what
-    /// [ledgers](Ledger::put_in_gross) have booked: in a sample in which one string is given what another gives, this takes
+    /// [accounts](Account::put_in_gross) have booked: in a sample in which one string is given what another gives, this takes
     /// what is left, and it ends as no number where a power is none.)
     pub put_in: f64,
     /// What the solver took, J.
@@ -37,16 +37,16 @@ fn larger(one: f64, other: f64) -> f64 {
 impl Balance {
     /// Of a simulation that begins, its ledgers open.
     pub fn new(simulation: &Simulation) -> Balance {
-        let put_in = simulation.ledgers().iter().map(|ledger| ledger.initial).sum();
+        let put_in = simulation.accounts().map(|account| account.initial).sum();
         Balance { time_step: 1.0 / simulation.sample_rate(), put_in, ..Balance::default() }
     }
 
     /// Looks at a step that was just taken.
     pub fn see(&mut self, simulation: &Simulation, entry: &Entry) {
         self.flow(entry);
-        let sum = |part: fn(&Ledger) -> f64| simulation.ledgers().iter().map(part).sum::<f64>();
-        let above = sum(|ledger| ledger.energies().total() - ledger.put_in);
-        self.weigh(above, sum(|ledger| ledger.residual_sum), sum(|ledger| ledger.rounding));
+        let sum = |part: fn(&Account) -> f64| simulation.accounts().map(part).sum::<f64>();
+        let above = sum(|account| account.energies().total() - account.put_in);
+        self.weigh(above, sum(|account| account.residual_sum), sum(|account| account.rounding));
     }
 
     /// What flows in a sample.
@@ -79,7 +79,7 @@ pub struct Flow {
     /// The ledger's sum at the last block, J.
     last: f64,
     /// All that was put in, what was taken out again within the same block counted off, J. (What the ledger has
-    /// [booked](Ledger::put_in_gross) sample by sample is more, and would excuse more.)
+    /// [booked](Account::put_in_gross) sample by sample is more, and would excuse more.)
     all: f64,
 }
 

@@ -9,6 +9,7 @@ use low_action_dsp::scene::{
 };
 use low_action_dsp::{Drive, Gesture, Scene, Setup, Simulation, SolverSettings, Stencil};
 
+use super::bodies;
 use super::draw::Draw;
 use super::playing::gesture;
 use super::scenes::scene;
@@ -72,7 +73,8 @@ fn every_part_of_a_drive_is_drawn() {
             simulation.step_under(|_, string| {
                 let of_the_scene = string.drive.clone();
                 acting.act(string);
-                let Drive { tension, loss, pushes, hands, heights } = &string.drive;
+                // (What a bridge does is the body's own.)
+                let Drive { tension, loss, pushes, bridge: _, hands, heights } = &string.drive;
                 assert!((0.0..=most_loss).contains(loss), "{loss} 1/s is not legal");
                 let places = |hands: &[low_action_dsp::drive::Hand]| hands[0].position;
                 let changes = [
@@ -104,13 +106,18 @@ fn every_part_of_a_drive_is_drawn() {
 fn every_key_of_a_scene_is_drawn() {
     let mut drawn = BTreeSet::new();
     for number in 0..TRIES {
-        let text = scene(&mut Draw::new(1, number)).to_string();
+        let mut draw = Draw::new(1, number);
+        let mut table = scene(&mut draw);
+        bodies::under(&mut draw, &mut table);
+        let text = table.to_string();
         see_scene(&Scene::from_toml(&text).expect("it is legal"), &mut drawn);
     }
     let all = [
         "board along the string",
         "board at a height",
         "board shared out",
+        "body",
+        "body under two strings",
         "course of a finger",
         "course of a force",
         "course of tension",
@@ -125,6 +132,7 @@ fn every_key_of_a_scene_is_drawn() {
         "frets by their places",
         "heard at a point",
         "heard at the bridge",
+        "heard in the air",
         "kinked frets",
         "loss",
         "loss of high frequencies",
@@ -150,7 +158,7 @@ fn every_key_of_a_scene_is_drawn() {
 /// What a scene has.
 fn see_scene(scene: &Scene, drawn: &mut BTreeSet<&'static str>) {
     // Rates and durations are in all of them.
-    let Scene { sample_rate: _, duration: _, solver, string, fretboard, pluck, finger, output } = scene;
+    let Scene { sample_rate: _, duration: _, solver, string, fretboard, body, pluck, finger, output } = scene;
     let SolverSettings { max_iterations: _, tolerance, stencil } = solver;
     drawn.insert(match stencil {
         Stencil::Paper => "paper",
@@ -161,6 +169,7 @@ fn see_scene(scene: &Scene, drawn: &mut BTreeSet<&'static str>) {
     drawn.insert(match position {
         ListeningPoint::Bridge => "heard at the bridge",
         ListeningPoint::At(_) => "heard at a point",
+        ListeningPoint::Air => "heard in the air",
     });
     let mut see = |is: bool, name| {
         if is {
@@ -168,6 +177,8 @@ fn see_scene(scene: &Scene, drawn: &mut BTreeSet<&'static str>) {
         }
     };
     see(*tolerance == 0.0, "tolerance of nothing");
+    see(body.is_some(), "body");
+    see(body.is_some() && string.len() == 2, "body under two strings");
     for StringSpec {
         length: _,
         linear_density: _,

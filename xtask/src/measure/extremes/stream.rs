@@ -174,8 +174,7 @@ impl Acting {
             }
         }
         if bend {
-            let limit = string.model.string.tension_limit;
-            self.tension = Some(limit * draw.between(0.05, 1.0));
+            self.tension = Some(string.most_tension() * draw.between(0.05, 1.0));
         }
         for hand in &mut self.hands {
             hand.speed = slide * draw.between(-1.0, 1.0);

@@ -9,6 +9,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::balance::{Balance, Parts};
+use super::bodies;
 use super::draw::Draw;
 use super::exchanges::Session;
 use super::scenes;
@@ -119,6 +120,7 @@ impl Trial {
             let stream = Stream::random(&mut draw, reach);
             table.insert(STREAM.into(), Value::try_from(stream).expect("a stream is a table"));
         }
+        bodies::under(&mut draw, &mut table);
         Trial { table }
     }
 
@@ -133,6 +135,7 @@ impl Trial {
         let reach = draw.over(1e-6, 0.1);
         let stream = Stream::raised(&mut draw, reach);
         table.insert(STREAM.into(), Value::try_from(stream).expect("a stream is a table"));
+        bodies::under(&mut draw, &mut table);
         Trial { table }
     }
 

@@ -214,6 +214,7 @@ impl Part {
             solver: setting.solver(),
             string: vec![tuned(setup, spec)],
             fretboard: Some(fretboard(setup, setting)?),
+            body: None,
             pluck: pluck.into_iter().collect(),
             finger: hand(setup, self.hand).into_iter().collect(),
             output: OutputSpec { position: ListeningPoint::Bridge },
