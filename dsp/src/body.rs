@@ -1,10 +1,10 @@
-//! The body under the bridge, as far as one string moves it: it gives way to strings, loses what the air and the wood take, and sounds.
+//! The body under the bridge, as far as one string moves it: it gives way to strings, loses what air and wood take, and sounds.
 //!
 //! Each mode is a mass of 1 kg on a spring. The bridge is where their motions q add up, w = Σφq. A string's end goes with it:
 //! seen from the straight line between its ends the string moves as one with fixed ends, so that the same passes do for it,
 //! and what the line adds is a push on the few points next to the bridge and as much the other way on the body
-//! (docs/physics.md). Modes are linear, so what each string has them do is kept apart, to be heard as that string's own; the bridge,
-//! the same under all strings, is where all of it adds up.
+//! (docs/physics.md). Modes are linear, so what each string of an instrument has them do is kept apart, to be heard as that
+//! string's own; the bridge, the same under all strings, is where all of it adds up. A scene has one [`Modes`] for all.
 
 mod coefficients;
 mod end;

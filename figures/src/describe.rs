@@ -229,7 +229,8 @@ mod tests {
              board = [[0.0, -0.002], [0.65, -0.0021]]\nfrets = [0.2, 0.4]\nfret_top = [-0.001, -0.0011]\n\
              fret_placement = \"exact\"\n[[pluck]]\nstring = 1\nstart = 0\nduration = 2e-3\nrelease = 1e-4\nposition = 0.5\nforce = 1\n\
              [[finger]]\nstring = 1\nmass = 5e-3\nstiffness = 1e8\nexponent = 2\ndamping = 0\nhand_damping = 0\n\
-             position = 0.25\nheight = 5e-4\nvelocity = -2\nforce = 0\n"
+             position = 0.25\nheight = 5e-4\nvelocity = -2\nforce = 0\n[body]\nfrequency = 171\nmass = 0.2\narea = 0.06\n\
+             quality = 21\nspacing = 55\nvolume = 0.0145\nhole = 0.0057\n"
         );
         let caption = |text: &str| describe(&Scene::from_toml(text).unwrap());
         let (first, halfway) = (caption(&text), text.find("[fretboard]").unwrap());
@@ -280,6 +281,13 @@ mod tests {
             (halfway, "5e-4", "6e-4"),
             (halfway, "velocity = -2", "velocity = -3"),
             (halfway, "force = 0", "force = 2"),
+            (halfway, "171", "172"),
+            (halfway, "mass = 0.2", "mass = 0.3"),
+            (halfway, "0.06", "0.07"),
+            (halfway, "quality = 21", "quality = 22"),
+            (halfway, "spacing = 55", "spacing = 56"),
+            (halfway, "0.0145", "0.0146"),
+            (halfway, "0.0057", "0.0058"),
         ] {
             let at = from + text[from..].find(there).unwrap_or_else(|| panic!("{there} is in the scene"));
             let other = format!("{}{to}{}", &text[..at], &text[at + there.len()..]);

@@ -91,7 +91,7 @@ fn bodies_that_cannot_be_are_refused() {
     let cases: &[(&str, &str, &[&str])] = &[
         ("", heard, &["output.position = \"air\"", "only a [body] is heard in the air"]),
         ("mass = 0.1", "mass = 0.0", &["body.mass = 0 ", "between 0.01 and 1000 kg"]),
-        ("hole = 0.0055", "hole = 1.0", &["body.hole = 1 ", "between 0.00001 and 0.1 m²"]),
+        ("hole = 0.0055", "hole = 1.0", &["body.hole = 1 ", "between 1e-5 and 0.1 m²"]),
         ("hole = 0.0055", "", &["body", "hole"]),
         ("hole = 0.0055", "hole = 0.0055\ntop = 1.0", &["top", "unknown"]),
         ("[body]", "[[body]]", &["body"]),

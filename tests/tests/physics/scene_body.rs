@@ -10,7 +10,7 @@ const RATE: f64 = 88_200.0;
 /// As a guitar has it.
 const BODY: &str = "[body]\nfrequency = 170.0\nmass = 0.1\narea = 0.05\nquality = 20.0\nspacing = 50.0\nvolume = 0.0145\n\
                     hole = 0.0055\n";
-/// So light that it takes half of the room there is, and slow to lose what it has.
+/// Hardly heavier than three strings over it, and slow to lose what it has.
 const LIGHT: &str = "[body]\nfrequency = 300.0\nmass = 0.012\narea = 0.01\nquality = 200.0\nspacing = 30.0\nvolume = 0.002\n\
                      hole = 0.0005\n";
 const ALL: &str = "[fretboard]\nstiffness = 1e15\nexponent = 2.3\ndamping = 0.3\nboard = -0.0022\nfrets = 12\nfret_top = -0.0012\n";
@@ -127,6 +127,19 @@ fn strings_in_tune_sing_along() {
     println!("in unison {unison:.2e} of what is plucked, a tritone off {tritone:.2e}");
     assert!(unison > 0.1 && tritone < 0.01 * unison, "{unison} and {tritone}");
     assert_eq!(held(""), [0.0; 2]);
+}
+
+/// Grids bear 2 % more than a course of the tension reaches, which is what a body may take; without one they bear just that.
+#[test]
+fn grids_leave_room_for_a_body() {
+    for (body, room) in [(BODY, 1.02), ("", 1.0)] {
+        let simulation = begin(&everything(body), "", 0.1);
+        for (string, highest) in simulation.strings().iter().zip([60.0, 84.0, 80.0]) {
+            let (most, limit) = (string.most_tension(), string.model.string.tension_limit);
+            assert!((most / highest - 1.0).abs() < 1e-15, "{most} and not {highest} N");
+            assert!((limit / highest - room).abs() < 1e-15, "{limit} N for {highest} N");
+        }
+    }
 }
 
 #[test]
