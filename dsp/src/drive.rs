@@ -54,8 +54,8 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// Nothing acts; room for [`PUSHES`] pushes, and for moving every contact. Hands are at the nut, without force: whoever places a
-    /// finger puts its hand over the same place.
+    /// Nothing acts; room for [`PUSHES`] pushes, and for moving every contact. Hands are at the nut, without force: whoever
+    /// places a finger puts its hand over the same place.
     pub fn new(model: &Model) -> Drive {
         Drive {
             tension: model.string.tension,

@@ -31,8 +31,8 @@ pub struct Scene {
     pub string: Vec<StringSpec>,
     /// What the strings may hit; without it no contact is modelled.
     pub fretboard: Option<FretboardSpec>,
-    /// What the bridge under all strings stands on, heavy enough for all of them; without it the bridge stands still, and strings do
-    /// not hear each other.
+    /// What the bridge under all strings stands on, heavy enough for all of them; without it the bridge stands still, and strings
+    /// do not hear each other.
     pub body: Option<Body>,
     /// Pushes on strings.
     #[serde(default)]

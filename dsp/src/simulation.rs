@@ -199,8 +199,9 @@ fn parameters(scene: &Scene, index: usize) -> StringParameters {
     StringParameters { tension_limit, ..string }
 }
 
-/// The most steps of grid points, modes of a body, plucks, fingers and what contacts that share grid points may take that a scene may ask for: hours
-/// of computing. Contacts may take two numbers for each two of a crowd, and a third of its cube to solve for them.
+/// The most steps of grid points, modes of a body, plucks, fingers and what contacts that share grid points may take that a scene
+/// may ask for: hours of computing. Contacts may take two numbers for each two of a crowd, and a third of its cube to solve for
+/// them.
 pub const MOST_WORK: f64 = 1e13;
 
 /// Refuses a scene that would fill the memory, before anything of its size is made. Returns how many grid points it has.

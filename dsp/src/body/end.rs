@@ -63,8 +63,8 @@ impl End {
         self.pull * self.reading.of(&state.displacement) - self.back * lift
     }
 
-    /// What string and bridge have in common between two samples, J, by what is read of the string at both and how far the bridge is up
-    /// then, m: less where the bridge goes along with the string.
+    /// What string and bridge have in common between two samples, J, by what is read of the string at both and how far the bridge
+    /// is up then, m: less where the bridge goes along with the string.
     pub fn common(&self, string: [f64; 2], lift: [f64; 2]) -> f64 {
         0.5 * self.back * lift[0] * lift[1] - 0.5 * self.pull * (lift[1] * string[0] + lift[0] * string[1])
     }

@@ -348,8 +348,8 @@ fn scene(count: usize, position: &str) -> Simulation {
     Simulation::new(&Scene::from_toml(&text).expect("it is legal")).expect("it can be built")
 }
 
-/// Over a scene's body a string moves as over one of an instrument, and the same is heard, at the bridge and in the air, to the bit; and
-/// several do but for rounding, though there each has a bank of modes to itself.
+/// Over a scene's body a string moves as over one of an instrument, and the same is heard, at the bridge and in the air, to the
+/// bit; and several do but for rounding, though there each has a bank of modes to itself.
 #[test]
 fn strings_of_a_scene_and_of_an_instrument_hear_the_same_body() {
     // (Last digits of displacements are a k² larger part of accelerations, which is what sounds.)

@@ -8,7 +8,8 @@ pub struct Account {
     pub(super) energies: Energies,
     /// Energy there was when it was opened, J.
     pub initial: f64,
-    /// The largest total energy so far, J: of a body the largest there would be if what it has in common with strings did not cancel.
+    /// The largest total energy so far, J: of a body the largest there would be if what it has in common with strings did not
+    /// cancel.
     pub largest: f64,
     /// Energy put in so far, J, the initial energy included and what was taken out again counted off: what is stored is never
     /// more.
@@ -56,8 +57,8 @@ impl Account {
         }
     }
 
-    /// Books what was done beside steps: there are these energies now, and what that is more than before counts as put in. Gives that
-    /// back, J.
+    /// Books what was done beside steps: there are these energies now, and what that is more than before counts as put in. Gives
+    /// that back, J.
     pub(super) fn rebook(&mut self, energies: Energies) -> f64 {
         let entered = energies.total() - self.energies.total();
         self.energies = energies;

@@ -12,8 +12,8 @@ use crate::string::Scratch;
 
 /// The running ledger of the body under the strings of a scene.
 ///
-/// Where the bridge has gone along with a string both have less between them than each by itself: that is counted here, and may make
-/// its energy one below 0. What it is given is what strings' ledgers have the bridge take from them.
+/// Where the bridge has gone along with a string both have less between them than each by itself: that is counted here, and may
+/// make its energy one below 0. What it is given is what strings' ledgers have the bridge take from them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyLedger {
     account: Account,

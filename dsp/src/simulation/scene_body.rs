@@ -71,8 +71,8 @@ mod tests {
     use crate::scene::Scene;
     use crate::simulation::Simulation;
 
-    /// A body is let go of together with a string that is held in a shape: at rest at that moment, and not half a step before, so that
-    /// it has come from where it goes.
+    /// A body is let go of together with a string that is held in a shape: at rest at that moment, and not half a step before, so
+    /// that it has come from where it goes.
     #[test]
     fn a_body_is_let_go_of_with_its_strings() {
         let text = "sample_rate = 48000\nduration = 1.0\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\ntension = 60.0\n\

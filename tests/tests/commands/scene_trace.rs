@@ -129,7 +129,8 @@ fn fingers_are_where_the_scene_has_them() {
 /// What the bridge of a body has put into each string it has taken from the body, and nothing of it is in `power_in`.
 #[test]
 fn what_strings_and_a_body_give_each_other_is_told() {
-    let body = "[body]\nfrequency = 170.0\nmass = 0.1\narea = 0.05\nquality = 20.0\nspacing = 50.0\nvolume = 0.0145\nhole = 0.0055\n";
+    let body = "[body]\nfrequency = 170.0\nmass = 0.1\narea = 0.05\nquality = 20.0\nspacing = 50.0\nvolume = 0.0145\n\
+                hole = 0.0055\n";
     let place = workplace();
     place.write("scene.toml", format!("{SCENE}{body}[output]\nposition = \"air\"\n"));
     let done = place.run(&["scene", "scene.toml", "--trace", "out.npz", "--wav", "out.wav"]);

@@ -1,6 +1,6 @@
-//! Promise: strings of a scene that stand over a body hear one another by it, and the ledger knows of every joule. It closes in every
-//! sample to 1e-14 of the largest energy and in sum to 1e-12, whatever touches the strings and however their tension moves, in all
-//! and of the body by itself; what is stored only falls once nothing acts; and the sound is the same bits without it.
+//! Promise: strings of a scene that stand over a body hear one another by it, and the ledger knows of every joule. It closes in
+//! every sample to 1e-14 of the largest energy and in sum to 1e-12, whatever touches the strings and however their tension moves,
+//! in all and of the body by itself; what is stored only falls once nothing acts; and the sound is the same bits without it.
 
 use low_action_dsp::{Entry, Scene, Simulation};
 use low_action_tests::numbers::largest;
@@ -110,8 +110,8 @@ fn what_is_stored_only_falls() {
     }
 }
 
-/// A string that nobody touches sings along where it is in unison with one that is plucked, until it has as much as that, and hardly
-/// where it is a tritone off; without a body it does not at all.
+/// A string that nobody touches sings along where it is in unison with one that is plucked, until it has as much as that, and
+/// hardly where it is a tritone off; without a body it does not at all.
 #[test]
 fn strings_in_tune_sing_along() {
     let strings = ["110.0", "110.0", "220.0"].map(|tension| {
