@@ -280,7 +280,7 @@ impl Hands {
             self.plucks.push(crate::hands::Pluck { position, reading, ..pluck.resampled(factor) });
         }
         self.stilling = old.stilling.resampled(factor);
-        self.played = old.played;
+        self.carry(old);
         for (held, before) in self.fingers.iter_mut().zip(&old.fingers) {
             *held = before.map(|before| before.carried(scale, factor));
         }

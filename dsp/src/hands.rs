@@ -108,8 +108,10 @@ pub(crate) struct Hands {
     pub stilling: Stilling,
     /// What hands add to the loss of a string that nobody plays, 1/s.
     idle_loss: f64,
+    /// What those that it was taken over from did, until it rests: what it has heard of others is to fade here, too, 1/s.
+    carried_loss: f64,
     /// Whether the string is played: something was plucked, or thrown at it, and no hand has lain along it to the end since.
-    pub played: bool,
+    played: bool,
     pub fingers: [Option<Held>; FINGERS_PER_STRING],
     /// Tension that the string is bent to, N.
     pub bent: Ramp,
@@ -127,6 +129,7 @@ impl Hands {
             plucks: Roomy::with_capacity(PUSHES),
             stilling: Stilling::default(),
             idle_loss,
+            carried_loss: 0.0,
             played: false,
             fingers: [None; FINGERS_PER_STRING],
             bent: Ramp::at(model.string.tension),
@@ -139,10 +142,25 @@ impl Hands {
     pub fn reset(&mut self, model: &Model) {
         self.plucks.clear();
         self.stilling = Stilling::default();
-        self.played = false;
+        self.leave();
         self.fingers = [None; FINGERS_PER_STRING];
         self.bent = Ramp::at(model.string.tension);
         self.tuned = Ramp::at(1.0);
+    }
+
+    /// The string rests: nobody plays it.
+    pub fn leave(&mut self) {
+        (self.played, self.carried_loss) = (false, 0.0);
+    }
+
+    /// What hands add to its loss where it is not played, 1/s.
+    pub fn idle_loss(&self) -> f64 {
+        self.idle_loss.max(self.carried_loss)
+    }
+
+    /// Leaves it to what hands did before, until it rests.
+    pub fn carry(&mut self, old: &Hands) {
+        (self.played, self.carried_loss) = (old.played, old.idle_loss());
     }
 
     /// Whether nothing touches or bends the string.
@@ -282,7 +300,7 @@ impl Hands {
         self.bent.step();
         self.tuned.step();
         self.played &= !self.stilling.ends();
-        let idle = if self.played { 0.0 } else { self.idle_loss };
+        let idle = if self.played { 0.0 } else { self.idle_loss() };
         drive.loss = self.stilling.step().max(idle);
         drive.pushes.clear();
         let rate = self.sample_rate;

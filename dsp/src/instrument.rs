@@ -37,7 +37,7 @@ pub struct StringGeometry {
     /// Places of the frets, m from the nut, fret 1 first.
     pub frets: Vec<f64>,
     /// The largest tension that the set-up's `max_bend` asks for, as a multiple of the string's own. (Its grid bears as much, and
-    /// half a semitone at least: up to there [`Gesture::Bend`](crate::Gesture::Bend) reaches.)
+    /// half a semitone at least: up to there [`Gesture::Bend`] reaches.)
     pub highest_ratio: f64,
     /// Wave impedance √(Tρ), kg/s.
     pub wave_impedance: f64,

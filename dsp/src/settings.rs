@@ -4,7 +4,7 @@
 //! that of a guitar's high E is 11 mm, as wide as its highest frets are apart, and that of a bass's low E 4 mm.
 //! What a string does at a fret is known no better than its grid tells places apart. So each string is
 //! computed at the smallest multiple of the host's rate, in steps of a half, at which its grid is fine enough; a light
-//! one needs more of them, and each costs it less.
+//! one needs more of them, and each costs it less. (Over a body all go on together, as often as the one that needs most.)
 
 use std::ops::RangeInclusive;
 

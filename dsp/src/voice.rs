@@ -234,7 +234,7 @@ impl Voice {
     pub fn fall_asleep(&mut self) {
         self.state.reset(&self.model);
         self.scratch.reset();
-        self.hands.played = false;
+        self.hands.leave();
         self.asleep = true;
         self.rebook();
     }

@@ -106,7 +106,8 @@ pub struct RenderArgs {
     /// sounds its string, fret, pitch, times and technique, and every gesture of the hands, as JSON. The sound is the same.
     #[arg(long, value_name = "FILE")]
     pub labels: Option<PathBuf>,
-    /// Threads that share the strings among them, 1 to 64 [default: as many as there are processors]. The sound is the same bits.
+    /// Threads that share the strings among them, 1 to 64 [default: as many as there are processors]; strings over a body are
+    /// one thread's. The sound is the same bits.
     #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=64), allow_hyphen_values = true)]
     pub threads: Option<u8>,
     /// Size of the small differences between one pluck and the next, 0 (none: the hand does the same each time; what

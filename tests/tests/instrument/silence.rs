@@ -1,6 +1,6 @@
 //! The promise: a string falls asleep when it is silent, and nobody hears that it ever slept.
 
-use low_action_dsp::{EngineSettings, Gesture, Instrument, Setup, Stencil, TimedGesture, Touch};
+use low_action_dsp::{EngineSettings, Gesture, Instrument, Quality, Setup, Stencil, TimedGesture, Touch};
 use low_action_tests::numbers::{largest, largest_step};
 use low_action_tests::stage::{at_the_bridge, peak};
 
@@ -126,4 +126,33 @@ fn asleep_is_silent_and_wakes_at_the_gesture() {
     let first = largest_step(&sound[AGAIN as usize - 1..AGAIN as usize + 24]);
     let later = largest_step(&sound[AGAIN as usize..AGAIN as usize + 4800]);
     assert!(first < 0.2 * later, "{first} at first, {later} later");
+}
+
+/// Strings over a body, three steps in two samples: all sleep once the last is quiet, and the sound of the next pluck is that of an
+/// instrument that has never been played, whichever of two samples it comes with.
+#[test]
+fn strings_over_a_body_sleep_and_wake_together() {
+    let mut setup = Setup::builtin("steel").expect("built in");
+    setup.string.iter_mut().for_each(|string| string.loss_0 = 20.0);
+    let settings = Quality::Live.settings(RATE);
+    let pluck = Gesture::Pluck { position: 0.5, force: 0.5, duration: 0.003, release: 0.0 };
+    let play = |instrument: &mut Instrument, string: usize, wait: u64, samples: usize| {
+        let time = instrument.now() + wait;
+        instrument.schedule(TimedGesture { time, string, gesture: pluck }).expect("there is room");
+        let (mut left, mut right) = (vec![0.0; samples], vec![0.0; samples]);
+        instrument.process(&mut left, &mut right);
+        left
+    };
+    for (samples, wait) in [(4 * 48_000, 0), (4 * 48_000 + 1, 0), (4 * 48_000, 1)] {
+        let mut instrument = Instrument::new(&setup, &settings).expect("it can be built");
+        assert_eq!(instrument.ratio(5).halves(), 3, "it has three steps in two samples");
+        play(&mut instrument, 5, 0, 12_000);
+        let moves = |string| instrument.state(string).motion().any(|motion| motion != 0.0);
+        assert!((0..6).all(moves), "all hear the lowest");
+        play(&mut instrument, 0, 0, samples);
+        assert!(instrument.is_silent(), "all sleep");
+        let mut other = Instrument::new(&setup, &settings).expect("it can be built");
+        let [slept, fresh] = [&mut instrument, &mut other].map(|it| play(it, 3, wait, 9_600));
+        assert!(peak(&slept) > 1e-3 && slept == fresh, "{samples} samples, {wait}");
+    }
 }

@@ -2,9 +2,10 @@
 //! on when that is stilled. Hands that lie on strings nobody plays have this fade, and do nothing to what is played. Over a bridge
 //! that stands still a string moves only when it is played itself.
 
+use low_action::performance::PlayerEvent;
 use low_action_dsp::{Gesture, Instrument, Quality, Setup, TimedGesture};
 use low_action_tests::numbers::rms;
-use low_action_tests::stage::{Stage, at_the_bridge, decibels, off, on};
+use low_action_tests::stage::{Stage, at_the_bridge, cc, decibels, off, on};
 
 const RATE: f64 = 48_000.0;
 
@@ -55,7 +56,7 @@ impl Plucked {
     }
 }
 
-/// Of E4 the low E has the fourth partial and A the third; D, G and B have none.
+/// The fundamental of E4 is the fourth partial of the low E and the third of A; D, G and B have it not.
 #[test]
 fn strings_sing_along_with_what_they_have_a_partial_of() {
     let mut plucked = Plucked::new(&classical(0.0));
@@ -102,6 +103,21 @@ fn idle_hands_have_what_others_hear_fade() {
         plucked.left
     };
     assert!(alone(0.0) == alone(30.0), "hands are off what is played");
+}
+
+/// A palm that has lain on all strings for a while, and a string that was pulled up and let go of, leave them to idle hands.
+#[test]
+fn what_is_only_touched_is_not_played() {
+    let left = |events: &[(f64, PlayerEvent)]| {
+        let mut stage = Stage::over_body(&classical(6.0));
+        let note = [(1.0, on(52, 90)), (2.0, off(52))];
+        let played = stage.play(&[events, &note].concat(), 2.6);
+        // What the low E, an octave below, hears of it.
+        decibels(rms(&played.strings[5][120_000..124_800]))
+    };
+    let (usual, palmed) = (left(&[]), left(&[(0.0, cc(20, 80)), (0.5, cc(20, 0))]));
+    println!("{usual:.1} dBFS, after a palm {palmed:.1} dBFS");
+    assert!(usual < -70.0 && (palmed - usual).abs() < 1.0, "{usual} and {palmed} dBFS");
 }
 
 /// Played on from a bridge that stands still, where strings sleep each for itself and share steps with the host each in its own

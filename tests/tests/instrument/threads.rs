@@ -64,9 +64,9 @@ fn any_number_of_threads_gives_the_same_bits() {
     }
 }
 
-/// They hear each other, so that one thread plays them all.
+/// They hear each other: whoever asks for threads has one play them all.
 #[test]
-fn strings_over_a_body_give_the_same_bits() {
+fn strings_over_a_body_are_one_threads_work() {
     let expected = play("steel", 1, 512);
     for (threads, block) in [(2, 8_192), (6, SAMPLES)] {
         assert!(play("steel", threads, block) == expected, "{threads} threads in blocks of {block}");
