@@ -299,7 +299,9 @@ impl Hands {
         drive.tension = self.tension();
         self.bent.step();
         self.tuned.step();
-        self.played &= !self.stilling.ends();
+        if self.stilling.left > 0 {
+            self.played &= !self.stilling.ends();
+        }
         let idle = if self.played { 0.0 } else { self.idle_loss() };
         drive.loss = self.stilling.step().max(idle);
         drive.pushes.clear();

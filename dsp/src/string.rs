@@ -3,7 +3,7 @@
 use pulp::{Simd, WithSimd};
 
 use crate::active::Rows;
-use crate::drive::Drive;
+use crate::drive::{Drive, Push};
 use crate::field::Field;
 use crate::finger::FingerBefore;
 use crate::instructions::Instructions;
@@ -276,12 +276,27 @@ impl State {
         let (k, h) = (model.grid.time_step, model.grid.spacing);
         scratch.string_energy = 0.5 * model.string.linear_density * h / (k * k) * products.motion
             + 0.5 * scratch.stiffness.tension / h * steepness;
-        for push in drive.pushes.iter().chain(&drive.bridge) {
-            let motion = mobility * push.force;
-            push.reading.spread(&mut scratch.prediction, motion);
-            products.along += motion * push.reading.of(&self.curvature);
+        for push in &drive.pushes {
+            self.spread(push, mobility, &mut products, scratch);
+        }
+        if let Some(push) = &drive.bridge {
+            self.spread_apart(push, mobility, &mut products, scratch);
         }
         products
+    }
+
+    /// What the push of a bridge does to the prediction: by itself, so that strings without one do not pay for it.
+    #[inline(never)]
+    fn spread_apart(&self, push: &Push, mobility: f64, products: &mut Products, scratch: &mut Scratch) {
+        self.spread(push, mobility, products, scratch);
+    }
+
+    /// What a push does to the prediction.
+    #[inline(always)]
+    fn spread(&self, push: &Push, mobility: f64, products: &mut Products, scratch: &mut Scratch) {
+        let motion = mobility * push.force;
+        push.reading.spread(&mut scratch.prediction, motion);
+        products.along += motion * push.reading.of(&self.curvature);
     }
 
     /// (δuⁿ)ᵀδ(uⁿ⁺¹ + uⁿ⁻¹)/2, m², of a prediction, the forces of contacts in it.

@@ -224,9 +224,10 @@ impl Voice {
         }
         let signal = self.listener.hear(&self.model, &self.state, &self.scratch, heard);
         // (That energy is from before the step: what was pushed in it is not in it yet.)
-        let is_left_alone = self.hands.idle() && self.drive.pushes.is_empty();
-        let may_rest = is_left_alone && self.settling.part.rests() && self.scratch.string_energy() < SILENCE;
-        (signal, may_rest)
+        let is_quiet = self.scratch.string_energy() < SILENCE;
+        let is_left_alone =
+            is_quiet && self.hands.idle() && self.drive.pushes.is_empty() && self.settling.part.rests();
+        (signal, is_left_alone)
     }
 
     /// Brings the string to rest; nobody could hear what is left of its motion.
