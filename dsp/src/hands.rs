@@ -112,6 +112,8 @@ pub(crate) struct Hands {
     carried_loss: f64,
     /// Whether the string is played: something was plucked, or thrown at it, and no hand has lain along it to the end since.
     played: bool,
+    /// What hands add to its loss as long as that stays so, 1/s.
+    idle: f64,
     pub fingers: [Option<Held>; FINGERS_PER_STRING],
     /// Tension that the string is bent to, N.
     pub bent: Ramp,
@@ -131,6 +133,7 @@ impl Hands {
             idle_loss,
             carried_loss: 0.0,
             played: false,
+            idle: idle_loss,
             fingers: [None; FINGERS_PER_STRING],
             bent: Ramp::at(model.string.tension),
             tuned: Ramp::at(1.0),
@@ -150,17 +153,20 @@ impl Hands {
 
     /// The string rests: nobody plays it.
     pub fn leave(&mut self) {
-        (self.played, self.carried_loss) = (false, 0.0);
-    }
-
-    /// What hands add to its loss where it is not played, 1/s.
-    pub fn idle_loss(&self) -> f64 {
-        self.idle_loss.max(self.carried_loss)
+        self.carried_loss = 0.0;
+        self.play(false);
     }
 
     /// Leaves it to what hands did before, until it rests.
     pub fn carry(&mut self, old: &Hands) {
-        (self.played, self.carried_loss) = (old.played, old.idle_loss());
+        self.carried_loss = old.idle_loss.max(old.carried_loss);
+        self.play(old.played);
+    }
+
+    /// It is played from now on, or nobody plays it.
+    fn play(&mut self, played: bool) {
+        self.played = played;
+        self.idle = if played { 0.0 } else { self.idle_loss.max(self.carried_loss) };
     }
 
     /// Whether nothing touches or bends the string.
@@ -200,7 +206,7 @@ impl Hands {
                 let ends = duration.is_finite() && release.is_finite();
                 let begins = self.plucks.len() < PUSHES && is_possible(force) && ends;
                 if begins {
-                    self.played = true;
+                    self.play(true);
                     let position = inside(position);
                     let reading = model.grid.reading(position);
                     let [duration, release] = [duration, release].map(|time| time.max(0.0));
@@ -214,7 +220,7 @@ impl Hands {
             Gesture::Throw { finger, touch, position, clearance, speed } => {
                 // Anything but a number counts as at rest.
                 let speed = if speed > 0.0 { speed.min(FASTEST_THROW) } else { 0.0 };
-                self.played = true;
+                self.play(true);
                 self.put(finger, touch, inside(position), [clearance, speed], model, state)
             }
             Gesture::Press { force, .. } | Gesture::Lift { force, .. } if !is_possible(force) => false,
@@ -299,11 +305,10 @@ impl Hands {
         drive.tension = self.tension();
         self.bent.step();
         self.tuned.step();
-        if self.stilling.left > 0 {
-            self.played &= !self.stilling.ends();
+        if self.stilling.ends() {
+            self.play(false);
         }
-        let idle = if self.played { 0.0 } else { self.idle_loss() };
-        drive.loss = self.stilling.step().max(idle);
+        drive.loss = self.stilling.step().max(self.idle);
         drive.pushes.clear();
         let rate = self.sample_rate;
         self.plucks.retain_mut(|pluck| {

@@ -64,8 +64,9 @@ fn are_at_rest(strings: &mut [Voice]) -> bool {
 /// Steps them through the samples `span` of the `run` of each, at most [`RUN`].
 fn sound(strings: &mut [Voice], span: Range<usize>) {
     // (Over one body all have the same rate, and wake at the same sample.)
+    let over_body = strings[0].body.is_some();
     for index in 0..strings[0].steps(span.len()) {
-        let lift = strings.iter().fold(0.0, |sum, string| sum + string.lift());
+        let lift = if over_body { strings.iter().map(Voice::lift).sum() } else { 0.0 };
         let mut may_rest = true;
         for string in &mut *strings {
             may_rest &= string.step(index, lift);
