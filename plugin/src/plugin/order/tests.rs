@@ -8,7 +8,7 @@ use crate::setups::SHIPPED;
 fn hands_led_as_far_as_they_go_are_those_of_a_set_up() {
     let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
     let player = params.player.param_map();
-    assert_eq!(player.len(), 12);
+    assert_eq!(player.len(), 13);
     for (id, param, _) in player {
         // SAFETY: the pointers lead into `params`.
         let set = |value| unsafe { param._internal_set_normalized_value(value) };
@@ -16,6 +16,7 @@ fn hands_led_as_far_as_they_go_are_those_of_a_set_up() {
             set(end);
             for name in SHIPPED {
                 let mut setup = Setup::shipped(name).expect("it comes with the program");
+                Order::of(&params, 48_000.0, false).luthier.work_on(&mut setup);
                 setup.player = touching(&params).hands(&setup.player, setup.neck.scale_length);
                 assert_eq!(setup.check(), Ok(()), "{name} with {id} at {end}");
                 // As near as fingers can be, and no nearer.
