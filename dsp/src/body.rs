@@ -122,10 +122,9 @@ impl Body {
         }
     }
 
-    /// The force on the bridge of a string in a state, N, and what 1 m of the bridge's own takes away from it, N.
-    pub fn pulled(&self, state: &State) -> [f64; 2] {
-        let End { reading, pull, back, .. } = self.end;
-        [pull * reading.of(&state.displacement), back]
+    /// How the string pulls at the bridge.
+    pub fn end(&self) -> &End {
+        &self.end
     }
 
     /// How far the bridge gives way to 1 N that stays, m.
@@ -158,11 +157,8 @@ pub(crate) fn check(description: &Description, strings: &[&Model]) -> Result<(),
 
 /// How much a body takes of what strings leave; they are stable up to 1.
 fn taken(description: &Description, strings: &[&Model]) -> f64 {
-    let each = |model: &&Model| {
-        let modes = Coefficients::of(description.modes(), model.grid.time_step);
-        End::taken(model, most_tension(model, true), &modes)
-    };
-    strings.iter().map(each).sum()
+    let modes = Coefficients::of(description.modes(), strings[0].grid.time_step);
+    strings.iter().map(|model| End::taken(model, most_tension(model, true), &modes)).sum()
 }
 
 /// The refusal of a body that is too light for its strings, with the mass that would do.

@@ -108,12 +108,11 @@ pub(crate) struct Hands {
     pub stilling: Stilling,
     /// What hands add to the loss of a string that nobody plays, 1/s.
     idle_loss: f64,
-    /// What those that it was taken over from did, until it rests: what it has heard of others is to fade here, too, 1/s.
-    carried_loss: f64,
+    /// What they do add: until it rests no less than on a string that it was taken over from, so that what that has heard of others
+    /// fades here, too, 1/s.
+    resting_loss: f64,
     /// Whether the string is played: something was plucked, or thrown at it, and no hand has lain along it to the end since.
     played: bool,
-    /// What hands add to its loss as long as that stays so, 1/s.
-    idle: f64,
     pub fingers: [Option<Held>; FINGERS_PER_STRING],
     /// Tension that the string is bent to, N.
     pub bent: Ramp,
@@ -131,9 +130,8 @@ impl Hands {
             plucks: Roomy::with_capacity(PUSHES),
             stilling: Stilling::default(),
             idle_loss,
-            carried_loss: 0.0,
+            resting_loss: idle_loss,
             played: false,
-            idle: idle_loss,
             fingers: [None; FINGERS_PER_STRING],
             bent: Ramp::at(model.string.tension),
             tuned: Ramp::at(1.0),
@@ -153,20 +151,12 @@ impl Hands {
 
     /// The string rests: nobody plays it.
     pub fn leave(&mut self) {
-        self.carried_loss = 0.0;
-        self.play(false);
+        (self.played, self.resting_loss) = (false, self.idle_loss);
     }
 
     /// Leaves it to what hands did before, until it rests.
     pub fn carry(&mut self, old: &Hands) {
-        self.carried_loss = old.idle_loss.max(old.carried_loss);
-        self.play(old.played);
-    }
-
-    /// It is played from now on, or nobody plays it.
-    fn play(&mut self, played: bool) {
-        self.played = played;
-        self.idle = if played { 0.0 } else { self.idle_loss.max(self.carried_loss) };
+        (self.played, self.resting_loss) = (old.played, self.idle_loss.max(old.resting_loss));
     }
 
     /// Whether nothing touches or bends the string.
@@ -206,7 +196,7 @@ impl Hands {
                 let ends = duration.is_finite() && release.is_finite();
                 let begins = self.plucks.len() < PUSHES && is_possible(force) && ends;
                 if begins {
-                    self.play(true);
+                    self.played = true;
                     let position = inside(position);
                     let reading = model.grid.reading(position);
                     let [duration, release] = [duration, release].map(|time| time.max(0.0));
@@ -220,7 +210,7 @@ impl Hands {
             Gesture::Throw { finger, touch, position, clearance, speed } => {
                 // Anything but a number counts as at rest.
                 let speed = if speed > 0.0 { speed.min(FASTEST_THROW) } else { 0.0 };
-                self.play(true);
+                self.played = true;
                 self.put(finger, touch, inside(position), [clearance, speed], model, state)
             }
             Gesture::Press { force, .. } | Gesture::Lift { force, .. } if !is_possible(force) => false,
@@ -305,10 +295,9 @@ impl Hands {
         drive.tension = self.tension();
         self.bent.step();
         self.tuned.step();
-        if self.stilling.ends() {
-            self.play(false);
-        }
-        drive.loss = self.stilling.step().max(self.idle);
+        self.played &= !self.stilling.ends();
+        let idle = if self.played { 0.0 } else { self.resting_loss };
+        drive.loss = self.stilling.step().max(idle);
         drive.pushes.clear();
         let rate = self.sample_rate;
         self.plucks.retain_mut(|pluck| {

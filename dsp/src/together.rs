@@ -105,15 +105,13 @@ fn hold(strings: &mut [Voice]) {
     let (mut pulled, mut held) = (0.0, 1.0);
     for string in &*strings {
         let Some(body) = &string.body else { return };
-        let [pull, back] = body.pulled(&string.state);
-        pulled += body.gives() * pull;
-        held += body.gives() * back;
+        pulled += body.gives() * body.end().force(&string.state, 0.0);
+        held += body.gives() * body.end().back;
     }
     let lift = pulled / held;
     for string in strings {
         if let Some(body) = &mut string.body {
-            let [pull, back] = body.pulled(&string.state);
-            body.rest_under(pull - back * lift);
+            body.rest_under(body.end().force(&string.state, lift));
         }
     }
 }

@@ -130,7 +130,8 @@ fn end(events: &[(u64, PlayerEvent)]) -> u64 {
     events.last().map_or(0, |event| event.0) + REST
 }
 
-/// What is done to one string, in order of time. Hands do to each string what they do, whatever others do, so only the order within each counts.
+/// What is done to one string, in order of time. Hands do to each string what they do, whatever they do to others, so only the
+/// order within each counts.
 pub fn of_string(gestures: &[TimedGesture], string: usize) -> Vec<TimedGesture> {
     gestures.iter().filter(|gesture| gesture.string == string).copied().collect()
 }

@@ -65,6 +65,9 @@ pub struct Damper {
 const PLUCK_DURATION: [f64; 2] = [1e-4, 0.1];
 const PLUCK_RELEASE: [f64; 2] = [0.0, 0.1];
 const PLUCK_FORCE: [f64; 2] = [1e-3, 1e3];
+const FRETTING_FORCE: [f64; 2] = [0.1, 100.0];
+const HOVER: [f64; 2] = [0.0, 0.1];
+
 /// What hands may take of strings that nobody plays, 1/s.
 pub(super) const IDLE_LOSS: [f64; 2] = [0.0, 1000.0];
 
@@ -72,8 +75,6 @@ pub(super) const IDLE_LOSS: [f64; 2] = [0.0, 1000.0];
 fn usual_idle_loss() -> f64 {
     6.0
 }
-const FRETTING_FORCE: [f64; 2] = [0.1, 100.0];
-const HOVER: [f64; 2] = [0.0, 0.1];
 
 impl Player {
     /// Brings what a player can change while playing, but for the place of the pluck, back to what a set-up may have.
