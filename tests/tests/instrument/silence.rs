@@ -143,13 +143,14 @@ fn strings_over_a_body_sleep_and_wake_together() {
         instrument.process(&mut left, &mut right);
         left
     };
-    for (samples, wait) in [(4 * 48_000, 0), (4 * 48_000 + 1, 0), (4 * 48_000, 1)] {
+    // (They come to rest after whole runs of samples: an odd number before these has them do so between the two of a pair.)
+    for (samples, wait) in [(12_000, 0), (12_001, 0), (12_000, 1), (12_001, 1)] {
         let mut instrument = Instrument::new(&setup, &settings).expect("it can be built");
         assert_eq!(instrument.ratio(5).halves(), 3, "it has three steps in two samples");
-        play(&mut instrument, 5, 0, 12_000);
+        play(&mut instrument, 5, 0, samples);
         let moves = |string| instrument.state(string).motion().any(|motion| motion != 0.0);
         assert!((0..6).all(moves), "all hear the lowest");
-        play(&mut instrument, 0, 0, samples);
+        play(&mut instrument, 0, 0, 4 * 48_000);
         assert!(instrument.is_silent(), "all sleep");
         let mut other = Instrument::new(&setup, &settings).expect("it can be built");
         let [slept, fresh] = [&mut instrument, &mut other].map(|it| play(it, 3, wait, 9_600));
