@@ -6,7 +6,7 @@ use pulp::Simd;
 use crate::active::Active;
 use crate::drive::Drive;
 use crate::field::Field;
-use crate::kernel::Products;
+use crate::kernel::Stretching;
 use crate::model::{Coasting, Model};
 use crate::solver::{Convergence, EnergyScale};
 use crate::state::State;
@@ -30,11 +30,11 @@ impl State {
         simd: S,
         model: &Model,
         drive: &Drive,
-        products: &Products,
+        predicted: Stretching,
         scratch: &mut Scratch,
     ) -> Convergence {
         let mut convergence = Convergence::default();
-        let free = self.would_stretch(products, scratch);
+        let free = self.would_stretch(&predicted);
         let free_pull = scratch.pull(free);
         self.touch(model, free_pull, scratch);
         let mut created = 0.0;
@@ -46,9 +46,9 @@ impl State {
             } else {
                 // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
                 let Coasting { mobility, stretch, .. } = scratch.coasting;
-                let factor = mobility * stretch * scratch.yielding;
+                let factor = mobility * stretch * predicted.yielding;
                 let scale = self.energy_scale(scratch);
-                let mut products = *products;
+                let mut predicted = predicted;
                 let mut stretching = 0.0;
                 for round in 0.. {
                     created = scratch.solver.solve(
@@ -60,9 +60,9 @@ impl State {
                         &mut convergence,
                     );
                     let spread = spread(mobility, &mut scratch.active, &mut scratch.prediction);
-                    products.along += spread.along;
+                    predicted.along += spread.along;
                     scratch.tried += spread.sum;
-                    let more = self.would_stretch(&products, scratch);
+                    let more = self.would_stretch(&predicted);
                     stretching += more;
                     largest = self.advance(simd, more, scratch);
                     // (It knows of what is added in this round.)
@@ -73,7 +73,7 @@ impl State {
                         break;
                     }
                     // What q̄ still lacks: half of q − vᵀu⁺, less what it is already.
-                    products.along = self.recentre(scratch) + 2.0 * stretching;
+                    predicted.along = self.recentre(scratch) + 2.0 * stretching;
                 }
             }
             if !self.find_missed(simd, model, largest, attempt > 0, scratch) {
@@ -83,7 +83,7 @@ impl State {
             // and solve again with it.
             convergence.repeats += 1;
             self.look_back(model);
-            self.predict(simd, model, drive, scratch);
+            self.predict(simd, drive, scratch);
             self.begin_again(model, free_pull, scratch);
         }
         convergence.active = scratch.active.len() as u32;

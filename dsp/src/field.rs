@@ -121,4 +121,14 @@ impl Ends {
     pub fn last(&self) -> usize {
         self.0[0].1
     }
+
+    /// The rows `first` and `last` of `count` such that all that lies beyond the ends, and what that is the negative of, is before
+    /// the one or from the other on; as are the three rows at either end, which those of the neighbouring pieces continue.
+    #[inline(always)]
+    pub fn rows(&self, count: usize) -> (usize, usize) {
+        let [near, far, ..] = self.0.map(|(_, point)| point / LANES);
+        // (The two points beside the nut are in the fifth and sixth row; where there are no more, all are first.)
+        let first = (BEFORE + 3).min(count);
+        (first, near.min(far).min(count - count.min(3)).max(first))
+    }
 }

@@ -182,6 +182,9 @@ impl State {
             }
         }
         self.close_shape(model);
+        if same_grid {
+            self.squares = old.squares;
+        }
         self.no_finger_from = self.fingers.len();
         for slot in 0..self.fingers.len() {
             self.fingers[slot] = old.fingers[slot].and_then(|mut finger| {

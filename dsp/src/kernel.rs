@@ -16,23 +16,40 @@ use crate::model::Model;
 use crate::scene::Stencil;
 use crate::skyline::Clearance;
 use advance::LastPass;
-pub(crate) use advance::{Advance, STILL};
+pub(crate) use advance::{Advance, Moved, STILL};
 use clear::Clear;
 pub(crate) use lanes::{part_of, vectors};
 use sweep::Predict;
 pub(crate) use weights::Weights;
 
-/// The inner products of a prediction.
+/// What a string's stretching depends on, of a prediction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stretching {
+    /// vᵀ(u + w), v the undivided second difference of u; of a string with stretching only.
+    pub along: f64,
+    /// 1/(1 + G vᵀv): how far the string gives way to what stretches it.
+    pub yielding: f64,
+}
+
+/// How a string is bent.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Products {
+pub(crate) struct Shape {
     /// |δu|², the sum of squared differences between neighbours; of a string without stretching only.
     pub steepness: f64,
-    /// vᵀ(u + w), v the undivided second difference of u; of one with stretching only, as the next.
-    pub along: f64,
-    /// vᵀv.
+    /// vᵀv; of one with stretching only.
     pub curvature: f64,
-    /// dᵀd.
-    pub motion: f64,
+}
+
+/// What a prediction goes from, and where it writes.
+pub(crate) struct Prediction<'a> {
+    pub weights: &'a Weights,
+    /// G, the strength of tension modulation.
+    pub stretch: f64,
+    /// u and d.
+    pub from: (&'a Field, &'a Field),
+    /// v, and w.
+    pub to: (&'a mut Field, &'a mut Field),
+    pub shape: &'a mut Shape,
 }
 
 /// The passes of one model.
@@ -64,35 +81,24 @@ impl Kernel {
         }
     }
 
-    /// The prediction w from u, d and v a step ago, and v of this step in the place of that; with their products.
+    /// The prediction w from u, d and v a step ago, and v of this step in the place of that; how the string is bent, and what
+    /// its stretching depends on.
     #[inline(always)]
-    pub fn predict<S: Simd>(
-        &self,
-        simd: S,
-        weights: &Weights,
-        from: (&Field, &Field),
-        to: (&mut Field, &mut Field),
-    ) -> Products {
+    pub fn predict<S: Simd>(&self, simd: S, prediction: Prediction) -> Stretching {
         match self.reach {
-            0 => self.predict_reaching::<S, 0>(simd, weights, from, to),
-            1 => self.predict_reaching::<S, 1>(simd, weights, from, to),
-            _ => self.predict_reaching::<S, 2>(simd, weights, from, to),
+            0 => self.predict_reaching::<S, 0>(simd, prediction),
+            1 => self.predict_reaching::<S, 1>(simd, prediction),
+            _ => self.predict_reaching::<S, 2>(simd, prediction),
         }
     }
 
     #[inline(always)]
-    fn predict_reaching<S: Simd, const REACH: usize>(
-        &self,
-        simd: S,
-        weights: &Weights,
-        from: (&Field, &Field),
-        to: (&mut Field, &mut Field),
-    ) -> Products {
+    fn predict_reaching<S: Simd, const REACH: usize>(&self, simd: S, prediction: Prediction) -> Stretching {
         match (self.stretch, self.loss) {
-            (false, false) => self.sweep::<S, REACH, false, false>(simd, weights, from, to),
-            (false, true) => self.sweep::<S, REACH, false, true>(simd, weights, from, to),
-            (true, false) => self.sweep::<S, REACH, true, false>(simd, weights, from, to),
-            (true, true) => self.sweep::<S, REACH, true, true>(simd, weights, from, to),
+            (false, false) => self.sweep::<S, REACH, false, false>(simd, prediction),
+            (false, true) => self.sweep::<S, REACH, false, true>(simd, prediction),
+            (true, false) => self.sweep::<S, REACH, true, false>(simd, prediction),
+            (true, true) => self.sweep::<S, REACH, true, true>(simd, prediction),
         }
     }
 
@@ -100,27 +106,26 @@ impl Kernel {
     fn sweep<S: Simd, const REACH: usize, const STRETCH: bool, const LOSS: bool>(
         &self,
         simd: S,
-        weights: &Weights,
-        from: (&Field, &Field),
-        to: (&mut Field, &mut Field),
-    ) -> Products {
+        Prediction { weights, stretch, from, to, shape }: Prediction,
+    ) -> Stretching {
         // The last difference, to the bridge, belongs to no point that moves.
         let last = if STRETCH { 0.0 } else { from.0[self.ends.last()] };
-        let sweep = Predict::<REACH, STRETCH, LOSS> { weights, from, to, keep: &self.keep };
-        let products = simd.vectorize(sweep);
-        Products { steepness: products.steepness + last * last, ..products }
+        let sweep = Predict::<REACH, STRETCH, LOSS> { weights, stretch, from, to, shape, keep: &self.keep };
+        let stretching = simd.vectorize(sweep);
+        if !STRETCH {
+            shape.steepness += last * last;
+        }
+        stretching
     }
 
-    /// The next motion and displacement; returns the largest motion of a point, m.
+    /// The next motion and displacement.
     #[inline(always)]
-    pub fn advance<S: Simd>(&self, simd: S, mut pass: Advance) -> f64 {
-        let largest = if self.stretch {
-            LastPass::<true>(&mut pass).with_simd(simd)
+    pub fn advance<S: Simd>(&self, simd: S, pass: Advance) -> Moved {
+        if self.stretch {
+            LastPass::<true> { pass, ends: &self.ends }.with_simd(simd)
         } else {
-            LastPass::<false>(&mut pass).with_simd(simd)
-        };
-        pass.to.1.close_ends(&self.ends);
-        largest
+            LastPass::<false> { pass, ends: &self.ends }.with_simd(simd)
+        }
     }
 
     /// How far groups of points are over a skyline.
@@ -151,6 +156,9 @@ mod tests {
     use crate::instructions::Instructions;
     use crate::skyline::groups;
 
+    /// G.
+    const STRETCH: f64 = 0.5;
+
     /// Both passes, and the look at a skyline, by one instruction set.
     struct Passes<'a> {
         kernel: &'a Kernel,
@@ -161,16 +169,19 @@ mod tests {
     }
 
     impl WithSimd for Passes<'_> {
-        type Output = (Products, f64);
+        type Output = (Stretching, Shape, Moved);
 
         #[inline(always)]
         fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
             let Passes { kernel, weights, from: (u, d), to: [v, w, d_next, u_next], clearances } = self;
-            let products = kernel.predict(simd, weights, (u, d), (v, w));
+            let mut shape = Shape::default();
+            let prediction =
+                Prediction { weights, stretch: STRETCH, from: (u, d), to: (v, w), shape: &mut shape };
+            let stretching = kernel.predict(simd, prediction);
             let pass = Advance { pull: 1e-3, from: (w, v, u), to: (d_next, u_next) };
-            let largest = kernel.advance(simd, pass);
+            let moved = kernel.advance(simd, pass);
             kernel.clear(simd, u_next, d, clearances);
-            (products, largest)
+            (stretching, shape, moved)
         }
     }
 
@@ -204,14 +215,14 @@ mod tests {
         };
         let (mut u, d, before) = (field(), field(), field());
         u.close_ends(&ends);
-        let weights = Weights { motion: 0.97, near: [0.7, -0.03, 0.001], before: 0.01 };
+        let weights = Weights { motion: 0.97, near: [0.7, -0.03, 0.001], before: 0.01, energy: [0.0; 2] };
         let run = |instructions: Instructions| {
             let keep = moving(&grid);
             let kernel = Kernel { reach, stretch, loss, ends, keep };
             let empty = || Field::new(&grid);
             let (mut v, mut w, mut d_next, mut u_next) = (before.clone(), empty(), empty(), empty());
             let mut clearances = vec![Clearance::default(); groups(&grid)];
-            let (products, largest) = instructions.run(Passes {
+            let products = instructions.run(Passes {
                 kernel: &kernel,
                 weights: &weights,
                 from: (&u, &d),
@@ -224,7 +235,7 @@ mod tests {
                 assert!(value == 0.0 || mirrored || moves, "node {node} of {intervals} moves");
             }
             let bits: Vec<u64> = w.iter().chain(&*d_next).chain(&*u_next).map(|x| x.to_bits()).collect();
-            (format!("{products:?} {clearances:?}"), largest.to_bits(), bits)
+            (format!("{products:?} {clearances:?}"), bits)
         };
         let expected = run(Instructions::any());
         for instructions in Instructions::all() {
@@ -243,7 +254,7 @@ mod tests {
             let grid = Grid::new(0.65, intervals, 1e-5);
             let ends = Ends::new(&grid);
             // Multiples of small powers of two, so that no order of adding rounds.
-            let shape = |node: i64| {
+            let at = |node: i64| {
                 let n = intervals as i64;
                 let inside = |node: i64| if node % n == 0 { 0.0 } else { ((node * node * 7) % 16) as f64 };
                 match node {
@@ -254,43 +265,46 @@ mod tests {
             };
             let [mut u, mut d, mut v, mut w, mut d_next, mut u_next] = [(); 6].map(|()| Field::new(&grid));
             for node in 1..intervals {
-                u[grid.cell(node)] = shape(node as i64);
-                d[grid.cell(node)] = 0.5 * shape(node as i64);
-                v[grid.cell(node)] = 3.0 * shape(node as i64) - 8.0;
+                u[grid.cell(node)] = at(node as i64);
+                d[grid.cell(node)] = 0.5 * at(node as i64);
+                v[grid.cell(node)] = 3.0 * at(node as i64) - 8.0;
             }
             u.close_ends(&ends);
-            let weights = Weights { motion: 0.75, near: [0.5, -0.25, 0.125], before: 0.25 };
+            let weights = Weights { motion: 0.75, near: [0.5, -0.25, 0.125], before: 0.25, energy: [0.0; 2] };
             let keep = moving(&grid);
             let kernel = Kernel { reach: 2, stretch, loss: true, ends, keep };
-            let (products, _) = Instructions::best().run(Passes {
+            let (found, shape, moved) = Instructions::best().run(Passes {
                 kernel: &kernel,
                 weights: &weights,
                 from: (&u, &d),
                 to: [&mut v, &mut w, &mut d_next, &mut u_next],
                 clearances: &mut vec![Clearance::default(); groups(&grid)],
             });
-            let bend = |node: i64| shape(node + 1) - 2.0 * shape(node) + shape(node - 1);
-            let last = shape(intervals as i64 - 1);
+            let bend = |node: i64| at(node + 1) - 2.0 * at(node) + at(node - 1);
+            let last = at(intervals as i64 - 1);
             let mut steepness = last * last;
-            let mut expected = Products::default();
+            let (mut along, mut curvature, mut squares) = (0.0, 0.0, 0.0);
             for node in 1..intervals as i64 {
                 let beside = |away: i64| bend(node - away) + bend(node + away);
-                let past = 0.5 * 0.75 * shape(node) - 0.25 * (3.0 * shape(node) - 8.0);
+                let past = 0.5 * 0.75 * at(node) - 0.25 * (3.0 * at(node) - 8.0);
                 let value = 0.5 * bend(node) - 0.25 * beside(1) + 0.125 * beside(2) + past;
                 let cell = grid.cell(node as usize);
                 assert_eq!((v[cell], w[cell]), (bend(node), value), "node {node} of {intervals}");
-                let step = shape(node) - shape(node - 1);
+                let step = at(node) - at(node - 1);
                 steepness += step * step;
-                expected.motion += 0.25 * shape(node) * shape(node);
-                if stretch {
-                    expected.curvature += bend(node) * bend(node);
-                    expected.along += bend(node) * (value + shape(node));
-                }
+                let motion = if stretch { value - 1e-3 * bend(node) } else { value };
+                squares += motion * motion;
+                curvature += bend(node) * bend(node);
+                along += bend(node) * (value + at(node));
             }
-            if !stretch {
-                expected.steepness = steepness;
-            }
-            assert_eq!(products, expected, "{intervals} intervals");
+            let expected = if stretch {
+                (along, 1.0 / (1.0 + STRETCH * curvature), Shape { curvature, steepness: 0.0 })
+            } else {
+                (0.0, 1.0, Shape { curvature: 0.0, steepness })
+            };
+            assert_eq!((found.along, found.yielding, shape), expected, "{intervals} intervals");
+            // (Motions by a pull of 1e-3 round, and their squares.)
+            assert!((moved.squares / squares - 1.0).abs() < 1e-14, "{intervals} intervals");
         }
     }
 }

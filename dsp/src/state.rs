@@ -43,6 +43,8 @@ pub struct State {
     pub(crate) curvature: Field,
     /// (δuⁿ)ᵀδuⁿ⁻¹, m²: how far the string was stretched between the last two samples, if it pulls itself tight.
     pub(crate) stretched: f64,
+    /// (dⁿ)ᵀdⁿ, m².
+    pub(crate) squares: f64,
     /// Fingers, by slot.
     pub(crate) fingers: Vec<Option<Finger>>,
     /// From this slot on there is no finger, and was none in the last step.
@@ -85,6 +87,7 @@ impl State {
             motion: Field::new(&model.grid),
             curvature: Field::new(&model.grid),
             stretched: 0.0,
+            squares: 0.0,
             fingers: vec![None; model.finger_slots],
             no_finger_from: 0,
             heights_before: heights.clone(),
@@ -112,7 +115,7 @@ impl State {
         self.displacement.fill(0.0);
         self.motion.fill(0.0);
         self.curvature.fill(0.0);
-        self.stretched = 0.0;
+        (self.stretched, self.squares) = (0.0, 0.0);
         self.fingers.fill(None);
         self.no_finger_from = 0;
         for (height, contact) in self.heights.iter_mut().zip(&model.contacts) {
@@ -162,6 +165,7 @@ impl State {
         let (u, v) = (&self.displacement, &self.curvature);
         let product: f64 = (1..grid.intervals).map(|node| u[grid.cell(node)] * v[grid.cell(node)]).sum();
         self.stretched = if model.coasting.stretch > 0.0 { -product } else { 0.0 };
+        self.squares = self.motion.iter().map(|motion| motion * motion).sum();
     }
 
     /// Finds how the string was bent a step ago.

@@ -7,7 +7,7 @@ use crate::drive::{Drive, Push};
 use crate::field::Field;
 use crate::finger::FingerBefore;
 use crate::instructions::Instructions;
-use crate::kernel::{Advance, Kernel, Products, Weights};
+use crate::kernel::{Advance, Kernel, Moved, Prediction, Shape, Stretching, Weights};
 use crate::model::{Coasting, Model, Stiffness};
 use crate::roomy::Roomy;
 use crate::skyline::{Clearance, SAG, groups};
@@ -24,12 +24,13 @@ pub struct Scratch {
     loss: f64,
     pub(crate) coasting: Coasting,
     weights: Weights,
-    products: Products,
+    /// How the string was bent where the last step led from.
+    shape: Shape,
     string_energy: f64,
-    /// 1/(1 + G vᵀv): how far the string gives way to what stretches it.
-    pub(crate) yielding: f64,
     /// (δuⁿ)ᵀδ(uⁿ⁺¹ + uⁿ⁻¹)/2, m².
     pub(crate) stretching: f64,
+    /// dᵀd of the motion to n + 1, m².
+    squares: f64,
     /// The motion to n + 1 without contacts and tension modulation, then with contacts.
     pub(crate) prediction: Field,
     /// dⁿ⁺¹ and uⁿ⁺¹ before the step, dⁿ and uⁿ after it.
@@ -65,10 +66,10 @@ impl Scratch {
             loss: 0.0,
             coasting: model.coasting,
             stiffness,
-            products: Products::default(),
+            shape: Shape::default(),
             string_energy: 0.0,
-            yielding: 1.0,
             stretching: 0.0,
+            squares: 0.0,
             prediction: grid(),
             motion: grid(),
             displacement: grid(),
@@ -90,7 +91,7 @@ impl Scratch {
     }
 
     /// Back to the state of new room, without allocating. What is not set here a step writes before it reads it: the prediction,
-    /// the clearances, `yielding`, `tried` and `finger_energy` whenever they are asked for, stiffness, loss and what follows from
+    /// the clearances, `squares`, `tried` and `finger_energy` whenever they are asked for, stiffness, loss and what follows from
     /// them where the drive has others than the step before.
     pub fn reset(&mut self) {
         let Self {
@@ -101,11 +102,11 @@ impl Scratch {
             loss: _,
             coasting: _,
             weights: _,
-            products,
+            shape,
             string_energy,
-            // Every step writes it before anything reads it.
-            yielding: _,
             stretching,
+            // Every step writes it before anything reads it.
+            squares: _,
             prediction: _,
             motion,
             displacement,
@@ -122,7 +123,7 @@ impl Scratch {
         } = self;
         active.clear();
         held.fill(0);
-        *products = Products::default();
+        *shape = Shape::default();
         *string_energy = 0.0;
         *stretching = 0.0;
         fingers.fill(None);
@@ -135,11 +136,8 @@ impl Scratch {
     #[inline(always)]
     pub(crate) fn margin(&self, model: &Model, near: f64, largest: f64) -> f64 {
         // Second differences of u are those of uⁿ, none larger than the root of the sum of their squares, and of d.
-        let squares = if model.coasting.stretch > 0.0 {
-            self.products.curvature
-        } else {
-            2.0 * self.products.steepness
-        };
+        let squares =
+            if model.coasting.stretch > 0.0 { self.shape.curvature } else { 2.0 * self.shape.steepness };
         near + SAG * (squares.sqrt() + 4.0 * largest)
     }
 
@@ -240,69 +238,60 @@ impl State {
             scratch.active.clear();
             scratch.fingers.fill(None);
             scratch.tried = 0.0;
-            let products = self.predict(simd, model, drive, scratch);
-            let stretching = self.would_stretch(&products, scratch);
-            self.advance(simd, stretching, scratch);
+            let predicted = self.predict(simd, drive, scratch);
+            self.advance(simd, self.would_stretch(&predicted), scratch);
             Convergence::default()
         } else {
             // What is known of contacts without the prediction need not wait for it.
             self.hold(model, drive, resting, scratch);
-            let products = self.predict(simd, model, drive, scratch);
-            self.contact_step(simd, model, drive, &products, scratch)
+            let predicted = self.predict(simd, drive, scratch);
+            self.contact_step(simd, model, drive, predicted, scratch)
         };
         std::mem::swap(&mut self.displacement, &mut scratch.displacement);
         std::mem::swap(&mut self.motion, &mut scratch.motion);
+        self.squares = scratch.squares;
         self.stretched = 2.0 * scratch.stretching - self.stretched;
         self.steps += 1;
         convergence
     }
 
-    /// The motion to n + 1 without contacts and stretching.
+    /// The motion to n + 1 without contacts and stretching, and what stretching depends on.
     #[inline(always)]
-    pub(crate) fn predict<S: Simd>(
-        &mut self,
-        simd: S,
-        model: &Model,
-        drive: &Drive,
-        scratch: &mut Scratch,
-    ) -> Products {
-        let from = (&self.displacement, &self.motion);
-        let to = (&mut self.curvature, &mut scratch.prediction);
-        let mut products = scratch.kernel.predict(simd, &scratch.weights, from, to);
-        scratch.products = products;
+    pub(crate) fn predict<S: Simd>(&mut self, simd: S, drive: &Drive, scratch: &mut Scratch) -> Stretching {
         let Coasting { mobility, stretch, .. } = scratch.coasting;
-        scratch.yielding = 1.0 / (1.0 + stretch * products.curvature);
-        let steepness = if stretch > 0.0 { self.stretched } else { products.steepness };
-        let (k, h) = (model.grid.time_step, model.grid.spacing);
-        scratch.string_energy = 0.5 * model.string.linear_density * h / (k * k) * products.motion
-            + 0.5 * scratch.stiffness.tension / h * steepness;
+        let Scratch { kernel, weights, prediction, shape, .. } = &mut *scratch;
+        let from = (&self.displacement, &self.motion);
+        let to = (&mut self.curvature, prediction);
+        let mut predicted = kernel.predict(simd, Prediction { weights, stretch, from, to, shape });
+        let steepness = if stretch > 0.0 { self.stretched } else { scratch.shape.steepness };
+        scratch.string_energy = scratch.weights.energy(self.squares, steepness);
         for push in &drive.pushes {
-            self.spread(push, mobility, &mut products, scratch);
+            self.spread(push, mobility, &mut predicted, scratch);
         }
         if let Some(push) = &drive.bridge {
-            self.spread_apart(push, mobility, &mut products, scratch);
+            self.spread_apart(push, mobility, &mut predicted, scratch);
         }
-        products
+        predicted
     }
 
     /// What the push of a bridge does to the prediction: by itself, so that strings without one do not pay for it.
     #[inline(never)]
-    fn spread_apart(&self, push: &Push, mobility: f64, products: &mut Products, scratch: &mut Scratch) {
-        self.spread(push, mobility, products, scratch);
+    fn spread_apart(&self, push: &Push, mobility: f64, predicted: &mut Stretching, scratch: &mut Scratch) {
+        self.spread(push, mobility, predicted, scratch);
     }
 
     /// What a push does to the prediction.
     #[inline(always)]
-    fn spread(&self, push: &Push, mobility: f64, products: &mut Products, scratch: &mut Scratch) {
+    fn spread(&self, push: &Push, mobility: f64, predicted: &mut Stretching, scratch: &mut Scratch) {
         let motion = mobility * push.force;
         push.reading.spread(&mut scratch.prediction, motion);
-        products.along += motion * push.reading.of(&self.curvature);
+        predicted.along += motion * push.reading.of(&self.curvature);
     }
 
     /// (δuⁿ)ᵀδ(uⁿ⁺¹ + uⁿ⁻¹)/2, m², of a prediction, the forces of contacts in it.
     #[inline(always)]
-    pub(crate) fn would_stretch(&self, products: &Products, scratch: &Scratch) -> f64 {
-        0.5 * scratch.yielding * (self.stretched - products.along)
+    pub(crate) fn would_stretch(&self, predicted: &Stretching) -> f64 {
+        0.5 * predicted.yielding * (self.stretched - predicted.along)
     }
 
     /// The motion to n + 1 from the prediction; returns the largest of a point, m.
@@ -312,7 +301,10 @@ impl State {
         let pull = scratch.pull(stretching);
         let Scratch { kernel, prediction, motion, displacement, .. } = scratch;
         let from = (&*prediction, &self.curvature, &self.displacement);
-        kernel.advance(simd, Advance { pull, from, to: (motion, displacement) })
+        let Moved { largest, squares } =
+            kernel.advance(simd, Advance { pull, from, to: (motion, displacement) });
+        scratch.squares = squares;
+        largest
     }
 }
 

@@ -3,7 +3,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::lanes::{Row, add_product, part_of, rows, rows_after, rows_before, rows_mut, vectors};
-use super::{Products, Weights};
+use super::{Shape, Stretching, Weights};
 use crate::field::{Field, LANES, total};
 
 /// Sums of a sweep in each lane.
@@ -15,8 +15,6 @@ struct Sums<S: Simd> {
     along: S::f64s,
     /// vᵀv.
     curvature: S::f64s,
-    /// dᵀd.
-    motion: S::f64s,
 }
 
 impl<S: Simd> Sums<S> {
@@ -115,7 +113,6 @@ impl<S: Simd> Around<S> {
         value = simd.add_f64s(value, simd.mul_f64s(weights.motion, d));
         let w = simd.mul_f64s(keep, value);
         let curvature = simd.mul_f64s(keep, v[2]);
-        add_product(simd, &mut sums.motion, d, d);
         if STRETCH {
             add_product(simd, &mut sums.along, curvature, simd.add_f64s(u, w));
             add_product(simd, &mut sums.curvature, curvature, curvature);
@@ -169,10 +166,13 @@ impl<S: Simd> Lanes<'_, S> {
 /// contact and no tension modulation, both 0 where nothing moves; and their products.
 pub(super) struct Predict<'a, const REACH: usize, const STRETCH: bool, const LOSS: bool> {
     pub weights: &'a Weights,
+    /// G, the strength of tension modulation.
+    pub stretch: f64,
     /// u and d.
     pub from: (&'a Field, &'a Field),
     /// v, a step ago until the sweep has passed, and w.
     pub to: (&'a mut Field, &'a mut Field),
+    pub shape: &'a mut Shape,
     /// 1 at each point that moves, 0 elsewhere.
     pub keep: &'a Field,
 }
@@ -180,11 +180,12 @@ pub(super) struct Predict<'a, const REACH: usize, const STRETCH: bool, const LOS
 impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> WithSimd
     for Predict<'_, REACH, STRETCH, LOSS>
 {
-    type Output = Products;
+    /// (All else waits for these two: they are handed on in registers.)
+    type Output = Stretching;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Products {
-        let Predict { weights, from: (u, d), to: (v, w), keep } = self;
+    fn with_simd<S: Simd>(self, simd: S) -> Stretching {
+        let Predict { weights, stretch, from: (u, d), to: (v, w), shape, keep } = self;
         let splat = Splat::<S> {
             motion: simd.splat_f64s(weights.motion),
             near: weights.near.map(|weight| simd.splat_f64s(weight)),
@@ -194,10 +195,10 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> WithSimd
         let (u, d, keep, v, w) = (rows(u), rows(d), rows(keep), rows_mut(v), rows_mut(w));
         let count = u.len();
         let (d, keep, v, w) = (&d[..count], &keep[..count], &mut v[..count], &mut w[..count]);
-        let mut totals = [[0.0; LANES]; 4];
+        let mut totals = [[0.0; LANES]; 3];
         for part in 0..vectors::<S>() {
             let zero = simd.splat_f64s(0.0);
-            let mut sums = Sums { steepness: zero, along: zero, curvature: zero, motion: zero };
+            let mut sums = Sums { steepness: zero, along: zero, curvature: zero };
             let first = [
                 part_of::<S>(&before[0], part),
                 part_of::<S>(&before[1], part),
@@ -217,12 +218,18 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> WithSimd
             lanes.predict::<REACH, STRETCH, LOSS>(count - 3, (&after[0], None));
             lanes.predict::<REACH, STRETCH, LOSS>(count - 2, (&after[1], None));
             lanes.predict::<REACH, STRETCH, LOSS>(count - 1, (&after[2], None));
-            let Sums { steepness, along, curvature, motion } = lanes.sums;
-            for (total, sum) in totals.iter_mut().zip([steepness, along, curvature, motion]) {
+            let Sums { steepness, along, curvature } = lanes.sums;
+            for (total, sum) in totals.iter_mut().zip([steepness, along, curvature]) {
                 S::as_mut_simd_f64s(total).0[part] = sum;
             }
         }
-        let [steepness, along, curvature, motion] = totals.each_ref().map(total);
-        Products { steepness, along, curvature, motion }
+        if !STRETCH {
+            shape.steepness = total(&totals[0]);
+            return Stretching { along: 0.0, yielding: 1.0 };
+        }
+        // The sum that is there first is divided by while the other is still added up.
+        shape.curvature = total(&totals[2]);
+        let yielding = 1.0 / (1.0 + stretch * shape.curvature);
+        Stretching { along: total(&totals[1]), yielding }
     }
 }
