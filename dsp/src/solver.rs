@@ -152,17 +152,48 @@ fn solve_few<const N: usize>(
     let mut few = Few::gather(rows, pull_factor);
     let mut numbers = [[0.0; N]; ARRAYS];
     let room = Room::new(numbers.as_flattened_mut(), N);
-    solve(rows, &mut few, room, demands, convergence)
+    match iterate(rows, &mut few, room, demands, convergence) {
+        Outcome::Settled(gain) => gain,
+        // It is given copies: what another function has been shown must be in memory for it, and not in registers, all the way
+        // to where it hardly ever is called.
+        Outcome::Unsettled { usable } => {
+            end_few(rows, few.clone(), numbers, usable, demands.scale, convergence)
+        }
+    }
 }
 
+/// What is left of an iteration of a few contacts that has come to no end.
+#[cold]
+#[inline(never)]
+fn end_few<const N: usize>(
+    rows: &mut [Active; N],
+    mut few: Few<N>,
+    mut numbers: [[f64; N]; ARRAYS],
+    usable: bool,
+    scale: EnergyScale,
+    convergence: &mut Convergence,
+) -> f64 {
+    let mut room = Room::new(numbers.as_flattened_mut(), N);
+    stop_early(rows, &mut few, &mut room, usable, scale, convergence)
+}
+
+/// How an iteration ended.
+enum Outcome {
+    /// With forces that give this energy, J, to the string.
+    Settled(f64),
+    /// With forces that may not be good enough.
+    Unsettled { usable: bool },
+}
+
+/// Iterates until the forces will do, and hands them on if they do.
 #[inline(always)]
-fn solve(
+fn iterate(
     rows: &mut [Active],
     answer: &mut impl Answer,
     mut room: Room,
     Demands { settings, scale }: Demands,
     convergence: &mut Convergence,
-) -> f64 {
+) -> Outcome {
     begin(rows, answer, &mut room);
     place(rows, answer, &mut room, 0.0);
     let work_tolerance = WORK_TOLERANCE.max(WORK_PER_METRE * settings.tolerance) * scale.present;
@@ -198,12 +229,18 @@ fn solve(
     // Written so that what is not a number is refused too.
     let usable = gain <= scale.credit && (settled || bounded(rows, room.forces, settings.tolerance));
     if !(settled && usable) {
-        gain = stop_early(rows, answer, &mut room, usable, scale, convergence);
+        return Outcome::Unsettled { usable };
     }
-    for (row, force) in rows.iter_mut().zip(&*room.forces) {
+    hand_on(rows, room.forces);
+    Outcome::Settled(gain)
+}
+
+/// Gives each contact the force found for it.
+#[inline(always)]
+fn hand_on(rows: &mut [Active], forces: &[f64]) {
+    for (row, force) in rows.iter_mut().zip(forces) {
         row.force = row.base + *force;
     }
-    gain
 }
 
 /// Forces from which to start, were each law a straight line from the change of penetration that is expected on, at which
