@@ -21,8 +21,11 @@ pub(crate) const BEFORE: usize = 3;
 /// Points after the bridge: two odd ghosts.
 pub(crate) const AFTER: usize = 2;
 
-/// The fewest rows: what the widest stencil reads on one side of the first one, and that itself.
-const LEAST_ROWS: usize = 4;
+/// The rows in which the two points beside the nut are that those beyond it are the negative of, and all rows before these.
+pub(crate) const BESIDE_NUT: usize = BEFORE + 3;
+
+/// The fewest rows: those, among which are as many as the widest stencil reads on one side of the first one, and that itself.
+const LEAST_ROWS: usize = BESIDE_NUT;
 
 /// Bytes in a row.
 const ALIGNMENT: usize = 8 * LANES;
@@ -122,13 +125,11 @@ impl Ends {
         self.0[0].1
     }
 
-    /// The rows `first` and `last` of `count` such that all that lies beyond the ends, and what that is the negative of, is before
-    /// the one or from the other on; as are the three rows at either end, which those of the neighbouring pieces continue.
+    /// The row of so many from which on all is that lies beyond the bridge, and what that is the negative of, but for what is in
+    /// the rows [beside the nut](BESIDE_NUT); and the last three, which the pieces beside them continue.
     #[inline(always)]
-    pub fn rows(&self, count: usize) -> (usize, usize) {
+    pub fn beside_bridge(&self, count: usize) -> usize {
         let [near, far, ..] = self.0.map(|(_, point)| point / LANES);
-        // (The two points beside the nut are in the fifth and sixth row; where there are no more, all are first.)
-        let first = (BEFORE + 3).min(count);
-        (first, near.min(far).min(count - count.min(3)).max(first))
+        near.min(far).min(count - 3).max(BESIDE_NUT)
     }
 }

@@ -1,9 +1,11 @@
 //! The last pass of a step.
 
+use std::ops::Range;
+
 use pulp::{Simd, WithSimd};
 
-use super::lanes::{add_product, part_of, rows, rows_mut, vectors};
-use crate::field::{Ends, Field, LANES, total};
+use super::lanes::{Row, add_product, part_of, rows, rows_mut, vectors};
+use crate::field::{BESIDE_NUT, Ends, Field, LANES, total};
 
 /// Motion below this, m, is none: what runs ahead of a wave on a silent string would otherwise become a
 /// subnormal number, slow on most machines and flushed to zero on some, and the bits would depend on the
@@ -44,37 +46,59 @@ impl<const STRETCH: bool> WithSimd for LastPass<'_, '_, STRETCH> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Moved {
         let LastPass { pass: Advance { pull, from: (w, v, u), to: (d_next, u_next) }, ends } = self;
-        let (w, v, u, d_next) = (rows(w), rows(v), rows(u), rows_mut(d_next));
+        let count = rows(w).len();
+        let mut rows = Rows::<STRETCH> {
+            pull,
+            from: [w, v, u].map(|field| rows(field)),
+            sizes: [0.0; LANES],
+            squares: [0.0; LANES],
+        };
+        let last = ends.beside_bridge(count);
+        rows.advance(simd, 0..BESIDE_NUT, (d_next, u_next));
+        rows.advance(simd, last..count, (d_next, u_next));
+        u_next.close_ends(ends);
+        rows.advance(simd, BESIDE_NUT..last, (d_next, u_next));
+        let largest = rows.sizes.iter().fold(0.0, |most, &size| if size > most { size } else { most });
+        Moved { largest, squares: total(&rows.squares) }
+    }
+}
+
+/// The rows of a last pass.
+struct Rows<'a, const STRETCH: bool> {
+    pull: f64,
+    /// w, v and u.
+    from: [&'a [Row]; 3],
+    /// The largest |d⁺| so far in each lane.
+    sizes: Row,
+    /// Σ(d⁺)² so far in each lane.
+    squares: Row,
+}
+
+impl<const STRETCH: bool> Rows<'_, STRETCH> {
+    /// Moves some of them.
+    #[inline(always)]
+    fn advance<S: Simd>(&mut self, simd: S, range: Range<usize>, (d_next, u_next): (&mut Field, &mut Field)) {
+        let [w, v, u] = self.from.map(|rows| &rows[range.clone()]);
         let count = w.len();
-        let (v, u, d_next) = (&v[..count], &u[..count], &mut d_next[..count]);
-        let (pull, still) = (simd.splat_f64s(pull), simd.splat_f64s(STILL));
-        let (mut sizes, mut squares) = ([0.0; LANES], [0.0; LANES]);
-        let (first, last) = ends.rows(count);
-        for (turn, range) in [0..first, last..count, first..last].into_iter().enumerate() {
-            let after = &mut rows_mut(u_next)[..count];
-            for part in 0..vectors::<S>() {
-                let mut largest = part_of::<S>(&sizes, part);
-                let mut sum = part_of::<S>(&squares, part);
-                for at in range.clone() {
-                    let d = part_of::<S>(&w[at], part);
-                    let v = part_of::<S>(&v[at], part);
-                    let d = if STRETCH { simd.sub_f64s(d, simd.mul_f64s(pull, v)) } else { d };
-                    let size = simd.abs_f64s(d);
-                    let d = simd.select_f64s(simd.less_than_f64s(size, still), simd.splat_f64s(0.0), d);
-                    S::as_mut_simd_f64s(&mut d_next[at]).0[part] = d;
-                    S::as_mut_simd_f64s(&mut after[at]).0[part] =
-                        simd.add_f64s(part_of::<S>(&u[at], part), d);
-                    largest = simd.max_f64s(size, largest);
-                    add_product(simd, &mut sum, d, d);
-                }
-                S::as_mut_simd_f64s(&mut sizes).0[part] = largest;
-                S::as_mut_simd_f64s(&mut squares).0[part] = sum;
+        let (v, u) = (&v[..count], &u[..count]);
+        let [d_next, u_next] = [d_next, u_next].map(|field| &mut rows_mut(field)[range.clone()][..count]);
+        let (pull, still) = (simd.splat_f64s(self.pull), simd.splat_f64s(STILL));
+        for part in 0..vectors::<S>() {
+            let mut largest = part_of::<S>(&self.sizes, part);
+            let mut squares = part_of::<S>(&self.squares, part);
+            for at in 0..count {
+                let d = part_of::<S>(&w[at], part);
+                let v = part_of::<S>(&v[at], part);
+                let d = if STRETCH { simd.sub_f64s(d, simd.mul_f64s(pull, v)) } else { d };
+                let size = simd.abs_f64s(d);
+                let d = simd.select_f64s(simd.less_than_f64s(size, still), simd.splat_f64s(0.0), d);
+                S::as_mut_simd_f64s(&mut d_next[at]).0[part] = d;
+                S::as_mut_simd_f64s(&mut u_next[at]).0[part] = simd.add_f64s(part_of::<S>(&u[at], part), d);
+                largest = simd.max_f64s(size, largest);
+                add_product(simd, &mut squares, d, d);
             }
-            if turn == 1 {
-                u_next.close_ends(ends);
-            }
+            S::as_mut_simd_f64s(&mut self.sizes).0[part] = largest;
+            S::as_mut_simd_f64s(&mut self.squares).0[part] = squares;
         }
-        let largest = sizes.iter().fold(0.0, |most, &size| if size > most { size } else { most });
-        Moved { largest, squares: total(&squares) }
     }
 }
