@@ -184,7 +184,8 @@ pub enum Gesture {
     /// Lays a hand along the whole string, so softly that it presses it nowhere and only brakes it: for a while the loss σ₀ of the
     /// string is raised. It takes the place of one that is there. Left out where its loss is below 0, or its loss or its duration is
     /// not finite. One that has lain to its end leaves the string to hands that lie on what nobody plays
-    /// ([`idle_loss`](crate::setup::Player::idle_loss)), until something is plucked or thrown at it.
+    /// ([`idle_loss`](crate::setup::Player::idle_loss)), until something is plucked or thrown at it; one under which that happened,
+    /// as the hand that stills a string for a stroke, does not.
     Still {
         /// What it adds to the loss, 1/s, up to what brings the string to rest in a step.
         loss: f64,

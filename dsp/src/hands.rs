@@ -53,6 +53,8 @@ pub(crate) struct Stilling {
     loss: f64,
     /// Samples for which it is still there.
     left: u64,
+    /// Whether the string was played under it: it is that of a player, who goes on when it goes.
+    is_players: bool,
 }
 
 /// A finger of the hands, as far as it is not in the string's state.
@@ -84,9 +86,9 @@ impl Stilling {
         self.loss
     }
 
-    /// Whether the next step is its last.
-    fn ends(&self) -> bool {
-        self.left == 1 && self.loss > 0.0
+    /// Whether the next step is its last, after which nobody plays the string.
+    fn leaves(&self) -> bool {
+        self.left == 1 && self.loss > 0.0 && !self.is_players
     }
 }
 
@@ -111,7 +113,7 @@ pub(crate) struct Hands {
     /// What they do add: until it rests no less than on a string that it was taken over from, so that what that has heard of others
     /// fades here, too, 1/s.
     resting_loss: f64,
-    /// Whether the string is played: something was plucked, or thrown at it, and no hand has lain along it to the end since.
+    /// Whether the string is played: something was plucked, or thrown at it, and no hand laid along it since has lain to its end.
     played: bool,
     pub fingers: [Option<Held>; FINGERS_PER_STRING],
     /// Tension that the string is bent to, N.
@@ -152,6 +154,11 @@ impl Hands {
     /// The string rests: nobody plays it.
     pub fn leave(&mut self) {
         (self.played, self.resting_loss) = (false, self.idle_loss);
+    }
+
+    /// Somebody plays it, and so does whoever lies along it.
+    fn play(&mut self) {
+        (self.played, self.stilling.is_players) = (true, true);
     }
 
     /// Leaves it to what hands did before, until it rests.
@@ -196,7 +203,7 @@ impl Hands {
                 let ends = duration.is_finite() && release.is_finite();
                 let begins = self.plucks.len() < PUSHES && is_possible(force) && ends;
                 if begins {
-                    self.played = true;
+                    self.play();
                     let position = inside(position);
                     let reading = model.grid.reading(position);
                     let [duration, release] = [duration, release].map(|time| time.max(0.0));
@@ -210,7 +217,7 @@ impl Hands {
             Gesture::Throw { finger, touch, position, clearance, speed } => {
                 // Anything but a number counts as at rest.
                 let speed = if speed > 0.0 { speed.min(FASTEST_THROW) } else { 0.0 };
-                self.played = true;
+                self.play();
                 self.put(finger, touch, inside(position), [clearance, speed], model, state)
             }
             Gesture::Press { force, .. } | Gesture::Lift { force, .. } if !is_possible(force) => false,
@@ -240,7 +247,7 @@ impl Hands {
             Gesture::Still { loss, duration } => {
                 let begins = loss >= 0.0 && loss.is_finite() && duration.is_finite();
                 if begins {
-                    self.stilling = Stilling { loss, left: self.samples(duration) };
+                    self.stilling = Stilling { loss, left: self.samples(duration), is_players: false };
                 }
                 begins
             }
@@ -295,7 +302,7 @@ impl Hands {
         drive.tension = self.tension();
         self.bent.step();
         self.tuned.step();
-        self.played &= !self.stilling.ends();
+        self.played &= !self.stilling.leaves();
         let idle = if self.played { 0.0 } else { self.resting_loss };
         drive.loss = self.stilling.step().max(idle);
         drive.pushes.clear();

@@ -105,6 +105,36 @@ fn idle_hands_have_what_others_hear_fade() {
     assert!(alone(0.0) == alone(30.0), "hands are off what is played");
 }
 
+/// The hand that stills what sounds for a stroke goes when that has begun, and idle ones do not come.
+#[test]
+fn what_is_struck_again_is_played() {
+    let one_string = |idle_loss: f64| {
+        let setup = classical(idle_loss);
+        Setup { string: vec![setup.string[0].clone()], ..setup }
+    };
+    let again = |idle_loss: f64| {
+        let mut plucked = Plucked::new(&one_string(idle_loss));
+        let pluck = Gesture::Pluck { position: 0.5, force: -1.0, duration: 0.003, release: 0.0 };
+        for (time, gesture) in [(12_000, Gesture::Still { loss: 1_000.0, duration: 0.003 }), (12_043, pluck)]
+        {
+            plucked.instrument.schedule(TimedGesture { time, string: 0, gesture }).expect("there is room");
+        }
+        plucked.play(1.0);
+        plucked.left
+    };
+    assert!(again(0.0) == again(30.0), "hands are off what is played");
+    // So it is where somebody plays it: 6 1/s would have it lose 31 dB more.
+    let mut stage = Stage::over_body(&one_string(6.0));
+    let sound = &stage.play(&[(0.0, on(64, 90)), (1.0, off(64)), (1.0, on(64, 90))], 2.0).strings[0];
+    let lost = |from: usize| {
+        let level = |from: usize| decibels(rms(&sound[from..from + 4_800]));
+        level(from + 9_600) - level(from + 38_400)
+    };
+    let (first, second) = (lost(0), lost(48_000));
+    println!("in 0.6 s the first note loses {first:.1} dB, the second {second:.1} dB");
+    assert!((first - second).abs() < 1.0, "{first} and {second} dB");
+}
+
 /// A palm that has lain on all strings for a while, and a string that was pulled up and let go of, leave them to idle hands.
 #[test]
 fn what_is_only_touched_is_not_played() {
