@@ -108,10 +108,10 @@ pub(crate) struct Hands {
     pub sample_rate: f64,
     pub plucks: Roomy<Pluck>,
     pub stilling: Stilling,
-    /// What hands add to the loss of a string that nobody plays, 1/s.
-    idle_loss: f64,
-    /// What they do add: until it rests no less than on a string that it was taken over from, so that what that has heard of others
-    /// fades here, too, 1/s.
+    /// What hands add to the loss of a string that nobody plays, 1/s; none where the bridge stands still, and nobody hears others.
+    idle_loss: Option<f64>,
+    /// What they do add, 1/s: where the bridge stands still as much as on a string that it was taken over from, until it rests, so
+    /// that what that has heard of others fades here, too.
     resting_loss: f64,
     /// Whether the string is played: something was plucked, or thrown at it, and no hand laid along it since has lain to its end.
     played: bool,
@@ -126,13 +126,13 @@ pub(crate) struct Hands {
 
 impl Hands {
     /// Nobody plays the string, which bears so much tension, N.
-    pub fn new(model: &Model, sample_rate: f64, most_tension: f64, idle_loss: f64) -> Self {
+    pub fn new(model: &Model, sample_rate: f64, most_tension: f64, idle_loss: Option<f64>) -> Self {
         Hands {
             sample_rate,
             plucks: Roomy::with_capacity(PUSHES),
             stilling: Stilling::default(),
             idle_loss,
-            resting_loss: idle_loss,
+            resting_loss: idle_loss.unwrap_or(0.0),
             played: false,
             fingers: [None; FINGERS_PER_STRING],
             bent: Ramp::at(model.string.tension),
@@ -153,7 +153,7 @@ impl Hands {
 
     /// The string rests: nobody plays it.
     pub fn leave(&mut self) {
-        (self.played, self.resting_loss) = (false, self.idle_loss);
+        (self.played, self.resting_loss) = (false, self.idle_loss.unwrap_or(0.0));
     }
 
     /// Somebody plays it, and so does whoever lies along it.
@@ -161,9 +161,9 @@ impl Hands {
         (self.played, self.stilling.is_players) = (true, true);
     }
 
-    /// Leaves it to what hands did before, until it rests.
+    /// Leaves it to whom it was left before, and to what hands did then where they do nothing of their own.
     pub fn carry(&mut self, old: &Hands) {
-        (self.played, self.resting_loss) = (old.played, self.idle_loss.max(old.resting_loss));
+        (self.played, self.resting_loss) = (old.played, self.idle_loss.unwrap_or(old.resting_loss));
     }
 
     /// Whether nothing touches or bends the string.

@@ -81,7 +81,7 @@ impl Voice {
             model.finger_law(&touch).map_err(|error| error.under(section).under(&name))?;
         }
         let body = setup.body.as_ref().map(|body| Body::new(body, &model));
-        let idle_loss = if body.is_some() { setup.player.idle_loss } else { 0.0 };
+        let idle_loss = body.is_some().then_some(setup.player.idle_loss);
         let angle = 0.25 * std::f64::consts::PI * (spec.pan + 1.0);
         Ok(Voice {
             geometry: StringGeometry {

@@ -135,6 +135,32 @@ fn what_is_struck_again_is_played() {
     assert!((first - second).abs() < 1.0, "{first} and {second} dB");
 }
 
+/// Firmer hands and lighter ones act from the hand-over on; where the bridge stands still from then on, those that lay there stay.
+#[test]
+fn idle_hands_change_at_once() {
+    let rigid = at_the_bridge(&classical(6.0));
+    // What is left of the motion of the low E after it has been stilled, and half a second after a hand-over then, dB.
+    let lost = |before: f64, after: &Setup| {
+        let mut plucked = Plucked::new(&classical(before));
+        plucked.play(1.4);
+        let successor = Instrument::new(after, &Quality::Live.settings(RATE)).expect("it can be built");
+        assert!(plucked.instrument.hand_over(Box::new(successor)).is_ok(), "it is free");
+        let first = plucked.play(0.05)[5];
+        plucked.play(0.45);
+        decibels(first / plucked.play(0.05)[5])
+    };
+    let [free, lay, stay] = [lost(0.0, &classical(0.0)), lost(6.0, &classical(6.0)), lost(6.0, &rigid)];
+    let [let_go, laid] = [lost(6.0, &classical(0.0)), lost(0.0, &classical(6.0))];
+    println!("free {free:.1} dB, let go of {let_go:.1}; under hands {lay:.1}, {laid:.1} and {stay:.1} dB");
+    // 6 1/s takes 26 dB in half a second.
+    assert!(free < 10.0 && lay > free + 15.0, "{free} and {lay} dB");
+    assert!((let_go - free).abs() < 3.0, "{let_go} dB after lighter hands, free {free} dB");
+    assert!(
+        (laid - lay).abs() < 3.0 && stay > free + 15.0,
+        "{laid} and {stay} dB under hands, {lay} dB before"
+    );
+}
+
 /// A palm that has lain on all strings for a while, and a string that was pulled up and let go of, leave them to idle hands.
 #[test]
 fn what_is_only_touched_is_not_played() {
