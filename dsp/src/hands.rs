@@ -217,8 +217,11 @@ impl Hands {
             Gesture::Throw { finger, touch, position, clearance, speed } => {
                 // Anything but a number counts as at rest.
                 let speed = if speed > 0.0 { speed.min(FASTEST_THROW) } else { 0.0 };
-                self.play();
-                self.put(finger, touch, inside(position), [clearance, speed], model, state)
+                let begins = self.put(finger, touch, inside(position), [clearance, speed], model, state);
+                if begins {
+                    self.play();
+                }
+                begins
             }
             Gesture::Press { force, .. } | Gesture::Lift { force, .. } if !is_possible(force) => false,
             Gesture::Press { finger, force, duration } => {

@@ -146,6 +146,31 @@ fn fingers_that_would_never_arrive() {
     }
 }
 
+/// Nor do idle hands let go of a string over a body for it: what sings along fades as before.
+#[test]
+fn what_cannot_be_thrown_does_not_play() {
+    let mut setup = Setup::builtin("classical").expect("built in");
+    setup.string = [0, 5].map(|string| setup.string[string].clone()).into();
+    let sound = |clearance: Option<f64>| {
+        let mut instrument = Instrument::new(&setup, &Quality::Live.settings(RATE)).expect("it can be built");
+        let mut at = |time, string, gesture| {
+            instrument.schedule(TimedGesture { time, string, gesture }).expect("there is room");
+        };
+        at(0, 0, Gesture::Pluck { position: 0.5, force: 1.0, duration: 0.003, release: 0.0 });
+        if let Some(clearance) = clearance {
+            let thrown = Gesture::Throw { finger: FINGER, touch: PAD, position: 0.3, clearance, speed: 0.0 };
+            at(2_400, 1, thrown);
+        }
+        let (mut left, mut right) = (vec![0.0; 9_600], vec![0.0; 9_600]);
+        instrument.process(&mut left, &mut right);
+        left
+    };
+    let alone = sound(None);
+    assert!(alone == sound(Some(f64::NAN)), "one that cannot be plays");
+    // One that hangs in the air far above touches nothing, and that it is there is heard all the same.
+    assert!(alone != sound(Some(1.0)), "one that can be does not");
+}
+
 /// One whose time is past happens at the next sample, behind those that wait for it.
 #[test]
 fn late_gestures_keep_their_order() {
