@@ -9,18 +9,17 @@
 mod coefficients;
 mod end;
 mod modes;
+mod refusals;
 mod swing;
 
-use crate::digits::{at_least, plain};
 use crate::drive::Push;
-use crate::error::Error;
 use crate::model::Model;
 use crate::setup::Body as Description;
 use crate::state::State;
-use coefficients::Coefficients;
 pub(crate) use coefficients::Row;
 pub(crate) use end::End;
 pub(crate) use modes::Modes;
+pub(crate) use refusals::check;
 
 /// A body as one string moves it.
 #[derive(Debug, Clone)]
@@ -54,7 +53,7 @@ pub(crate) fn room(has_body: bool) -> f64 {
 }
 
 impl Body {
-    /// The body under a string. Whether it is not too light has been [asked](check) of all its strings.
+    /// The body under a string. Whether there can be one is [asked](check) of all its strings together.
     pub fn new(description: &Description, model: &Model) -> Body {
         Body {
             modes: Modes::new(description, model.grid.time_step),
@@ -148,33 +147,6 @@ impl Body {
         self.be_still();
         self.new = true;
     }
-}
-
-/// Refuses a body so light beside the strings over it, all of one rate, that their grids have no room for what all are together.
-pub(crate) fn check(description: &Description, strings: &[&Model]) -> Result<(), Error> {
-    if taken(description, strings) > 1.0 { Err(too_light(description, strings)) } else { Ok(()) }
-}
-
-/// How much a body takes of what strings leave; they are stable up to 1.
-fn taken(description: &Description, strings: &[&Model]) -> f64 {
-    let modes = Coefficients::of(description.modes(), strings[0].grid.time_step);
-    strings.iter().map(|model| End::taken(model, most_tension(model, true), &modes)).sum()
-}
-
-/// The refusal of a body that is too light for its strings, with the mass that would do.
-fn too_light(description: &Description, strings: &[&Model]) -> Error {
-    let mut heavier = *description;
-    // What is taken goes nearly with 1/mass.
-    for _ in 0..100 {
-        let taken = taken(&heavier, strings);
-        if taken <= 1.0 {
-            let accepted = format!("it must be at least {} kg", plain(at_least(heavier.mass)));
-            return Error::range("body.mass", plain(description.mass), accepted);
-        }
-        heavier.mass *= taken.clamp(1.001, 1e3);
-    }
-    let accepted = "no mass will do: strings so stiff leave no room on their grids";
-    Error::range("body.mass", plain(description.mass), accepted)
 }
 
 /// Below this energy nothing is heard of a body, J: a soft pluck has 1e-6 J, of which a part reaches it.

@@ -39,7 +39,7 @@ impl Simulation {
     ///
     /// # Errors
     /// When a value is out of range, a string too short for its grid, a contact too stiff for the rate, a body too light for the
-    /// strings, or the whole more than [`MOST_POINTS`], [`MOST_NUMBERS`] and [`MOST_WORK`] allow.
+    /// strings or too fast for the rate, or the whole more than [`MOST_POINTS`], [`MOST_NUMBERS`] and [`MOST_WORK`] allow.
     pub fn new(scene: &Scene) -> Result<Simulation, Error> {
         scene.check()?;
         let points = check_size(scene)?;

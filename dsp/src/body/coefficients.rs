@@ -26,13 +26,23 @@ pub(crate) struct Coefficients {
     pub own: Row,
 }
 
-/// Modes above this part of the rate are left out.
+/// Modes from this part of the rate up are left out.
 const HIGHEST: f64 = 0.4;
+
+/// Below how many Hz there are modes at a time step, s.
+pub(super) fn fastest(time_step: f64) -> f64 {
+    HIGHEST / time_step
+}
+
+/// Whether there is a mode of a frequency, Hz, at a time step, s.
+pub(super) fn is_slow(frequency: f64, time_step: f64) -> bool {
+    frequency * time_step < HIGHEST
+}
 
 impl Coefficients {
     /// Those of so many modes, in rows, at a time step, s.
     pub fn of(modes: Vec<Mode>, time_step: f64) -> Vec<Coefficients> {
-        let slow: Vec<_> = modes.into_iter().filter(|mode| mode.frequency * time_step < HIGHEST).collect();
+        let slow: Vec<_> = modes.into_iter().filter(|mode| is_slow(mode.frequency, time_step)).collect();
         let row = |modes: &[Mode]| {
             let mut row = Coefficients::default();
             for (lane, mode) in modes.iter().enumerate() {

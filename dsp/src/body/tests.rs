@@ -1,6 +1,9 @@
+mod refusals;
+
 use std::f64::consts::{PI, TAU};
 use std::slice::from_mut;
 
+use super::refusals::taken;
 use super::*;
 use crate::curve::Curve;
 use crate::drive::Drive;

@@ -7,13 +7,14 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::error::{Error, within};
+use crate::error::{Error, ranged, within};
 
 /// A box with a soundboard and a hole, as a luthier would measure it. The bridge stands on the soundboard and gives way with it.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
-    /// Frequency of the soundboard's lowest mode while the box is open, so that no air resists, Hz, 30 to 2000.
+    /// Frequency of the soundboard's lowest mode while the box is open, so that no air resists, Hz, 30 to 2000, and as low as the
+    /// rate of its strings asks for.
     pub frequency: f64,
     /// What moves in that mode as seen at the bridge, kg, 0.01 to 1000.
     pub mass: f64,
@@ -90,9 +91,12 @@ const NEAREST: f64 = 1.0 / 12.0;
 const SPREAD: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.549_700_477_901_969_7];
 
 impl Body {
+    /// What its frequency may be, Hz, where the rate is high enough.
+    pub(crate) const FREQUENCY: [f64; 2] = [30.0, 2000.0];
+
     /// Refuses values outside their range.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        within("body.frequency", self.frequency, 30.0, 2000.0, "Hz")?;
+        ranged("body.frequency", self.frequency, Self::FREQUENCY, "Hz")?;
         within("body.mass", self.mass, 0.01, 1000.0, "kg")?;
         within("body.area", self.area, 1e-4, 1.0, "m²")?;
         within("body.quality", self.quality, 1.0, 200.0, "")?;
@@ -145,7 +149,7 @@ impl Body {
     /// The soundboard as a piston of one mass and the air in the hole as another, both on the spring of the air in the box: the
     /// two modes of M ẍ = −K x, with p = −(ρc²/V)(A x₁ + S x₂) inside. What both move together is what is heard: far below the
     /// lower mode as much goes in by the hole as the soundboard pushes out.
-    fn with_air(&self) -> [Mode; 2] {
+    pub(crate) fn with_air(&self) -> [Mode; 2] {
         let plug = AIR * self.hole * PLUG * (self.hole / PI).sqrt();
         let spring = AIR * SPEED * SPEED / self.volume;
         let own = TAU * self.frequency;

@@ -13,7 +13,7 @@ const HEAVIER: f64 = 4.0;
 /// How often what is between too light and heavy enough is halved: to 2 %.
 const HALVINGS: u32 = 6;
 
-/// Puts a body under three scenes in ten, if it can bear the strings at all, and has three in ten of these heard by it. Three in
+/// Puts a body under three scenes in ten, if it can bear the strings at all and is not too fast for their rate, and has three in ten of these heard by it. Three in
 /// ten are hardly heavier than they must be. (Drawn after everything else, so that a trial of a number is otherwise the one it
 /// was before there were any.)
 pub fn under(draw: &mut Draw, scene: &mut Table) {
@@ -56,7 +56,7 @@ pub fn under(draw: &mut Draw, scene: &mut Table) {
     }
 }
 
-/// Whether a body of such a mass, kg, can bear the strings of a scene.
+/// Whether a body of such a mass, kg, can bear the strings of a scene, and be had at its rate: the heavier, the slower it is.
 fn bears(body: &Table, mass: f64, scene: &Table) -> bool {
     let mut bare = Table::new();
     for key in ["sample_rate", "duration", "solver", "string"] {
