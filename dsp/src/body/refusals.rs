@@ -52,18 +52,23 @@ pub(super) fn taken(description: &Description, strings: &[&Model]) -> f64 {
     strings.iter().map(|model| End::taken(model, most_tension(model, true), &modes)).sum()
 }
 
-/// The refusal of a body that is too light for its strings, with the mass that would do.
+/// The refusal of a body that is too light for its strings, with the mass that would do, if any would.
 fn too_light(description: &Description, strings: &[&Model]) -> Error {
+    let heaviest = Description::MASS[1];
     let mut heavier = *description;
-    // What is taken goes nearly with 1/mass.
-    for _ in 0..100 {
-        let taken = taken(&heavier, strings);
-        if taken <= 1.0 {
+    while heavier.mass < heaviest {
+        // What is taken goes nearly with 1/mass.
+        let more = taken(&heavier, strings).clamp(1.001, 1e3);
+        heavier.mass = (heavier.mass * more).min(heaviest);
+        if taken(&heavier, strings) <= 1.0 {
             let accepted = format!("it must be at least {} kg", plain(at_least(heavier.mass)));
             return Error::range("body.mass", plain(description.mass), accepted);
         }
-        heavier.mass *= taken.clamp(1.001, 1e3);
     }
-    let accepted = "no mass will do: strings so stiff leave no room on their grids";
+    let accepted = format!(
+        "no mass up to {} kg will do: linear_density, youngs_modulus, core_radius or loss_1 of its strings must be less, or \
+         body.spacing more",
+        plain(heaviest)
+    );
     Error::range("body.mass", plain(description.mass), accepted)
 }

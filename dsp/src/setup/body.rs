@@ -93,11 +93,13 @@ const SPREAD: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.54
 impl Body {
     /// What its frequency may be, Hz, where the rate is high enough.
     pub(crate) const FREQUENCY: [f64; 2] = [30.0, 2000.0];
+    /// What its mass may be, kg, where the strings are light enough.
+    pub(crate) const MASS: [f64; 2] = [0.01, 1000.0];
 
     /// Refuses values outside their range.
     pub(crate) fn check(&self) -> Result<(), Error> {
         ranged("body.frequency", self.frequency, Self::FREQUENCY, "Hz")?;
-        within("body.mass", self.mass, 0.01, 1000.0, "kg")?;
+        ranged("body.mass", self.mass, Self::MASS, "kg")?;
         within("body.area", self.area, 1e-4, 1.0, "m²")?;
         within("body.quality", self.quality, 1.0, 200.0, "")?;
         within("body.spacing", self.spacing, 5.0, 1000.0, "Hz")?;

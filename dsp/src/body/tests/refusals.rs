@@ -43,3 +43,38 @@ fn a_body_that_is_too_fast_for_the_rate_is_refused() {
         assert_eq!(check(&Description { frequency: 30.0, ..mended }, &[&slow]), Ok(()));
     }
 }
+
+/// What is said to be heavy enough is, up to the heaviest that there may be; beyond, other things are named that help.
+#[test]
+fn no_mass_is_asked_for_that_is_refused() {
+    let string = |density: f64| {
+        let model = low_string_at(Stencil::Wide, 8_000.0);
+        // As fast a wave on any.
+        let [tension, tension_limit] =
+            [model.string.tension, model.string.tension_limit].map(|force| force * density / 6.24e-3);
+        let string = StringParameters { linear_density: density, tension, tension_limit, ..model.string };
+        Model::new(string, None, 0, model.settings, 8_000.0).expect("it can be")
+    };
+    let light = Description { mass: 0.01, spacing: 5.0, ..GUITAR };
+    let mut densest: f64 = 0.0;
+    for density in (0..60).map(|power| 1e-3 * 1.25_f64.powi(power)) {
+        let model = string(density);
+        let Err(error) = check(&light, &[&model]) else { continue };
+        let error = error.to_string();
+        if error.starts_with("body.mass = 0.01 is refused: it must be at least ") {
+            let least = limit(&error);
+            assert!(least <= 1000.0, "{error}");
+            assert_eq!(check(&Description { mass: least, ..light }, &[&model]), Ok(()));
+            densest = density;
+        }
+    }
+    let model = string(1.25 * densest);
+    for mass in [0.01, 1000.0] {
+        let why = refusal(&Description { mass, ..light }, &model, "body.mass");
+        assert!(why.starts_with("no mass up to 1000 kg will do: linear_density, "), "{why}");
+    }
+    println!("from {densest} kg/m on none will do");
+    let heavy = Description { mass: 1000.0, ..light };
+    assert_eq!(check(&Description { spacing: 10.0, ..heavy }, &[&model]), Ok(()));
+    assert_eq!(check(&heavy, &[&string(densest)]), Ok(()));
+}
