@@ -173,13 +173,14 @@ impl Model {
     }
 
     /// How the string goes on by itself under a hand laid along it that adds so much to its loss, 1/s: 0 or more, and no more than
-    /// what brings a free point to rest in a step.
+    /// what brings a free point to rest in a step. (A hand so soft that it is lost in rounding does nothing: it never gives.)
     pub(crate) fn coasting_under(&self, loss: f64) -> Coasting {
         let loss = loss.max(0.0).min(2.0 * self.half_rate);
         if loss == 0.0 {
             return self.coasting;
         }
-        Coasting::new(&self.string, &self.grid, self.string.loss_0 + loss)
+        let under = Coasting::new(&self.string, &self.grid, self.string.loss_0 + loss);
+        if under.loss_0 > self.coasting.loss_0 { under } else { self.coasting }
     }
 
     /// The string's stiffness at a tension, N.

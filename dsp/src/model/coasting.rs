@@ -42,3 +42,46 @@ impl Coasting {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::model::{Model, StringParameters};
+    use crate::scene::SolverSettings;
+
+    /// However little a hand adds, by itself less than the last digit of what the string loses anyway, it takes and never gives: no
+    /// loss below the string's own. What it adds is as exact as that of a string can be: 1 and what is left of a motion are to 2⁻⁵².
+    #[test]
+    fn a_soft_hand_never_gives() {
+        let hands: Vec<f64> = [0.0, f64::MIN_POSITIVE]
+            .into_iter()
+            .chain((-30..7).map(|power| libm::exp10(f64::from(power))))
+            .collect();
+        let (mut nothing, mut something) = (0, 0);
+        for own in (0..200).map(|number| 0.013 * f64::from(number * number)) {
+            let string = StringParameters {
+                length: 0.65,
+                linear_density: 6.24e-3,
+                tension: 71.6,
+                tension_limit: 80.0,
+                youngs_modulus: 0.0,
+                core_radius: 0.0,
+                loss_0: own,
+                loss_1: 0.0,
+                tension_modulation: false,
+            };
+            for rate in [8_000.0, 48_000.0, 88_200.0] {
+                let model = Model::new(string, None, 0, SolverSettings::default(), rate).expect("it can be");
+                let known = 4.0 * f64::EPSILON * rate;
+                for &hand in &hands {
+                    let adds = model.coasting_under(hand).loss_0 - model.string.loss_0;
+                    assert!(adds >= 0.0, "{hand:e} 1/s add {adds:e} to {own} at {rate} Hz");
+                    if hand < 0.01 * rate {
+                        assert!((adds - hand).abs() < known + 1e-12 * hand, "{hand:e} and not {adds:e} 1/s");
+                    }
+                    *if adds == 0.0 { &mut nothing } else { &mut something } += 1;
+                }
+            }
+        }
+        assert!(nothing > 1_000 && something > 1_000, "{nothing} add nothing, {something} do");
+    }
+}
