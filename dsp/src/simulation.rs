@@ -224,18 +224,28 @@ fn check_size(scene: &Scene) -> Result<usize, Error> {
 /// Refuses a scene of so many grid points, and modes of a body, that would never end, in each sample of which contacts may take so
 /// many steps.
 fn check_work(scene: &Scene, points: usize, modes: usize, contacts: f64) -> Result<(), Error> {
-    let things = (points + modes + scene.pluck.len() + scene.finger.len()) as f64 + contacts;
-    let work = things * scene.duration * scene.sample_rate;
-    if work <= MOST_WORK {
+    let things = [
+        (scene.pluck.len(), ["pluck", "plucks"]),
+        (scene.finger.len(), ["finger", "fingers"]),
+        (modes, ["mode of the body", "modes of the body"]),
+        (points, ["grid point", "grid points"]),
+    ];
+    let each = things.iter().map(|(count, _)| count).sum::<usize>() as f64 + contacts;
+    if each * scene.duration * scene.sample_rate <= MOST_WORK {
         return Ok(());
     }
-    let longest = MOST_WORK / (things * scene.sample_rate);
-    let contacts = match contacts {
-        0.0 => String::new(),
-        _ => format!(" and {contacts:.2e} numbers for contacts that share some"),
-    };
+    let longest = MOST_WORK / (each * scene.sample_rate);
+    let some = things.into_iter().filter(|(count, _)| *count > 0);
+    let mut terms: Vec<String> = some
+        .map(|(count, [one, several])| format!("{count} {}", if count == 1 { one } else { several }))
+        .collect();
+    if contacts > 0.0 {
+        terms.push(format!("{contacts:.2e} numbers for contacts that share some"));
+    }
+    let last = terms.pop().unwrap_or_default();
+    let joined = if terms.is_empty() { last } else { format!("{} and {last}", terms.join(", ")) };
     let accepted = format!(
-        "with {points} grid points{contacts} at {} Hz it must lie between 0 and {} s",
+        "with {joined} at {} Hz it must lie between 0 and {} s",
         plain(scene.sample_rate),
         plain(at_most(longest))
     );

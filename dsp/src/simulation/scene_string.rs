@@ -107,7 +107,8 @@ impl SceneString {
         let (string, slots) = (parameters(scene, index), fingers.len());
         let model = Model::of_any_crowd(string, barrier.as_ref(), slots, scene.solver, scene.sample_rate)
             .map_err(|error| error.under(&format!("string[{number}]")))?;
-        *left = left.checked_sub(model.numbers()).ok_or_else(|| too_crowded(number))?;
+        let frets = barrier.as_ref().map_or(0, |barrier| barrier.frets.len());
+        *left = left.checked_sub(model.numbers()).ok_or_else(|| too_crowded(number, frets, slots))?;
         let mut state = State::new(&model);
         if let Some(shape) = &spec.shape {
             state.set_shape(&model, &Curve::Points(shape.clone()));
@@ -299,12 +300,15 @@ impl SceneString {
     }
 }
 
-/// Refuses contacts that share so many grid points that what they are to each other fills the memory.
-fn too_crowded(number: usize) -> Error {
+/// Refuses contacts of a string, over so many frets and under so many fingers, that share so many grid points that what they are to
+/// each other fills the memory.
+fn too_crowded(number: usize, frets: usize, fingers: usize) -> Error {
     let accepted = format!(
-        "contacts that share grid points are too many, in this string and those before: how each answers each may take {} \
+        "contacts that share grid points are too many, in string[{number}] and those before: how each answers each may take {} \
          numbers in all",
         plain(MOST_NUMBERS as f64)
     );
-    Error::range("string", plain(number as f64), accepted)
+    let (name, count) =
+        if frets > 0 { ("number of fretboard.frets", frets) } else { ("number of fingers", fingers) };
+    Error::range(name, count, accepted)
 }

@@ -312,6 +312,14 @@ fn scenes_too_large_to_compute_are_refused() {
         fast,
         &["duration = 10000", "grid points", "1e7 Hz", "s"],
     );
+    // What else counts is named, too.
+    let plucks = "[[pluck]]\nduration = 0.002\nposition = 0.5\nforce = -1.0\n".repeat(999);
+    let text = SCENE.replace("[[pluck]]", BODY).replace("44100", "200000") + &plucks;
+    let text = text.replace("duration = 0.01", "duration = 1e5");
+    let error = Simulation::new(&Scene::from_toml(&text).unwrap()).map(drop).unwrap_err().to_string();
+    let words =
+        ["with 1000 plucks, 1 finger, ", " modes of the body", " grid points", " at 200000 Hz it must lie "];
+    assert!(words.iter().all(|words| error.contains(words)), "{error}");
     // Where all frets are on the same few points, each answers every other: two million numbers a string.
     let crowd: Vec<String> = (0..1000).map(|i| format!("{:?}", 0.2 + 1e-8 * f64::from(i))).collect();
     let more = "[[string]]\nlength = 0.65\nlinear_density = 5.25e-3\ntension = 60.0\n".repeat(60);
@@ -321,7 +329,7 @@ fn scenes_too_large_to_compute_are_refused() {
             "{more}[fretboard]\nstiffness = 1e12\nexponent = 2.3\nboard = -0.002\nfrets = [{}]",
             crowd.join(", ")
         ),
-        &["contacts that share grid points", "1e8 numbers"],
+        &["number of fretboard.frets = 1000", "contacts that share grid points", "in string[", "1e8 numbers"],
     );
     // Fewer, for days.
     let frets = format!("frets = [{}]", crowd[..400].join(", "));
