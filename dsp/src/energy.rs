@@ -43,7 +43,7 @@ impl Deref for Ledger {
 }
 
 impl Ledger {
-    /// Opens the ledger of a string in its present state, at the model's own tension or the one given.
+    /// Opens the ledger of a string in its present state, at the tension, N, that it has there.
     pub fn new(model: &Model, state: &State, tension: f64) -> Ledger {
         let mut ledger = Ledger {
             account: Account::new(Energies::default()),

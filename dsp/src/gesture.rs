@@ -187,7 +187,8 @@ pub enum Gesture {
     /// ([`idle_loss`](crate::setup::Player::idle_loss)), until something is plucked or thrown at it; one under which that happened,
     /// as the hand that stills a string for a stroke, does not.
     Still {
-        /// What it adds to the loss, 1/s, up to what brings the string to rest in a step.
+        /// What it adds to the loss, 1/s, up to what brings the string to rest in a step; where hands lie there because nobody plays
+        /// the string, the greater of both.
         loss: f64,
         /// How long, s; one of 0 or less is nothing.
         duration: f64,

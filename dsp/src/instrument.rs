@@ -78,8 +78,9 @@ impl Instrument {
     /// Builds an instrument: tunes strings, places frets, compiles models, allocates.
     ///
     /// # Errors
-    /// When a value is out of range, a string cannot be [tuned](crate::intonation::intonate), or a contact or a pad is too stiff
-    /// for this sample rate.
+    /// When a value is out of range, a string cannot be [tuned](crate::intonation::intonate), a contact or a pad is too stiff for
+    /// this sample rate, a wide bridge ends before the first point of a string's grid, or a body is too light for the strings or too
+    /// fast for their rate.
     pub fn new(setup: &Setup, settings: &EngineSettings) -> Result<Instrument, Error> {
         setup.check()?;
         settings.check()?;

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! Scene ─> Model (coefficients) ─┬─> State, stepped by a Drive ─> strings ─> samples
-//! Setup ─> Instrument ───────────┘          ^
-//!                gestures ──────────────────┘
+//! Setup ─> Instrument ───────────┘          ^  ^                    │
+//!                gestures ──────────────────┘  └────── body <───────┘
 //! ```
 //!
 //! - A [`Scene`] is an experiment in SI units, a [`Setup`] an instrument as a luthier would describe it.
@@ -17,7 +17,9 @@
 //! - A [`Scratch`] is room to work in, and the record of the last step for whoever listens or measures:
 //!   [`pickup`] makes a signal of it, [`Ledger`] an energy balance. Neither can change the motion.
 //! - A [`Simulation`] runs the strings of a scene; an [`Instrument`] runs those of a set-up under
-//!   [`Gesture`]s at exact samples.
+//!   [`Gesture`]s at exact samples, each a `voice`: a string, the hands on it and what is heard of it.
+//! - A `body` is what gives way under the bridge: modes that strings drive and are pushed by, and that sound. Strings over one
+//!   hear each other and are stepped `together`, sample by sample; all others go through a run of samples each by itself.
 //!
 //! Within a step, [`State::step`] predicts the string without contacts (`kernel`), lists the contacts that
 //! act, solves for all their forces together (`solver`, by means of `response`), and advances the string

@@ -14,7 +14,7 @@ pub struct Player {
     pub pluck_position: f64,
     /// How long a pluck pushes, s, 1e-4 to 0.1.
     pub pluck_duration: f64,
-    /// How long it takes to let go after that, s, 0 to 0.1; 0 is at once.
+    /// How long it takes to let go after that at velocity 127, s, 0 to 0.1, and up to four times as long the softer; 0 is at once.
     #[serde(default)]
     pub pluck_release: f64,
     /// Largest force of a pluck at velocity 127, N, 1e-3 to 1e3.

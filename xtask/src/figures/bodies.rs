@@ -150,7 +150,11 @@ fn section(strings: &[Vec<Partial>; 3]) -> Result<Section> {
     let count = all().filter(weak).count();
     let claims = vec![Claim::ours(
         format!("Partials that lose less than {STRONG} 1/s die away as theory says, within {OFF} %"),
-        format!("{count} of {} within {} %", all().count(), significant(worst, 2)),
+        format!(
+            "{count} of {} lose less than {STRONG} 1/s; these within {} %",
+            all().count(),
+            significant(worst, 2)
+        ),
         worst < OFF,
     )];
     Ok(Section::new("Beyond: a bridge that gives way")
