@@ -14,14 +14,12 @@
 use std::ops::Range;
 
 use crate::contact::ContactLaw;
-use crate::energy::Ledger;
 use crate::finger::Inertia;
 use crate::gesture::FINGERS_PER_STRING;
 use crate::hands::Hands;
 use crate::instrument::{Instrument, heard};
 use crate::model::{Contact, ContactKind, Model};
 use crate::ramp::Ramp;
-use crate::scene::SolverSettings;
 use crate::state::State;
 use crate::together;
 
@@ -92,32 +90,6 @@ impl Instrument {
     /// The instrument this one took over from, once it has faded; to be dropped where that does no harm.
     pub fn take_before(&mut self) -> Option<Box<Instrument>> {
         if self.is_fading() { None } else { self.before.take() }
-    }
-
-    /// How exactly contacts are solved from the next sample on: Newton iterations at most, and the change
-    /// of penetration, m, at which they stop. Brought into their ranges in [`SolverSettings`]; what is no number counts as 0.
-    /// A successor has its own.
-    pub fn set_effort(&mut self, max_iterations: usize, tolerance: f64) {
-        let tolerance = if tolerance > 0.0 { tolerance.min(SolverSettings::WIDEST_TOLERANCE) } else { 0.0 };
-        for voice in &mut self.voices {
-            voice.model.settings.max_iterations = max_iterations.min(SolverSettings::MOST_ITERATIONS);
-            voice.model.settings.tolerance = tolerance;
-        }
-    }
-
-    /// Opens a ledger for each string; allocates, and so do steps, hand-overs and resets while ledgers are open. Where strings
-    /// go on through a hand-over so do their ledgers, which book it. Where they do not, ledgers stay with the instrument that
-    /// goes, and its successor has those that were opened in it, if any.
-    pub fn open_ledgers(&mut self) {
-        self.voices.iter_mut().for_each(crate::voice::Voice::open_ledger);
-    }
-
-    /// The ledger of a string, if it was opened.
-    ///
-    /// # Panics
-    /// When there is no such string.
-    pub fn ledger(&self, string: usize) -> Option<&Ledger> {
-        self.voices[string].ledger.as_ref()
     }
 
     /// What is fading and is still played, if anything is: other strings are not meant by what is played now.

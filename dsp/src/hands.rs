@@ -1,13 +1,16 @@
 //! The hands on one string: gestures become the forces, places and tension of a [`Drive`].
 
+mod held;
+
 use crate::drive::{Drive, PUSHES, Push};
 use crate::finger::Finger;
 use crate::gesture::{FINGERS_PER_STRING, Gesture, MOST_CLEARANCE, MOST_FORCE, Touch, pluck_push};
-use crate::grid::Reading;
 use crate::model::Model;
 use crate::ramp::Ramp;
 use crate::roomy::Roomy;
 use crate::state::State;
+pub(crate) use held::Pluck;
+use held::{Held, Stilling};
 
 /// How far from the string a lifted finger must be before it is taken away, m.
 const CLEAR: f64 = 1e-3;
@@ -32,73 +35,6 @@ fn is_possible(force: f64) -> bool {
 fn samples(seconds: f64, rate: f64) -> u64 {
     // A hostile duration counts as at once; `as` saturates at the other end.
     (seconds * rate).round().max(0.0) as u64
-}
-
-/// A pluck under way.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Pluck {
-    /// m from the nut.
-    pub position: f64,
-    pub reading: Reading,
-    pub force: f64,
-    pub done: u64,
-    pub duration: f64,
-    pub release: f64,
-}
-
-/// A hand laid along the string.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Stilling {
-    /// What it adds to the string's loss, 1/s.
-    loss: f64,
-    /// Samples for which it is still there.
-    left: u64,
-    /// Whether the string was played under it: it is that of a player, who goes on when it goes.
-    is_players: bool,
-}
-
-/// A finger of the hands, as far as it is not in the string's state.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Held {
-    force: Ramp,
-    position: Ramp,
-    leaving: bool,
-}
-
-impl Pluck {
-    /// The same push in samples of another length, of which there are `factor` for each of the old.
-    pub fn resampled(self, factor: f64) -> Self {
-        Pluck { done: (self.done as f64 * factor).round() as u64, ..self }
-    }
-}
-
-impl Stilling {
-    /// The same in samples of which there are `factor` for each of the old.
-    pub fn resampled(self, factor: f64) -> Self {
-        Stilling { left: (self.left as f64 * factor).round() as u64, ..self }
-    }
-
-    /// What it adds in the next step, 1/s.
-    #[inline]
-    fn step(&mut self) -> f64 {
-        let Some(left) = self.left.checked_sub(1) else { return 0.0 };
-        self.left = left;
-        self.loss
-    }
-
-    /// Whether the next step is its last, after which nobody plays the string.
-    fn leaves(&self) -> bool {
-        self.left == 1 && self.loss > 0.0 && !self.is_players
-    }
-}
-
-impl Held {
-    /// The same motion over a string `scale` times as long, in samples of which there are `factor` for each
-    /// of the old.
-    pub fn carried(self, scale: f64, factor: f64) -> Self {
-        let position = self.position.map(|place| place * scale).resampled(factor);
-        Held { position, force: self.force.resampled(factor), ..self }
-    }
 }
 
 /// The hands on one string.

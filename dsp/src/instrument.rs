@@ -4,25 +4,23 @@
 //! a whole run of samples at a time, at a multiple of the sample rate of its own ([`crate::settings`]); those over a body go on
 //! together. Gestures cut runs at their exact samples, and so the samples are the same however they are asked for.
 
+mod looks;
+
 use std::ops::Range;
 
 use crate::body;
 use crate::decimate::DELAY;
-use crate::drive::Drive;
 use crate::error::Error;
 use crate::gesture::{Gesture, TimedGesture};
 use crate::intonation::{Behind, finger_position};
 use crate::level::Level;
-use crate::model::Model;
-use crate::observed::Observed;
 use crate::queue::Queue;
 pub use crate::queue::QueueFull;
 use crate::ramp::Ramp;
 use crate::ratio::Ratio;
+use crate::scene::SolverSettings;
 use crate::settings::EngineSettings;
 use crate::setup::Setup;
-use crate::state::State;
-use crate::string::Scratch;
 use crate::together;
 use crate::voice::{RUN, Voice};
 
@@ -124,56 +122,6 @@ impl Instrument {
         self.voices[string].ratio()
     }
 
-    /// The model of a string.
-    ///
-    /// # Panics
-    /// When there is no such string.
-    pub fn model(&self, string: usize) -> &Model {
-        &self.voices[string].model
-    }
-
-    /// The state of a string.
-    ///
-    /// # Panics
-    /// When there is no such string.
-    pub fn state(&self, string: usize) -> &State {
-        &self.voices[string].state
-    }
-
-    /// What acted on a string in its last step; a string at rest takes none.
-    ///
-    /// # Panics
-    /// When there is no such string.
-    pub fn drive(&self, string: usize) -> &Drive {
-        &self.voices[string].drive
-    }
-
-    /// The record of a string's last step.
-    ///
-    /// # Panics
-    /// When there is no such string.
-    pub fn scratch(&self, string: usize) -> &Scratch {
-        &self.voices[string].scratch
-    }
-
-    /// Has what happens to the strings kept from now on, or no longer. The sound is the same bits.
-    pub fn observe(&mut self, looking: bool) {
-        self.voices.iter_mut().for_each(|voice| voice.observed.look(looking, &voice.state));
-    }
-
-    /// What has happened to a string since [`Instrument::observe_anew`], while it is kept.
-    ///
-    /// # Panics
-    /// When there is no such string.
-    pub fn observed(&self, string: usize) -> &Observed {
-        &self.voices[string].observed
-    }
-
-    /// Forgets what has happened to the strings.
-    pub fn observe_anew(&mut self) {
-        self.voices.iter_mut().for_each(|voice| voice.observed.begin_anew(&voice.state));
-    }
-
     /// Sample rate of what is heard, Hz.
     pub fn sample_rate(&self) -> f64 {
         self.sample_rate
@@ -182,6 +130,17 @@ impl Instrument {
     /// Index of the next sample.
     pub fn now(&self) -> u64 {
         self.now
+    }
+
+    /// How exactly contacts are solved from the next sample on: Newton iterations at most, and the change
+    /// of penetration, m, at which they stop. Brought into their ranges in [`SolverSettings`]; what is no number counts as 0.
+    /// A successor has its own.
+    pub fn set_effort(&mut self, max_iterations: usize, tolerance: f64) {
+        let tolerance = if tolerance > 0.0 { tolerance.min(SolverSettings::WIDEST_TOLERANCE) } else { 0.0 };
+        for voice in &mut self.voices {
+            voice.model.settings.max_iterations = max_iterations.min(SolverSettings::MOST_ITERATIONS);
+            voice.model.settings.tolerance = tolerance;
+        }
     }
 
     /// Puts a gesture into the queue; one whose time is past happens at the next sample, after those that wait for it already.

@@ -11,8 +11,10 @@
 //! scheme steps through.
 
 mod equilibrium;
+mod finger;
 mod laid;
 mod mode;
+mod placing;
 
 use crate::curve::Curve;
 use crate::digits::plain;
@@ -23,6 +25,7 @@ use crate::neck::Neck;
 use crate::scene::{SolverSettings, Stencil};
 use crate::setup::{Fretting, Intonation, Setup, SetupString, frequency};
 use equilibrium::Equilibrium;
+pub use finger::{Behind, finger_place, finger_position};
 pub use laid::Laid;
 use mode::{Resting, open_frequency, stopped_frequency};
 
@@ -184,100 +187,6 @@ impl<'a> Bench<'a> {
         Err(Error::range("pitch", plain(string.pitch), accepted))
     }
 
-    /// Moves the frets, lowest first, until each stops the string at its pitch.
-    fn place_frets(&self, string: &StringParameters, open: f64, frets: &mut [f64]) -> Result<(), Error> {
-        let (mut rest, mut shift) = (None, 0.0);
-        for fret in 0..frets.len() {
-            let target = open * libm::exp2((fret + 1) as f64 / 12.0);
-            let sharpness = |place: f64, frets: &mut [f64], rest: &mut Option<Vec<f64>>| {
-                frets[fret] = place;
-                let found = self.stopped(string, frets, fret, target, rest.take())?;
-                *rest = Some(found.1);
-                Ok::<f64, Error>(found.0 / target - 1.0)
-            };
-            // The secant method, started where the fret before leads to, with the ideal string's law:
-            // pitch goes with 1/(L − x). On a grid too coarse for the fret the best place is kept.
-            let (low, high) = self.limits(frets, fret);
-            let mut place = (frets[fret] + shift).clamp(low, high);
-            let mut off = sharpness(place, frets, &mut rest)?;
-            let mut slope = 1.0 / (string.length - place);
-            let mut best = (place, off);
-            for _ in 0..MOST_STEPS {
-                let next = (place - off / slope).clamp(low, high);
-                if off.abs() < PITCH_TOLERANCE || next == place {
-                    break;
-                }
-                let next_off = sharpness(next, frets, &mut rest)?;
-                let secant = (next_off - off) / (next - place);
-                if secant > 0.0 {
-                    slope = secant;
-                }
-                (place, off) = (next, next_off);
-                if off.abs() < best.1.abs() {
-                    best = (place, off);
-                }
-            }
-            frets[fret] = best.0;
-            shift = best.0 - self.neck.equal_place((fret + 1) as f64);
-            rest = None;
-        }
-        Ok(())
-    }
-
-    /// Finds where fingers stop the string on a bare board, lowest first: half way between two points of the grid, and of all such
-    /// places where each pitch is met best.
-    ///
-    /// The string ends at a grid point, however far before it the finger presses. From half way the finger presses both of its
-    /// neighbours on the board alike and lifts those beyond, a sixteenth of its force each: there is one end, however the string
-    /// swings. Near a grid point one more lies on the board with hardly any force. Pitch goes smoothly from one end to the next there,
-    /// and might be met to the last digit, but only at rest: swinging the string leaves that point, the sooner the louder.
-    fn place_fingers(&self, string: &StringParameters, open: f64, frets: &mut [f64]) -> Result<(), Error> {
-        let spacing = self.model(string, frets)?.grid.spacing;
-        let (mut rest, mut shift) = (None, 0.0);
-        for fret in 0..frets.len() {
-            let target = open * libm::exp2((fret + 1) as f64 / 12.0);
-            let (low, high) = self.limits(frets, fret);
-            let middle = |cell: f64| ((cell + 0.5) * spacing).clamp(low, high);
-            let mut sharpness = |place: f64, frets: &mut [f64]| {
-                frets[fret] = place;
-                let found = self.stopped(string, frets, fret, target, rest.take())?;
-                rest = Some(found.1);
-                Ok::<f64, Error>(found.0 / target - 1.0)
-            };
-            // Started where the one before leads to. Pitch rises towards the bridge: cell by cell there, or back, until it is passed.
-            let mut cell = ((frets[fret] + shift) / spacing).floor();
-            let mut place = middle(cell);
-            let mut best = (place, sharpness(place, frets)?);
-            let onwards = if best.1 < 0.0 { 1.0 } else { -1.0 };
-            loop {
-                cell += onwards;
-                let before = std::mem::replace(&mut place, middle(cell));
-                if place == before {
-                    break;
-                }
-                let off = sharpness(place, frets)?;
-                if off.abs() < best.1.abs() {
-                    best = (place, off);
-                }
-                if off * onwards >= 0.0 {
-                    break;
-                }
-            }
-            frets[fret] = best.0;
-            shift = best.0 - self.neck.equal_place((fret + 1) as f64);
-            rest = None;
-        }
-        Ok(())
-    }
-
-    /// How far a fret may move: less than to where its neighbours would be, and not past the one below.
-    fn limits(&self, frets: &[f64], fret: usize) -> (f64, f64) {
-        let number = (fret + 1) as f64;
-        let (here, low) = (self.neck.equal_place(number), self.neck.equal_place(number - 0.9));
-        let below = if fret == 0 { 0.0 } else { frets[fret - 1] };
-        (low.max(below + 0.1 * (here - low)), self.neck.equal_place(number + 0.9))
-    }
-
     /// Angular frequency (1/s) of the string stopped at a fret, near `target`, and its shape at rest.
     fn stopped(
         &self,
@@ -317,43 +226,5 @@ impl<'a> Bench<'a> {
         let pressed = free.max(self.neck.board_height(finger).unwrap_or(free));
         let corners = Curve::Points(vec![[0.0, 0.0], [finger, pressed], [crown, height], [length, 0.0]]);
         (1..model.grid.intervals).map(|node| corners.at(model.grid.place(node))).collect()
-    }
-}
-
-/// How far behind the crown of its fret, towards the nut, a finger presses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Behind {
-    /// The part of the fret's own space.
-    pub part: f64,
-    /// The least distance, m, where the space has room for it: half of what a fingertip covers.
-    pub nearest: f64,
-}
-
-/// The part of a fret's space beyond which a finger does not draw back only to be far enough from the crown: a little
-/// past the middle (chosen, not measured), or it would lie on the fret before.
-const ROOM: f64 = 0.65;
-
-impl Behind {
-    /// The distance, m, in a fret's space of this length, m.
-    pub fn distance(&self, space: f64) -> f64 {
-        (self.part * space).max(self.nearest.min(ROOM * space))
-    }
-}
-
-/// Where a finger presses to stop the fret of index `fret`, 0 for the first, m from the nut.
-///
-/// # Panics
-/// When there is no such fret.
-pub fn finger_place(frets: &[f64], fret: usize, behind: Behind) -> f64 {
-    let below = if fret == 0 { 0.0 } else { frets[fret - 1] };
-    frets[fret] - behind.distance(frets[fret] - below)
-}
-
-/// Where a finger presses to stop a fret (1 for the first), m from the nut: one beyond the last as the last. The open string's,
-/// and any where there are no frets, is the nut itself, 0.
-pub fn finger_position(frets: &[f64], fret: usize, behind: Behind) -> f64 {
-    match fret.min(frets.len()).checked_sub(1) {
-        Some(index) => finger_place(frets, index, behind),
-        None => 0.0,
     }
 }

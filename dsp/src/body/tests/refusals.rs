@@ -1,6 +1,8 @@
 //! Bodies that cannot be are refused by what must be otherwise, and one that is as said can be.
 
+use super::super::refusals::taken;
 use super::*;
+use crate::setup::Setup;
 
 /// Why a body is refused under one string, behind the name and the value given.
 fn refusal(description: &Description, model: &Model, name: &str) -> String {
@@ -77,4 +79,25 @@ fn no_mass_is_asked_for_that_is_refused() {
     let heavy = Description { mass: 1000.0, ..light };
     assert_eq!(check(&Description { spacing: 10.0, ..heavy }, &[&model]), Ok(()));
     assert_eq!(check(&heavy, &[&string(densest)]), Ok(()));
+}
+
+/// Bodies that come with the program take a part of the room that grids of all their strings leave for them.
+#[test]
+fn guitars_leave_room() {
+    let names = Setup::BUILTIN.into_iter().chain(Setup::PRESETS);
+    let mut most: f64 = 0.0;
+    for setup in names.filter_map(Setup::shipped) {
+        let Some(description) = &setup.body else { continue };
+        for rate in [22_050.0, 48_000.0, 96_000.0] {
+            let model = |spec| {
+                let string = crate::intonation::flexible(&setup, spec);
+                let settings = SolverSettings { stencil: Stencil::Wide, ..SolverSettings::default() };
+                Model::new(string, None, 0, settings, rate).expect("it can be")
+            };
+            let models: Vec<_> = setup.string.iter().map(model).collect();
+            most = most.max(taken(description, &models.iter().collect::<Vec<_>>()));
+        }
+    }
+    println!("they take {most} of it");
+    assert!(most > 0.0 && most < 0.25, "they take {most} of it");
 }
