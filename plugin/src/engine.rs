@@ -318,6 +318,11 @@ impl Engine {
         self.forget();
     }
 
+    /// The next notes are the first of the music once more, unless a key is down by then: hands go back to the beginning for them.
+    pub fn begin_anew(&mut self) {
+        self.performance.begin_anew();
+    }
+
     /// What those who play have announced so far.
     pub fn announced(&self) -> Announced {
         self.performance.announced()

@@ -16,6 +16,7 @@ pub(crate) mod order;
 mod playing;
 pub mod shelf;
 pub mod state;
+mod transport;
 mod voices;
 mod vst3;
 mod workshop;
@@ -38,6 +39,7 @@ use level::Output;
 use meters::Meters;
 use order::Order;
 use playing::Playing;
+use transport::{Transport, Turn};
 use vst3::Kept;
 
 /// Strings that have an output of their own, where a host asks for them.
@@ -55,8 +57,8 @@ pub struct LowAction {
     /// have rendered offline meanwhile, or changed the sample rate.
     announced: Option<Announced>,
     output: Output,
-    /// Whether the host's transport ran at the last block.
-    transport_ran: bool,
+    /// How the host's transport ran so far.
+    transport: Transport,
     /// Takes pictures of the strings while an editor is open.
     display: Writer,
     /// What is played in those pictures.
@@ -82,7 +84,7 @@ impl Default for LowAction {
             playing: None,
             announced: None,
             output: Output::default(),
-            transport_ran: false,
+            transport: Transport::default(),
             display,
             played,
             kept: Kept::of_the_new(),
@@ -172,7 +174,7 @@ impl Plugin for LowAction {
         let offline = buffers.process_mode == ProcessMode::Offline;
         let order = Order::of(&self.params, buffers.sample_rate, offline);
         self.output.activate(buffers.sample_rate, self.params.output.bypass.value());
-        self.transport_ran = false;
+        self.transport = Transport::default();
         self.played.clear();
         self.kept.make_room();
         self.announced = self.playing.as_ref().and_then(Playing::announced).or(self.announced);
@@ -234,9 +236,10 @@ impl Plugin for LowAction {
             return ProcessStatus::Normal;
         };
         let started = playing.start_clock();
-        let running = context.transport().playing;
-        if std::mem::replace(&mut self.transport_ran, running) && !running {
-            playing.silence();
+        match self.transport.follow(context.transport()) {
+            Some(Turn::Stops) => playing.silence(),
+            Some(Turn::Begins) => playing.begin_anew(),
+            None => {}
         }
         playing.follow(&self.params);
         playing.take_up(&self.played);

@@ -113,6 +113,9 @@ impl Performance {
 
     /// Places and plays the notes that began together at `now`, and lets go of the keys that have waited for that.
     pub(super) fn begin_chord(&mut self, out: &mut impl GestureSink) {
+        if !self.chord.is_empty() {
+            self.go_back_if_anew();
+        }
         self.take_over_notes(out);
         if !self.chord.is_empty() {
             self.place_chord(out);

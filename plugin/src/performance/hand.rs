@@ -151,6 +151,12 @@ impl Hand {
         self.position = 1;
     }
 
+    /// Back to the first fret, or the first behind the capo.
+    pub(crate) fn go_back(&mut self) {
+        self.position = 1;
+        self.set_capo(self.asked_capo);
+    }
+
     /// Plays about this fret from the next notes on, or wherever it has the least to move. No fret is too high: past the last one
     /// it stays there, and behind a capo beside it.
     pub(crate) fn set_home(&mut self, home: Option<u8>) {

@@ -9,6 +9,7 @@
 //! construction, and the result depends only on the events and their times, not on how the time between them is cut
 //! into blocks.
 
+mod anew;
 mod annotation;
 mod announced;
 mod articulation;
@@ -100,6 +101,8 @@ pub struct Performance {
     late: Vec<Late>,
     /// Whether the next stroke back and forth goes back.
     upward: bool,
+    /// Whether the next notes are the first of the music once more.
+    begins_anew: bool,
     /// First of the keys that are keyswitches, if any are.
     switches: Option<u8>,
     now: u64,
@@ -144,6 +147,7 @@ impl Performance {
             releases: Vec::with_capacity(LARGEST_CHORD),
             late: Vec::with_capacity(LARGEST_CHORD),
             upward: false,
+            begins_anew: false,
             switches: None,
             now: 0,
             wanted: Vec::with_capacity(LARGEST_CHORD),
@@ -211,6 +215,7 @@ impl Performance {
                     string.silence(time, None);
                 }
                 self.channels.iter_mut().for_each(Channel::forget_pedals);
+                self.go_back_to_the_beginning();
             }
         }
     }
@@ -256,7 +261,8 @@ impl Performance {
         self.releases.extend_from_slice(&old.releases);
         self.late.clear();
         self.late.extend_from_slice(&old.late);
-        (self.upward, self.switches) = (old.upward, old.switches);
+        (self.upward, self.begins_anew) = (old.upward, old.begins_anew);
+        self.switches = old.switches;
         self.just_begun.take_over(&old.just_begun, strings_go_on);
         self.hand.set_home(old.hand.home());
         if strings_go_on {
@@ -334,7 +340,7 @@ impl Performance {
         self.just_begun.reset();
         self.releases.clear();
         self.late.clear();
-        (self.upward, self.means_otherwise) = (false, Channels::NONE);
+        (self.upward, self.begins_anew, self.means_otherwise) = (false, false, Channels::NONE);
         self.switches = self.touching.keyswitches;
         self.hand.set_home(self.touching.hand_position);
         self.now = 0;

@@ -128,6 +128,11 @@ impl Playing {
         self.touch(PlayerEvent::AllNotesOff);
     }
 
+    /// What comes is the beginning of the music, or that of a part of it once more.
+    pub fn begin_anew(&mut self) {
+        self.engine.begin_anew();
+    }
+
     /// What has been announced to it, where it plays in real time.
     pub fn announced(&self) -> Option<Announced> {
         (!self.offline).then(|| self.engine.announced())

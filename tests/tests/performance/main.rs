@@ -23,6 +23,7 @@ mod mpe_comes_and_goes;
 mod muted;
 mod overtaken;
 mod palm;
+mod passes;
 mod pieces;
 mod pinch;
 mod positions;

@@ -8,6 +8,7 @@ mod documents;
 mod exchange;
 mod notes;
 mod parameters;
+mod passes;
 mod plays;
 mod rest;
 mod sessions;

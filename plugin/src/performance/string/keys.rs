@@ -48,6 +48,11 @@ impl StringPlayer {
         true
     }
 
+    /// Whether a key is down of its note, or of one under that.
+    pub(crate) fn has_key_down(&self) -> bool {
+        self.note.iter().chain(self.under.iter().flatten()).any(Note::key_down)
+    }
+
     /// Its note, if the key of that is down and it began at some sample or later.
     pub(crate) fn note_since(&self, since: u64) -> Option<Note> {
         self.note.filter(|note| note.key_down() && note.since >= since)
