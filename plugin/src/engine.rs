@@ -18,7 +18,7 @@ use low_action_dsp::{EngineSettings, Instrument, Setup};
 
 use crate::controls::Touching;
 use crate::performance::{
-    Announced, Channels, Compromises, InputMode, Performance, PlayedString, PlayerEvent, Style,
+    Announced, Compromises, InputMode, Performance, PlayedString, PlayerEvent, Spoken, Style,
 };
 pub use handover::Replacement;
 pub use record::Record;
@@ -173,9 +173,9 @@ impl Engine {
         self.performance.set_input(input);
     }
 
-    /// The channels that are notes of MPE now.
-    pub(crate) fn members(&self) -> Channels {
-        self.performance.members()
+    /// Which channel speaks for which others now.
+    pub(crate) fn spoken(&self) -> Spoken {
+        self.performance.spoken()
     }
 
     /// Has contacts solved so exactly from the next sample on: Newton iterations at most, and the change of

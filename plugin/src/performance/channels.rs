@@ -1,4 +1,4 @@
-//! Sets of channels, and which of them are notes of MPE.
+//! Sets of channels, which of them are notes of MPE, and which one speaks for others.
 
 use super::channel::Channel;
 use super::control::{MANAGER, UPPER};
@@ -45,6 +45,23 @@ impl Channels {
     }
 }
 
+/// A channel that speaks for others, beside what they say themselves: in MPE the first one for its members, where each string has a
+/// channel the one below these for all of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Spoken {
+    /// The channel.
+    pub by: u8,
+    /// Those that it speaks for; none where it has nobody to speak for.
+    pub of: Channels,
+}
+
+impl Spoken {
+    /// Those that a channel speaks for.
+    pub fn with(self, channel: u8) -> Channels {
+        if channel == self.by { self.of } else { Channels::NONE }
+    }
+}
+
 /// All channels that are announced as members of MPE by any of these events, which are in order of time.
 pub(crate) fn announced_members(events: impl Iterator<Item = PlayerEvent>) -> Channels {
     let [mut lower, mut upper] = [MANAGER, UPPER].map(|_| Channel::new(0.0));
@@ -72,6 +89,18 @@ impl Performance {
             (InputMode::Mpe | InputMode::Auto, announced) => announced,
             _ => Channels::NONE,
         }
+    }
+
+    /// Which channel speaks for which others.
+    pub(crate) fn spoken(&self) -> Spoken {
+        let of_mpe = || Spoken { by: MANAGER, of: self.members() };
+        self.input.spoken(self.strings.len()).unwrap_or_else(of_mpe)
+    }
+
+    /// The channel that speaks for another, if one does.
+    pub(super) fn speaker(&self, channel: u8) -> Option<&Channel> {
+        let Spoken { by, of } = self.spoken();
+        of.has(channel).then(|| &self.channels[usize::from(by)])
     }
 
     /// Whether channel 0 acts on the notes of others.

@@ -1,6 +1,7 @@
 //! What channels mean, and what controllers do to the strings.
 
 use super::channel::{Channel, Request};
+use super::channels::Spoken;
 use super::string::Manner;
 use super::{CHANNELS, Channels, GestureSink, Performance};
 
@@ -41,6 +42,22 @@ impl InputMode {
         let channel = usize::from(first) + if from_last { after } else { string };
         (channel < CHANNELS).then_some(channel as u8)
     }
+
+    /// MIDI's global channel, which speaks for all strings of an instrument of so many where each has a channel: the one below these,
+    /// and below the first one the last, if that is no string's.
+    fn global_channel(self, strings: usize) -> Option<u8> {
+        let Self::Strings { first, .. } = self else { return None };
+        let below = first.checked_sub(1).unwrap_or(CHANNELS as u8 - 1);
+        self.string_of(below, strings).is_none().then_some(below)
+    }
+
+    /// That channel, and those of the strings.
+    pub(super) fn spoken(self, strings: usize) -> Option<Spoken> {
+        let by = self.global_channel(strings)?;
+        let own = (0..CHANNELS as u8).filter(|&channel| self.string_of(channel, strings).is_some());
+        let of = own.fold(Channels::NONE, |all, channel| all.and(Channels::one(channel)));
+        Some(Spoken { by, of })
+    }
 }
 
 /// Semitones of a full turn of the wheel in MPE, while no other range is announced: of a note's own
@@ -74,14 +91,13 @@ impl Whose {
 impl Performance {
     /// Whether a pedal keeps the notes of a channel.
     pub(super) fn pedal(&self, channel: u8) -> bool {
-        self.channels[usize::from(channel)].pedal
-            || (self.is_member(channel) && self.channels[usize::from(MANAGER)].pedal)
+        self.channels[usize::from(channel)].pedal || self.speaker(channel).is_some_and(|all| all.pedal)
     }
 
     /// Whether a sostenuto pedal keeps what it has caught of a channel.
     fn sostenuto(&self, channel: u8) -> bool {
         self.channels[usize::from(channel)].sostenuto
-            || (self.is_member(channel) && self.channels[usize::from(MANAGER)].sostenuto)
+            || self.speaker(channel).is_some_and(|all| all.sostenuto)
     }
 
     /// Bend by the wheels that act on a channel, semitones.
@@ -91,17 +107,14 @@ impl Performance {
         match channel {
             MANAGER if self.is_mpe() => all(),
             _ if self.is_member(channel) => own.bend(Some(MPE_RANGES.0)) + all(),
-            _ => own.bend(None),
+            _ => own.bend(None) + self.speaker(channel).map_or(0.0, |all| all.bend(None)),
         }
     }
 
-    /// How notes of a channel are played, as its controllers have it, and in MPE those that act on all.
+    /// How notes of a channel are played, as its controllers have it, and those of the channel that speaks for it.
     pub(super) fn manner(&self, channel: u8) -> Manner {
         let own = self.channels[usize::from(channel)].manner;
-        if !self.is_member(channel) {
-            return own;
-        }
-        own.under(&self.channels[usize::from(MANAGER)].manner)
+        self.speaker(channel).map_or(own, |all| own.under(&all.manner))
     }
 
     /// Changes a channel's state and carries the consequences to the strings.
@@ -111,14 +124,14 @@ impl Performance {
         change: impl Fn(&mut Channel) -> Request,
         out: &mut impl GestureSink,
     ) {
-        let members = self.members();
+        let before = self.spoken();
         let Some((request, whose)) = self.change_channels(sender, change) else { return };
         self.tell_chord(request, |channel| whose.is(channel));
         match request {
-            Request::Members if sender == MANAGER => return self.take_members(members, out),
+            Request::Members if sender == MANAGER => return self.take_members(before, out),
             // Others there may be of an upper zone, which are the first channel's, too; what it has said of its own stays.
             Request::Members => {
-                self.follow_members(members);
+                self.follow_members(before);
                 return self.follow_meaning(out);
             }
             Request::Capo(fret) => return self.set_capo(usize::from(fret)),
@@ -142,7 +155,7 @@ impl Performance {
         }
         self.ask(request, whose, out);
         if request == Request::Touch {
-            self.lay_palms(Whose::one(sender), out);
+            self.lay_palms(whose, out);
         }
     }
 
@@ -153,7 +166,7 @@ impl Performance {
         }
     }
 
-    /// Changes the state of a channel, and of those that it speaks for in MPE. Gives back what that asks of the strings, and of
+    /// Changes the state of a channel, and of those that it speaks for. Gives back what that asks of the strings, and of
     /// whose; nothing if there is no such channel.
     fn change_channels(
         &mut self,
@@ -164,16 +177,16 @@ impl Performance {
         let before = channel.announced_reach();
         let request = change(channel);
         let reach = channel.announced_reach();
-        let members = self.members();
+        let (members, spoken) = (self.members(), self.spoken().with(sender));
         let announces = members.has(sender) && reach != before;
         if announces {
             // The reach of the wheel that one member announces is that of all.
             self.each_of(members).for_each(|member| member.take_reach(reach));
-        } else if sender == MANAGER {
+        } else {
             // Most messages say nothing of hands: what other channels have been told stays.
-            self.each_of(members).for_each(|member| member.hear(&change));
+            self.each_of(spoken).for_each(|member| member.hear(&change));
         }
-        let others = if announces || sender == MANAGER { members } else { Channels::NONE };
+        let others = if announces { members } else { spoken };
         Some((request, Whose { channel: sender, others }))
     }
 

@@ -1,6 +1,8 @@
-//! Channels begin to be notes of MPE, or cease to be: what then becomes of the notes that sound.
+//! Channels begin to be notes of MPE, or those of strings, or cease to be, and others speak for them: what then becomes of the notes
+//! that sound.
 
 use super::channel::{Channel, Request};
+use super::channels::Spoken;
 use super::control::{MANAGER, Whose};
 use super::{CHANNELS, Channels, GestureSink, InputMode, Performance};
 
@@ -10,38 +12,43 @@ impl Performance {
         if input == self.input {
             return;
         }
-        let before = self.members();
+        let before = self.spoken();
         self.input = input;
         // What hands do then has to wait until there is somebody to do it.
         self.follow_members(before);
     }
 
     /// A keyboard has announced how many members there are, where there were these before.
-    pub(super) fn take_members(&mut self, before: Channels, out: &mut impl GestureSink) {
+    pub(super) fn take_members(&mut self, before: Spoken, out: &mut impl GestureSink) {
         if self.is_mpe() {
             // So the specification of MPE has it: whatever reach was announced before is past.
-            let zone = before.and(self.members()).and(Channels::one(MANAGER));
+            let zone = before.of.and(self.members()).and(Channels::one(MANAGER));
             self.each_of(zone).for_each(Channel::forget_reach);
         }
         self.follow_members(before);
         self.follow_meaning(out);
     }
 
-    /// There may be other members than before.
-    pub(super) fn follow_members(&mut self, before: Channels) {
-        let members = self.members();
-        let (come, gone) = (members.without(before), before.without(members));
+    /// Another channel than before may speak for others, or for other ones.
+    pub(super) fn follow_members(&mut self, before: Spoken) {
+        let now = self.spoken();
+        let (come, gone) = if now.by == before.by {
+            (now.of.without(before.of), before.of.without(now.of))
+        } else {
+            (now.of, before.of)
+        };
         if come != Channels::NONE {
-            self.begin_mpe(come);
+            self.begin_speaking(now.by, come);
         }
         self.follow_wheels();
         self.means_otherwise = self.means_otherwise.and(come).and(gone);
+        self.spoke = self.spoke.and(Channels::one(before.by)).and(Channels::one(now.by));
     }
 
-    /// From now on the first channel speaks for these, with what it has said before.
-    fn begin_mpe(&mut self, members: Channels) {
-        let all = self.channels[usize::from(MANAGER)].articulation;
-        self.each_of(members).for_each(|member| member.articulation = member.articulation.under(&all));
+    /// From now on a channel speaks for these, with what it has said before.
+    fn begin_speaking(&mut self, by: u8, of: Channels) {
+        let all = self.channels[usize::from(by)].articulation;
+        self.each_of(of).for_each(|own| own.articulation = own.articulation.under(&all));
         self.agree_on_reach();
     }
 
@@ -52,10 +59,11 @@ impl Performance {
         self.each_of(members).for_each(|member| member.take_reach(announced));
     }
 
-    /// If channels have come to mean something else: notes of theirs end that no pedal keeps any more, and those that the first
-    /// channel's pressure and vibrato act on from now on, or no longer, have what is theirs.
+    /// If channels have come to mean something else: notes of theirs end that no pedal keeps any more, and those that the pressure and
+    /// vibrato of one that speaks for them act on from now on, or no longer, have what is theirs.
     pub(super) fn follow_meaning(&mut self, out: &mut impl GestureSink) {
         let others = std::mem::replace(&mut self.means_otherwise, Channels::NONE);
+        let spoke = std::mem::replace(&mut self.spoke, Channels::NONE);
         if others == Channels::NONE {
             return;
         }
@@ -63,14 +71,14 @@ impl Performance {
         self.let_fall_under(whose);
         self.ask(Request::LetFall, whose, out);
         self.ask(Request::PedalUp, whose, out);
-        let all = self.channels[usize::from(MANAGER)].manner;
         for channel in (0..CHANNELS as u8).filter(|&channel| others.has(channel)) {
             let (whose, own) = (Whose::one(channel), self.channels[usize::from(channel)].manner);
-            let under = own.under(&all);
-            // What it says nothing of stays: a note may have its own.
+            let speaking = (0..).zip(&self.channels).filter(|&(by, _)| spoke.has(by));
+            let mut under = speaking.map(|(_, all)| own.under(&all.manner));
+            // What they say nothing of stays: a note may have its own.
             for request in [
-                (under.pressure != own.pressure).then_some(Request::Press),
-                (under.vibrato != own.vibrato).then_some(Request::Swing),
+                under.clone().any(|under| under.pressure != own.pressure).then_some(Request::Press),
+                under.any(|under| under.vibrato != own.vibrato).then_some(Request::Swing),
             ]
             .into_iter()
             .flatten()

@@ -40,11 +40,10 @@ pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedA
 pub use announced::Announced;
 use articulation::Stop;
 use channel::Channel;
-pub(crate) use channels::{Channels, announced_members};
+pub(crate) use channels::{Channels, Spoken, announced_members};
 use chord::{JustBegun, Late, Unplaced};
 pub use compromises::Compromises;
 pub use control::InputMode;
-pub(crate) use control::MANAGER;
 pub use event::{Expression, PlayerEvent, StringDeed};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
 pub use moment::GestureSink;
@@ -82,8 +81,10 @@ pub struct Performance {
     usual_stop: Stop,
     variation: Variation,
     input: InputMode,
-    /// The channels that have begun to be notes of MPE, or ceased to be, of which the strings have yet to hear.
+    /// The channels that others have begun to speak for, as in MPE, or ceased to, of which the strings have yet to hear; and those
+    /// others.
     means_otherwise: Channels,
+    spoke: Channels,
     /// The hands as the set-up has them.
     hands: Player,
     /// Length of the strings, m; of the shortest.
@@ -138,6 +139,7 @@ impl Performance {
             variation: Variation::new(style.variation, style.seed),
             input: InputMode::default(),
             means_otherwise: Channels::NONE,
+            spoke: Channels::NONE,
             hands: hands.clone(),
             touching: Touching::new(style.variation, style.bend_range),
             taken_over: false,
@@ -252,7 +254,8 @@ impl Performance {
     pub fn take_over(&mut self, old: &Self, strings_go_on: bool) {
         self.channels.clone_from(&old.channels);
         self.variation.clone_from(&old.variation);
-        (self.input, self.means_otherwise) = (old.input, old.means_otherwise);
+        self.input = old.input;
+        (self.means_otherwise, self.spoke) = (old.means_otherwise, old.spoke);
         self.touching = old.touching;
         (self.compromises, self.now) = (old.compromises, old.now);
         self.chord.clear();
@@ -340,7 +343,8 @@ impl Performance {
         self.just_begun.reset();
         self.releases.clear();
         self.late.clear();
-        (self.upward, self.begins_anew, self.means_otherwise) = (false, false, Channels::NONE);
+        (self.upward, self.begins_anew) = (false, false);
+        (self.means_otherwise, self.spoke) = (Channels::NONE, Channels::NONE);
         self.switches = self.touching.keyswitches;
         self.hand.set_home(self.touching.hand_position);
         self.now = 0;

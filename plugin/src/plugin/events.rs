@@ -10,7 +10,7 @@ use nice_plug::prelude::*;
 
 use super::voices::Voices;
 use crate::params::{LowActionParams, poly};
-use crate::performance::{Channels, Expression, MANAGER, PlayerEvent};
+use crate::performance::{Expression, PlayerEvent, Spoken};
 use crate::pitch_wheel;
 
 /// The softest note there is, as a velocity: the smallest of MIDI's that is not a note-off.
@@ -65,11 +65,11 @@ fn single(range: &RangeInclusive<u8>) -> Option<u8> {
     (range.start() == range.end()).then_some(*range.start())
 }
 
-/// Hands an event on, at its sample. In MPE the first channel speaks for its members.
+/// Hands an event on, at its sample. A channel may speak for others, as in MPE the first one for its members.
 pub(super) fn translate(
     event: NoteEvent<()>,
     params: &LowActionParams,
-    members: Channels,
+    spoken: Spoken,
     voices: &mut Voices,
     mut send: impl FnMut(u32, PlayerEvent),
 ) {
@@ -129,7 +129,7 @@ pub(super) fn translate(
         NoteEvent::MidiCC { channel, cc: number, value, .. } => {
             // All sound off, all notes off, and the four mode messages that imply it.
             if matches!(number, 120 | 123..=127) {
-                let others = if channel == MANAGER { members } else { Channels::NONE };
+                let others = spoken.with(channel);
                 let meant = |&own: &u8| own == channel || others.has(own);
                 (0..=15).filter(meant).for_each(|own| voices.lift_keys(&(own..=own), &(0..=127)));
             }

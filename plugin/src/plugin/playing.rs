@@ -156,8 +156,8 @@ impl Playing {
     /// Takes an event of the host's.
     pub fn event(&mut self, event: NoteEvent<()>, params: &LowActionParams) {
         let engine = &mut self.engine;
-        let members = engine.members();
-        events::translate(event, params, members, &mut self.voices, |offset, event| {
+        let spoken = engine.spoken();
+        events::translate(event, params, spoken, &mut self.voices, |offset, event| {
             engine.event(offset, event)
         });
     }

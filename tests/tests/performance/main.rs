@@ -15,6 +15,7 @@ mod evenness;
 mod expressions;
 mod gestures;
 mod glides;
+mod global_channel;
 mod goes_on;
 mod landings;
 mod legato;

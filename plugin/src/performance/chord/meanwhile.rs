@@ -67,8 +67,7 @@ impl Performance {
         let meant = match channel {
             // It may be about to say how many channels there are of MPE.
             MANAGER if number == controller::DATA_ENTRY => Channels::ALL,
-            MANAGER => self.of_one_hand(channel),
-            _ => Channels::one(channel),
+            _ => Channels::one(channel).and(self.spoken().with(channel)),
         };
         let is_meant = |own: u8| meant.has(own);
         let notes = self.chord.iter().any(|note| is_meant(note.wanted.channel));

@@ -1,6 +1,10 @@
 //! Whom events are meant for, and what they become.
 
 use super::*;
+use crate::performance::Channels;
+
+/// No channel speaks for others.
+const NOBODY: Spoken = Spoken { by: 0, of: Channels::NONE };
 
 /// What becomes of a note's end that names the note by its number alone.
 fn ended(voices: &mut Voices, id: i32) -> Vec<PlayerEvent> {
@@ -22,13 +26,13 @@ fn choked_at(voices: &mut Voices, id: i32, channel: Channel, key: Key) -> Vec<Pl
 }
 
 fn translated(voices: &mut Voices, event: NoteEvent<()>) -> Vec<PlayerEvent> {
-    translated_in(Channels::NONE, voices, event)
+    translated_in(NOBODY, voices, event)
 }
 
 /// Where channels are notes of MPE, or not.
-fn translated_in(members: Channels, voices: &mut Voices, event: NoteEvent<()>) -> Vec<PlayerEvent> {
+fn translated_in(spoken: Spoken, voices: &mut Voices, event: NoteEvent<()>) -> Vec<PlayerEvent> {
     let mut sent = Vec::new();
-    translate(event, &LowActionParams::default(), members, voices, |_, event| sent.push(event));
+    translate(event, &LowActionParams::default(), spoken, voices, |_, event| sent.push(event));
     sent
 }
 
@@ -111,32 +115,35 @@ fn what_was_let_go_of_with_all_others_is_let_go_of_once() {
     }
 }
 
-/// A host's note-off means the channel that it names; a controller of the first one, in MPE, all members.
+/// A host's note-off means the channel that it names; a controller of one that speaks for others, as the first one in MPE, all these.
 #[test]
-fn only_controllers_of_the_first_channel_let_go_of_all_in_mpe() {
+fn only_controllers_of_the_channel_that_speaks_for_all_let_go_of_all() {
     let (voice_id, key) = (VoiceID::Wildcard, Key::Wildcard);
     let of_channel = |channel| {
         let channel = Channel::Number(channel);
         NoteEvent::NoteOff { timing: 0, voice_id, channel, key, velocity: 0.0 }
     };
     let few = |count| Channels::announced(Some(count), None);
-    for members in [Channels::NONE, few(1), few(2), Channels::MEMBERS] {
+    let speaks = [(0, Channels::NONE), (0, few(1)), (0, few(2)), (0, Channels::MEMBERS), (15, few(2))];
+    for (by, of) in speaks {
+        let spoken = Spoken { by, of };
         // Whether a note of another channel is still known as one whose note-off is to come.
         let left = |event: NoteEvent<()>| {
             let mut voices = Voices::default();
             voices.begin(1, 2, 45);
-            translated_in(members, &mut voices, event);
+            translated_in(spoken, &mut voices, event);
             // Its key goes down again in the same block.
             voices.begin(2, 2, 45);
             !ended(&mut voices, 1).is_empty()
         };
         for cc in [120, 123, 127] {
             let controller = |channel| NoteEvent::MidiCC { timing: 0, channel, cc, value: 0.0 };
-            assert_eq!(left(controller(0)), !members.has(2), "{cc}, {members:?}");
+            assert_eq!(left(controller(by)), !of.has(2), "{cc}, {spoken:?}");
+            assert!(left(controller(15 - by)), "{cc}, {spoken:?}");
             assert!(left(controller(3)) && !left(controller(2)), "{cc}");
         }
-        assert!(left(of_channel(0)) && !left(of_channel(2)));
-        let sent = translated_in(members, &mut Voices::default(), of_channel(0));
+        assert!(left(of_channel(by)) && !left(of_channel(2)));
+        let sent = translated_in(spoken, &mut Voices::default(), of_channel(0));
         assert_eq!(sent, [PlayerEvent::KeysOff { channel: 0 }]);
     }
 }
@@ -208,7 +215,7 @@ fn automation_moves_what_a_note_has_for_itself_along() {
         NoteEvent::PolyModulation { timing: 0, voice_id: 7, poly_modulation_id, normalized_offset: 0.2 };
     let mut factor = |event| {
         let mut sent = Vec::new();
-        translate(event, &params, Channels::NONE, &mut voices, |_, event| sent.push(event));
+        translate(event, &params, NOBODY, &mut voices, |_, event| sent.push(event));
         match sent[..] {
             [PlayerEvent::Note { channel: 2, key: 45, expression: Expression::FingerForce(factor) }] => {
                 factor
