@@ -128,6 +128,7 @@ impl Performance {
         let time = self.now;
         self.uses.clear();
         self.uses.extend(self.strings.iter().map(|string| string.usage(time)));
+        self.go_on_late();
         if self.gives_way() {
             self.spare_held();
         } else {

@@ -47,4 +47,5 @@ mod tone;
 mod touches;
 mod tremolo;
 mod trills;
+mod turns;
 mod vibrato;

@@ -52,13 +52,15 @@ impl Performance {
         self.now.saturating_sub((seconds * self.sample_rate).round() as u64)
     }
 
-    /// The note of a chord that a string has begun at some sample or later, as it is now; `None` if there is none, or it is to begin
-    /// again.
+    /// The note of a chord that a string has begun at some sample or later, as it is now, and that may be placed anew; `None` if there
+    /// is none, or it is to begin again.
     fn begun_since(&self, string: usize, since: u64) -> Option<Unplaced> {
         // Where each string has a channel there is nothing to choose.
-        if self.is_by_strings() {
-            return None;
-        }
+        if self.is_by_strings() { None } else { self.sounds_since(string, since) }
+    }
+
+    /// The same whether it may be placed anew or not.
+    fn sounds_since(&self, string: usize, since: u64) -> Option<Unplaced> {
         let begun = self.just_begun.notes[string]?;
         let note = self.strings[string].begun_in(since..self.now)?;
         let (channel, key) = (note.channel, note.key);
@@ -106,17 +108,19 @@ impl Performance {
     }
 
     /// Notes that have just begun are placed with the chord, and so are those before them that each came in time for the next, as
-    /// those of a strum do.
+    /// those of a strum do. The right hand goes on with its stroke over them wherever they are.
     pub(super) fn join_just_begun(&mut self) {
         if self.just_begun.went_on < self.before(TOGETHER) {
             return;
         }
         let since = self.just_begun.began.max(self.before(LONGEST_CHORD));
         for string in 0..self.strings.len() {
-            let begun = self.begun_since(string, since);
+            let begun = self.sounds_since(string, since);
             if let Some(note) = begun.filter(|_| self.chord.len() < LARGEST_CHORD) {
-                self.chord.push(note);
-                self.just_begun.goes_on |= note.articulation.stroke == Stroke::Alternate;
+                self.just_begun.goes_on |= is_stroke(&note);
+                if !self.is_by_strings() {
+                    self.chord.push(note);
+                }
             }
         }
     }
@@ -179,7 +183,16 @@ impl Performance {
     /// The chord has been placed: the next stroke back and forth goes the other way, if it was one.
     pub(super) fn turn_stroke(&mut self) {
         let goes_on = std::mem::take(&mut self.just_begun.goes_on);
-        let is_stroke = |note: &Unplaced| note.articulation.stroke == Stroke::Alternate;
         self.upward ^= !goes_on && self.chord.iter().any(is_stroke);
     }
+
+    /// What comes late goes the way of the chord that it was one of.
+    pub(super) fn go_on_late(&mut self) {
+        self.just_begun.goes_on |= self.chord.iter().any(|note| note.waited);
+    }
+}
+
+/// Whether a note is struck forth and back in turn with others. One that has waited is not: its chord has had its stroke.
+fn is_stroke(note: &Unplaced) -> bool {
+    note.articulation.stroke == Stroke::Alternate && !note.waited
 }
