@@ -36,6 +36,11 @@ pub(super) mod controller {
         matches!(number, CAPO | SWITCHES | HAND) || (number == RESET && !mpe)
     }
 
+    /// Whether it makes of keys that are down what it does not make of those that have gone up.
+    pub fn keeps_or_ends(number: u8) -> bool {
+        matches!(number, PEDAL | SOSTENUTO) || number >= MODE
+    }
+
     /// Whether it makes of notes that have begun, or of what channels mean, what it does not make of those to come.
     pub fn is_of_begun(number: u8) -> bool {
         matches!(number, DATA_ENTRY | DATA_ENTRY_LOWER | SOSTENUTO) || number >= MODE

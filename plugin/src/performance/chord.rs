@@ -116,6 +116,7 @@ impl Performance {
         if !self.chord.is_empty() {
             self.go_back_if_anew();
         }
+        self.let_go_before(out);
         self.take_over_notes(out);
         if !self.chord.is_empty() {
             self.place_chord(out);

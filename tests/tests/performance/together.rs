@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use low_action::controls::Touching;
 use low_action::performance::{InputMode, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, play, wheel};
+use low_action_tests::hands::{EXACT, Neck, control, play, wheel};
 use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
@@ -75,6 +75,8 @@ fn a_chord_after_another_is_the_same_in_any_order() {
             [first, one, second, two, third, three],
             [first, second, one, two, third, three],
             [first, three, second, two, third, one],
+            [one, two, three, first, second, third],
+            [three, first, one, second, two, third],
         ] {
             assert_eq!(plucks(&at_once(&told, &mixed)), plucks(&sorted), "{next:?}");
         }
@@ -83,6 +85,54 @@ fn a_chord_after_another_is_the_same_in_any_order() {
         let end = next.map(|key| (48_000, off(key)));
         play(&mut player, &[&told[..], &mixed, &end].concat());
         assert!((0..128).all(|key| !player.sounds(0, key)), "{next:?}: each ends with its key");
+    }
+}
+
+/// What ends where the next note begins goes over to it by a hammer or a pull, in either order: on one channel, on the channels of
+/// strings, and in MPE.
+#[test]
+fn notes_that_abut_are_connected_in_any_order() {
+    let channels: [(InputMode, [u8; 2]); 3] = [
+        (InputMode::Keyboard, [0, 0]),
+        (InputMode::Strings { first: 0, from_last: false }, [2, 2]),
+        (InputMode::Mpe, [1, 2]),
+    ];
+    for (input, [one, other]) in channels {
+        for (from, to) in [(57, 59), (61, 60), (57, 55)] {
+            let [begins, next] = [(one, from), (other, to)].map(|(channel, key)| PlayerEvent::NoteOn {
+                channel,
+                key,
+                velocity: 0.7,
+            });
+            let [over, last] =
+                [(one, from), (other, to)].map(|(channel, key)| PlayerEvent::NoteOff { channel, key });
+            let play = |told: &[u8], middle: &[PlayerEvent]| {
+                let told = told
+                    .iter()
+                    .flat_map(|&number| [one, other].map(|channel| (0, control(channel, number, 127))));
+                let middle = middle.iter().map(|&event| (24_000, event));
+                let events = [(0, begins)].into_iter().chain(middle).chain([(48_000, last)]);
+                GUITAR.told(input, &Touching::new(0.0, 2.0), &told.chain(events).collect::<Vec<_>>())
+            };
+            let anew = plucks(&play(&[], &[over, next]));
+            for legato in [&[68][..], &[65]] {
+                let found = play(legato, &[over, next]);
+                assert_eq!(found, play(legato, &[next, over]), "{input:?}, {from} to {to}");
+                assert_ne!(plucks(&found), anew, "{input:?}, {from} to {to}");
+                // As where the first key stays down, until the hand goes back to it.
+                let mut held = plucks(&play(legato, &[next]));
+                held.retain(|pluck| pluck.0 < 48_000);
+                assert_eq!(plucks(&found), held, "{input:?}, {from} to {to}");
+                // Between them the wheel goes back, or the next note is pressed.
+                let pressed = PlayerEvent::ChannelPressure { channel: other, pressure: 0.0 };
+                for between in [wheel(other, 0.0), pressed, control(other, 11, 127)] {
+                    assert_eq!(play(legato, &[over, between, next]), found, "{between:?}");
+                }
+            }
+            // A key that has gone up where no pedal connects has.
+            let off = [one, other].map(|channel| control(channel, 68, 0));
+            assert_eq!(plucks(&play(&[68], &[over, off[0], off[1], next])), anew);
+        }
     }
 }
 

@@ -2,14 +2,15 @@
 //! chord apart: what is said of notes that sound is said of those that are yet to be placed, too, and keys that the chord has
 //! to do with go up when it has been placed.
 
-use super::{Articulation, CHANNELS, LARGEST_CHORD, MANAGER, Manner, Unplaced, controller};
+use super::{Articulation, CHANNELS, Channel, LARGEST_CHORD, MANAGER, Manner, Unplaced, controller};
 use crate::performance::channel::Request;
 use crate::performance::{Channels, GestureSink, Performance};
 
 impl Performance {
-    /// A key goes up, once the chord has been placed that it is of or that may take over from it.
+    /// A key goes up, once the chord has been placed that it is of or that may take over from it, and that may be yet to come: what
+    /// ends where another note begins is connected with it, whichever of the two a file has first.
     pub(in crate::performance) fn release(&mut self, channel: u8, key: u8, out: &mut impl GestureSink) {
-        if self.chord_needs(channel, key) {
+        if self.chord_needs(channel, key) || self.may_go_on(channel, key) {
             if self.releases.len() < LARGEST_CHORD {
                 return self.releases.push((channel, key));
             }
@@ -31,6 +32,19 @@ impl Performance {
         while let Some(index) = self.releases.iter().position(|&release| release == (channel, key)) {
             self.releases.remove(index);
             self.let_go(channel, key, out);
+        }
+    }
+
+    /// Keys go up at once that have waited for a chord which has nothing to do with them.
+    pub(super) fn let_go_before(&mut self, out: &mut impl GestureSink) {
+        let mut index = 0;
+        while let Some(&(channel, key)) = self.releases.get(index) {
+            if self.chord_needs(channel, key) {
+                index += 1;
+            } else {
+                self.releases.remove(index);
+                self.let_go(channel, key, out);
+            }
         }
     }
 
@@ -56,6 +70,14 @@ impl Performance {
         !self.forces(channel, key) && self.chord.iter().any(needs)
     }
 
+    /// Whether notes of a channel are connected, so that one which begins at this very sample may take over from a key of its.
+    fn may_go_on(&self, channel: u8, key: u8) -> bool {
+        let connects = |own: &Channel| own.articulation.connects() || self.touching.legato;
+        let melody = self.of_one_hand(channel);
+        let mut channels = (0..).zip(&self.channels).filter(|&(own, _)| melody.has(own));
+        !self.forces(channel, key) && channels.any(|(_, own)| connects(own))
+    }
+
     /// Whether notes that begin now have to be placed before a controller of some number moves. Most say how notes are played
     /// that come after it, and those that began before have that by themselves; what is said of those that sound they are
     /// told (`tell_chord`). Messages of other channels stand between the notes of one chord wherever notes have channels of
@@ -73,7 +95,7 @@ impl Performance {
         let notes = self.chord.iter().any(|note| is_meant(note.wanted.channel));
         let released = self.releases.iter().any(|&(own, _)| is_meant(own));
         // A pedal keeps what goes up after it, and what has gone up before it ends.
-        (notes && controller::is_of_begun(number)) || (released && number == controller::PEDAL)
+        (notes && controller::is_of_begun(number)) || (released && controller::keeps_or_ends(number))
     }
 
     /// What channels have said of notes that sound is said of those, too, that have begun now or come late.
