@@ -147,7 +147,9 @@ pub enum Expression {
     PluckPlace(f32),
     /// Factor of its pluck's force.
     PluckForce(f32),
-    /// Factor of its finger's force.
+    /// Another one, as a player expresses it.
+    Swell(f32),
+    /// Factor of its finger's force, beside what pressure makes of that.
     FingerForce(f32),
 }
 
@@ -161,6 +163,7 @@ impl Expression {
             | Self::Vibrato(amount)
             | Self::PluckPlace(amount)
             | Self::PluckForce(amount)
+            | Self::Swell(amount)
             | Self::FingerForce(amount) => amount,
         }
     }

@@ -21,6 +21,8 @@ enum Said {
     PluckPlace(f64),
     /// Factor of its force.
     PluckForce(f64),
+    /// Another one.
+    Swell(f64),
 }
 
 impl From<Expression> for Said {
@@ -32,11 +34,12 @@ impl From<Expression> for Said {
                 Self::Note(Own::Tuning(f64::from(semitones).clamp(-WIDEST, WIDEST)))
             }
             Expression::Pressure(pressure) => Self::Note(Own::Pressure(pressure_factor(pressure))),
-            Expression::FingerForce(force) => Self::Note(Own::Pressure(factor(force))),
+            Expression::FingerForce(force) => Self::Note(Own::Firmness(factor(force))),
             Expression::Vibrato(depth) => Self::Note(Own::Vibrato(part(depth))),
             Expression::Brightness(bright) => Self::Brightness((1.0 - 2.0 * part(bright)) * BRIGHTNESS_REACH),
             Expression::PluckPlace(metres) => Self::PluckPlace(f64::from(metres)),
             Expression::PluckForce(force) => Self::PluckForce(factor(force)),
+            Expression::Swell(force) => Self::Swell(factor(force)),
         }
     }
 }
@@ -88,10 +91,12 @@ impl Performance {
             match said {
                 Said::Note(Own::Tuning(semitones)) => manner.tuning = semitones,
                 Said::Note(Own::Pressure(factor)) => manner.pressure = factor,
+                Said::Note(Own::Firmness(factor)) => manner.firmness = factor,
                 Said::Note(Own::Vibrato(depth)) => manner.vibrato = depth,
                 Said::Brightness(metres) => own.brightness = metres,
                 Said::PluckPlace(metres) => own.place = metres,
                 Said::PluckForce(factor) => own.force = factor,
+                Said::Swell(factor) => own.swell = factor,
             }
             return;
         }

@@ -191,7 +191,7 @@ fn expression(event: &NoteEvent<()>) -> Option<(Address, Expression)> {
             (voice_id, channel, key, Expression::Brightness(brightness))
         }
         NoteEvent::PolyExpression { voice_id, channel, key, expression, .. } => {
-            (voice_id, channel, key, Expression::PluckForce(expression))
+            (voice_id, channel, key, Expression::Swell(expression))
         }
         _ => return None,
     };

@@ -116,6 +116,7 @@ fn any_expression(
         unit.prop_map(Expression::Brightness),
         turn.prop_map(|semitones| Expression::Tuning(3.0 * semitones)),
         wild.clone().prop_map(Expression::PluckForce),
+        wild.clone().prop_map(Expression::Swell),
         wild.clone().prop_map(Expression::FingerForce),
         // m: beyond the ends of any string.
         wild.prop_map(|place| Expression::PluckPlace(place - 2.0)),
@@ -189,8 +190,12 @@ impl Limits {
                 expressions.filter(|factor| factor.is_finite()).map(|factor| factor.min(MOST)).chain([1.0]),
             )
         };
-        let plucked = asked(|expression| match expression {
+        let moved = asked(|expression| match expression {
             Expression::PluckForce(factor) => Some(factor),
+            _ => None,
+        });
+        let swollen = asked(|expression| match expression {
+            Expression::Swell(factor) => Some(factor),
             _ => None,
         });
         let pressed = asked(|expression| match expression {
@@ -198,16 +203,16 @@ impl Limits {
             _ => None,
         });
         // Of the hardest pluck's force: variation makes a fifth of it more, and a strum 0.7 of that.
-        let strength = plucked * (1.0 + 0.2 * touching.variation);
+        let strength = moved * swollen * (1.0 + 0.2 * touching.variation);
         let strummed = 1.7 * strength;
         Self {
             // Three times as hard in a pop; or 50 N by who points.
             pluck: largest([3.0 * hands.pluck_force * strummed, 50.0]),
             // The hardest tap, however hard a pluck would be: 2.7 m/s more than the softest.
             throw: 2.8,
-            // At full pressure 2.5 times, or as a note has it for itself. What rests, grazes or slaps presses with 2 N and less on any
+            // At full pressure 2.5 times, and so many times that as a note has it for itself. What rests, grazes or slaps presses with 2 N and less on any
             // string.
-            press: largest([largest([2.5, pressed]) * fretting.force, 2.0]),
+            press: largest([2.5 * pressed * fretting.force, 2.0]),
             // A finger, or the bar with its hand, is to move away with 0.5 m/s, or 0.3, in 1 ms, or 3, against the damping of a hand
             // that lets a string down (350 N s/m) or of one that is set to more.
             lift: largest([

@@ -130,13 +130,14 @@ fn what_is_said_of_a_pluck_counts_at_its_sample_after_its_note_on() {
 #[test]
 fn what_is_no_number_says_nothing() {
     type Said = fn(f32) -> Expression;
-    let all: [Said; 7] = [
+    let all: [Said; 8] = [
         Expression::Tuning,
         Expression::Pressure,
         Expression::Brightness,
         Expression::Vibrato,
         Expression::PluckPlace,
         Expression::PluckForce,
+        Expression::Swell,
         Expression::FingerForce,
     ];
     // On a stopped note: something before, at its sample, while it sounds, and on the one that is hammered over it.
@@ -175,6 +176,43 @@ fn what_is_said_of_a_pluck_adds_to_what_its_channel_says() {
     assert!(close(told.1, place - 0.005 + 0.04), "{} m instead of {place} m", told.1);
     let told = pluck(&channel, &[Expression::PluckForce(0.5)]);
     assert!(close(told.2, 0.5 * force), "{} N instead of {force} N", told.2);
+}
+
+/// A host moves parameters for a note alone, and its player presses and expresses it: neither undoes what the other does.
+#[test]
+fn what_a_host_and_a_player_say_of_a_note_multiplies() {
+    let force = |said: &[Expression]| {
+        let said = said.iter().map(|&expression| (0, has(64, expression)));
+        last_pluck(&play(&[(0, on(64, 90))].into_iter().chain(said).collect::<Vec<_>>())).2
+    };
+    let [moved, swell] = [Expression::PluckForce(0.5), Expression::Swell(0.25)];
+    for said in [[moved, swell], [swell, moved]] {
+        assert!((force(&said) / force(&[]) - 0.125).abs() < 1e-9, "{said:?}");
+    }
+    // How hard the finger presses at last, at fret 7: at the note's own sample, while it sounds, or when it has come back.
+    let pressed = |told: &[(u64, PlayerEvent)]| {
+        let note = [(0, cc(68, 127)), (0, on(57, 90))];
+        let gestures = play(&[&note[..], told].concat());
+        presses(&gestures).last().expect("it presses").1
+    };
+    let usual = pressed(&[]);
+    let firm = |time| (time, has(57, Expression::FingerForce(0.5)));
+    let hard = |time| (time, has(57, Expression::Pressure(1.0)));
+    let all = |time| (time, PlayerEvent::ChannelPressure { channel: 0, pressure: 1.0 });
+    let over = [(24_000, on(59, 90)), (96_000, off(59))];
+    for told in [
+        &[firm(0), hard(0)][..],
+        &[hard(0), firm(0)],
+        &[firm(0), hard(12_000)],
+        &[hard(12_000), firm(24_000)],
+        &[firm(0), all(12_000)],
+        &[all(12_000), firm(24_000)],
+        &[over[0], firm(36_000), hard(48_000), over[1]],
+        &[over[0], hard(36_000), firm(48_000), over[1]],
+    ] {
+        let factor = pressed(told) / usual;
+        assert!((factor - 1.25).abs() < 1e-9, "{factor}: {told:?}");
+    }
 }
 
 /// (time, ratio of tensions, seconds) of what bends the string.

@@ -4,6 +4,7 @@
 
 use super::{Articulation, Manner, Placement, Stroke, Unplaced, Use, Wanted};
 use crate::performance::hand::LARGEST_CHORD;
+use crate::performance::string::Note;
 use crate::performance::technique::{LONGEST_CHORD, TOGETHER};
 use crate::performance::{Channels, Performance};
 
@@ -67,8 +68,8 @@ impl Performance {
         if !begun.is(channel, key) || self.chord.iter().any(|other| other.is(channel, key)) {
             return None;
         }
-        let (tuning, pressure, vibrato) = (note.tuning, note.pressure, note.vibrato);
-        let manner = Manner { tuning, pressure, vibrato, ..begun.manner };
+        let Note { tuning, pressure, firmness, vibrato, .. } = note;
+        let manner = Manner { tuning, pressure, firmness, vibrato, ..begun.manner };
         let Articulation { palm, tremolo, .. } = self.channels[usize::from(channel)].articulation;
         let articulation = Articulation { palm, tremolo, ..begun.articulation };
         let on = Some(Placement { string, fret: note.fret });

@@ -42,17 +42,19 @@ pub(in crate::performance) struct OwnPluck {
     pub place: f64,
     /// Its brightness does so, too, m.
     pub brightness: f64,
-    /// Factor of the pluck's force.
+    /// Factors of the pluck's force.
     pub force: f64,
+    pub swell: f64,
 }
 
 impl OwnPluck {
     /// Nothing special.
-    pub(super) const PLAIN: Self = Self { place: 0.0, brightness: 0.0, force: 1.0 };
+    pub(super) const PLAIN: Self = Self { place: 0.0, brightness: 0.0, force: 1.0, swell: 1.0 };
 
     /// With what the channel says.
     pub(super) fn with(&self, channel: Manner) -> Manner {
-        let (place, force) = (channel.place + self.place + self.brightness, channel.force * self.force);
+        let place = channel.place + self.place + self.brightness;
+        let force = channel.force * self.force * self.swell;
         Manner { place, force, ..channel }
     }
 }
@@ -88,7 +90,8 @@ impl Performance {
             let count = self.chord.len();
             self.ask_for(note.channel, note.key, note.velocity, note.presses);
             if let Some(Unplaced { manner, caught, .. }) = self.chord.get_mut(count) {
-                (manner.tuning, manner.pressure, manner.vibrato) = (note.tuning, note.pressure, note.vibrato);
+                (manner.tuning, manner.vibrato) = (note.tuning, note.vibrato);
+                (manner.pressure, manner.firmness) = (note.pressure, note.firmness);
                 *caught = note.caught;
             }
         }

@@ -34,7 +34,7 @@ impl StringPlayer {
         self.bend.begin_struck(time, silent);
         let mut at = self.moment(time, out);
         at.tells(self.new_note(&start));
-        self.fingers.press(start.manner.pressure, &mut at);
+        self.fingers.press(start.manner.firm(), &mut at);
         self.parting = if taps { TAPPING } else { RESTING };
         if taps {
             self.begin_tap(&start, strength, &mut at);
@@ -124,6 +124,7 @@ impl StringPlayer {
             struck,
             tuning: start.manner.tuning,
             pressure: start.manner.pressure,
+            firmness: start.manner.firmness,
             vibrato: start.manner.vibrato,
             palm,
             bar: stop == Stop::Bar,

@@ -54,7 +54,7 @@ impl StringPlayer {
         let fret =
             self.bend.begin_slid(start.fret, start.wheel + start.manner.tuning, bar, &mut self.fingers);
         let mut at = self.moment(time, out);
-        self.fingers.press(start.manner.pressure, &mut at);
+        self.fingers.press(start.manner.firm(), &mut at);
         at.tells(self.new_note(&start));
         if again {
             self.begin_again(fret, strength, &mut at);
@@ -149,7 +149,7 @@ impl StringPlayer {
         self.fingers.set_capo(capo);
         self.bend.tell_change(technique, stood - back.fret as f64, &self.fingers, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
-        self.fingers.press(back.pressure, &mut at);
+        self.fingers.press(back.firm(), &mut at);
         self.fingers.set_palm(back.palm, &mut at);
         self.bend.tune(time, back.tuning);
         self.bend.set_vibrato(time, back.vibrato);

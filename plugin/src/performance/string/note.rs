@@ -69,8 +69,10 @@ pub(crate) struct Manner {
     pub place: f64,
     /// Factor of the pluck's force.
     pub force: f64,
-    /// Factor of the finger's force.
+    /// Factor of the finger's force, as keys are pressed.
     pub pressure: f64,
+    /// Another one, of the note alone.
+    pub firmness: f64,
     /// Tuning, semitones.
     pub tuning: f64,
     /// Depth of the vibrato, 0 to 1.
@@ -79,7 +81,13 @@ pub(crate) struct Manner {
 
 impl Manner {
     /// Nothing special.
-    pub const PLAIN: Self = Self { place: 0.0, force: 1.0, pressure: 1.0, tuning: 0.0, vibrato: 0.0 };
+    pub const PLAIN: Self =
+        Self { place: 0.0, force: 1.0, pressure: 1.0, firmness: 1.0, tuning: 0.0, vibrato: 0.0 };
+
+    /// Factor of the finger's force, everything counted.
+    pub(super) fn firm(&self) -> f64 {
+        self.pressure * self.firmness
+    }
 
     /// This, under what another channel says for all.
     pub(crate) fn under(&self, all: &Self) -> Self {
@@ -87,6 +95,7 @@ impl Manner {
             place: self.place + all.place,
             force: self.force * all.force,
             pressure: (self.pressure * all.pressure).min(FIRMEST),
+            firmness: self.firmness * all.firmness,
             tuning: self.tuning + all.tuning,
             vibrato: self.vibrato.max(all.vibrato),
         }
@@ -117,6 +126,8 @@ pub(crate) struct Note {
     /// Factor of its finger's force, and depth of its vibrato, 0 to 1: its own or its channel's, whichever was said last.
     pub pressure: f64,
     pub vibrato: f64,
+    /// Another factor of its finger's force, which only it has.
+    pub firmness: f64,
     /// How hard the palm rests on it, 0 to 1.
     pub palm: f64,
     /// Whether a bar stops it.
@@ -135,6 +146,11 @@ impl Note {
     /// Whether its key is down.
     pub fn key_down(&self) -> bool {
         self.presses > 0
+    }
+
+    /// Factor of its finger's force, everything counted.
+    pub(super) fn firm(&self) -> f64 {
+        self.pressure * self.firmness
     }
 
     /// Whether it is touched lightly instead of stopped: no hammer and no pull leads from there and back.

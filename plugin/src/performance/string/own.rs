@@ -9,8 +9,10 @@ use crate::performance::channel::Request;
 pub(crate) enum Own {
     /// Its tuning, semitones.
     Tuning(f64),
-    /// Factor of its finger's force.
+    /// Factor of its finger's force, as its key is pressed.
     Pressure(f64),
+    /// Another one, whatever presses its key.
+    Firmness(f64),
     /// Depth of its vibrato, 0 to 1.
     Vibrato(f64),
 }
@@ -44,12 +46,17 @@ impl StringPlayer {
         match own {
             Own::Tuning(semitones) => note.tuning = semitones,
             Own::Pressure(factor) => note.pressure = factor,
+            Own::Firmness(factor) => note.firmness = factor,
             Own::Vibrato(depth) => note.vibrato = depth,
         }
+        let firm = note.firm();
         match own {
             _ if !sounds => {}
             Own::Tuning(semitones) => self.bend.tune(time, semitones),
-            Own::Pressure(factor) => self.press(time, factor, out),
+            Own::Pressure(_) | Own::Firmness(_) => {
+                let mut at = self.moment(time, out);
+                self.fingers.press(firm, &mut at);
+            }
             Own::Vibrato(depth) => self.swing(time, depth),
         }
     }
