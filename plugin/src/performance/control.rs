@@ -137,7 +137,11 @@ impl Performance {
             Request::Capo(fret) => return self.set_capo(usize::from(fret)),
             Request::Switches(first) => return self.set_switches((first > 0).then_some(first)),
             Request::Hand(fret) => return self.hand.set_home((fret > 0).then_some(fret)),
-            Request::ReleaseKeys | Request::Silence => self.forget_keys(whose),
+            Request::ReleaseKeys => self.forget_keys(whose),
+            Request::Silence => {
+                self.forget_keys(whose);
+                self.leave_out_late(|own| whose.is(own));
+            }
             Request::Press | Request::Swing | Request::Touch => self.tell_keys_under(request, whose),
             Request::Catch => self.catch(whose),
             Request::LetFall => self.let_fall_under(whose),
@@ -197,12 +201,13 @@ impl Performance {
         self.ask(Request::ReleaseKeys, whose, out);
     }
 
-    /// All keys go up: also keyswitches, those of notes that come late, and those under the ones that sound.
+    /// All keys go up: also keyswitches, those of notes that come late and are heard nevertheless, and those under the ones that sound.
     fn forget_keys(&mut self, whose: Whose) {
         for own in &mut self.channels {
             own.forced = own.forced.filter(|&(_, by)| !whose.is(by));
         }
-        self.late.retain(|late| !whose.is(late.note.wanted.channel));
+        let late = self.late.iter_mut().filter(|late| whose.is(late.note.wanted.channel));
+        late.for_each(|late| late.releases = late.note.presses);
         self.strings.iter_mut().for_each(|string| string.forget_under(|note| whose.is(note.channel)));
     }
 

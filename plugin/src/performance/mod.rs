@@ -211,7 +211,7 @@ impl Performance {
             }
             PlayerEvent::AllNotesOff => {
                 self.begin_chord(out);
-                self.late.clear();
+                self.leave_out_late(|_| true);
                 self.force_none();
                 for string in &mut self.strings {
                     string.silence(time, None);

@@ -49,3 +49,4 @@ mod tremolo;
 mod trills;
 mod turns;
 mod vibrato;
+mod waiting;

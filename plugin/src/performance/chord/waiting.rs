@@ -109,6 +109,20 @@ impl Performance {
         self.uses.iter_mut().filter(held).for_each(|string| *string = Use::Untouchable);
     }
 
+    /// Notes of such channels that wait for a string do not come.
+    pub(in crate::performance) fn leave_out_late(&mut self, is_meant: impl Fn(u8) -> bool) {
+        let Self { late, compromises, .. } = self;
+        late.retain(|Late { note: Unplaced { wanted, waited, .. }, .. }| {
+            let meant = is_meant(wanted.channel);
+            if meant {
+                compromises.moved_by_octaves -= u64::from(wanted.is_moved());
+                compromises.arpeggiated -= u64::from(*waited);
+                compromises.left_out += 1;
+            }
+            !meant
+        });
+    }
+
     /// Plays the notes that come late and are due before sample `until`.
     pub(in crate::performance) fn begin_late(&mut self, until: u64, out: &mut impl GestureSink) {
         loop {
