@@ -182,3 +182,29 @@ fn a_string_plucked_under_a_capo_comes_to_rest() {
     stage.performance.advance(34 * 48_000, &mut gestures);
     assert!(!any_left(&gestures));
 }
+
+/// A palm waits for a note, but not for ever: it goes after what is plucked by hand as after notes.
+#[test]
+fn a_palm_that_came_with_a_pointed_pluck_leaves() {
+    let (mut stage, place) = string();
+    let finger = stage.instrument.geometry(0).finger_position(5);
+    let [plucked, pressed] =
+        [&[(5.0, pluck(place, 0.8))][..], &[(5.0, press(finger)), (5.1, touched(StringDeed::Lift))]];
+    // The one that was laid when the controller came has gone by then; another one comes.
+    let told = [(0.0, cc(20, 100))];
+    for deeds in [plucked, pressed] {
+        let alone = stage.play(&told, 5.0).gestures;
+        assert!(!alone.is_empty() && !any_left(&alone));
+        let played = [&told[..], deeds].concat();
+        let soon = stage.play(&played, 6.5).gestures;
+        assert!(any_left(&soon), "no palm comes: {deeds:?}");
+        assert!(!any_left(&stage.play(&played, 7.5).gestures), "it stays: {deeds:?}");
+    }
+    // One under a note stays as long as that.
+    let held = [(0.0, cc(20, 100)), (0.1, on(52, 90)), (0.5, pluck(place, 0.8))];
+    let lifts = |played: &[_]| {
+        let is_palm = |gesture| matches!(gesture, Gesture::Lift { finger: 4, .. });
+        stage.play(played, 4.0).gestures.iter().filter(|timed| is_palm(timed.gesture)).count()
+    };
+    assert_eq!([&held[..2], &held].map(lifts), [0, 0]);
+}

@@ -2,7 +2,7 @@
 
 use low_action_dsp::Gesture;
 
-use super::{Deeds, Ending, StringPlayer, UNDER};
+use super::{Deeds, Ending, Moment, StringPlayer, UNDER};
 use crate::performance::technique::{HARDEST_POINTED, POINTED_RINGING};
 use crate::performance::{Annotation, GestureSink, StringDeed};
 
@@ -21,6 +21,7 @@ impl StringPlayer {
                 let mut at = self.moment(time, out);
                 self.fingers.let_ring(&mut at);
                 self.rest_later(time);
+                self.lay_palm_for_a_while(&at);
                 at.does(Gesture::Pluck {
                     position: on_string(position),
                     force: force.clamp(-HARDEST_POINTED, HARDEST_POINTED),
@@ -35,6 +36,7 @@ impl StringPlayer {
                 self.take_in_hand(time, out);
                 let mut at = self.moment(time, out);
                 self.fingers.press_at(on_string(position), &mut at);
+                self.lay_palm_for_a_while(&at);
             }
             StringDeed::Lift => {
                 let mut at = self.moment(time, out);
@@ -54,6 +56,13 @@ impl StringPlayer {
         if self.note.is_none() {
             self.bend.set_vibrato(time, 0.0);
             self.bend.loosen(time);
+        }
+    }
+
+    /// A palm that comes to the string with the hand has no note whose end it would wait for to go.
+    fn lay_palm_for_a_while(&mut self, at: &Moment<impl GestureSink>) {
+        if self.note.is_none() {
+            self.palm_waits(at);
         }
     }
 
