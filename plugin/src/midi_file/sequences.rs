@@ -19,6 +19,8 @@ pub(super) fn let_go(time: SongTime) -> impl Iterator<Item = SongEvent> {
         [(101, 0), (100, 6), (6, 0)].map(|(number, value)| controller(channel, number, value))
     });
     let resets = (0..16).map(move |channel| controller(channel, 121, 0));
-    let events = zones.chain(resets).chain([PlayerEvent::AllNotesOff]);
+    // Which a reset leaves where it is.
+    let places = (0..16).map(move |channel| controller(channel, 74, 64));
+    let events = zones.chain(resets).chain(places).chain([PlayerEvent::AllNotesOff]);
     events.map(move |event| SongEvent { time, event })
 }

@@ -245,11 +245,11 @@ impl Channel {
             controller::SWITCHES => Request::Switches(value),
             controller::HAND => Request::Hand(value),
             120 => Request::Silence,
-            // Reset all controllers leaves the wheel's reach alone (MIDI recommended practice 15).
+            // Reset all controllers leaves the wheel's reach and sound controllers, 70 to 79, alone (MIDI recommended practice 15).
             controller::RESET => {
                 self.pedal = false;
                 self.sostenuto = false;
-                self.manner = Manner::PLAIN;
+                self.manner = Manner { place: self.manner.place, ..Manner::PLAIN };
                 self.articulation = Articulation::PLAIN;
                 self.swell = [1.0; 2];
                 self.wheel = 0.0;

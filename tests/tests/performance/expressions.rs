@@ -178,6 +178,19 @@ fn what_is_said_of_a_pluck_adds_to_what_its_channel_says() {
     assert!(close(told.2, 0.5 * force), "{} N instead of {force} N", told.2);
 }
 
+/// As MIDI has it, sound controllers outlive a reset of all controllers.
+#[test]
+fn a_reset_leaves_the_place_of_plucks() {
+    let pluck = |told: &[u8]| {
+        let told = told.iter().map(|&number| (0, cc(number, if number == 121 { 0 } else { 100 })));
+        last_pluck(&play(&told.chain([(0, on(64, 90))]).collect::<Vec<_>>()))
+    };
+    assert_ne!(pluck(&[74]), pluck(&[]));
+    assert_eq!(pluck(&[74, 121]), pluck(&[74]));
+    assert_ne!(pluck(&[2, 11]), pluck(&[]));
+    assert_eq!(pluck(&[2, 11, 121]), pluck(&[]));
+}
+
 /// A host moves parameters for a note alone, and its player presses and expresses it: neither undoes what the other does.
 #[test]
 fn what_a_host_and_a_player_say_of_a_note_multiplies() {
