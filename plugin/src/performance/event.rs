@@ -149,6 +149,8 @@ pub enum Expression {
     PluckForce(f32),
     /// Another one, as a player expresses it.
     Swell(f32),
+    /// Another one, as hosts have it that give each note a volume: 1 is the usual one, 4 the loudest.
+    Gain(f32),
     /// Factor of its finger's force, beside what pressure makes of that.
     FingerForce(f32),
 }
@@ -164,6 +166,7 @@ impl Expression {
             | Self::PluckPlace(amount)
             | Self::PluckForce(amount)
             | Self::Swell(amount)
+            | Self::Gain(amount)
             | Self::FingerForce(amount) => amount,
         }
     }

@@ -11,6 +11,9 @@ const WIDEST: f64 = 120.0;
 /// The largest factor of a force that is.
 const LARGEST: f64 = 100.0;
 
+/// The loudest that a host may have a note, 12 dB: CLAP and VST3 go so far.
+const LOUDEST: f64 = 4.0;
+
 /// What an expression says, in the units of the hands and within what they take.
 enum Said {
     /// Of the note as long as it sounds.
@@ -21,8 +24,9 @@ enum Said {
     PluckPlace(f64),
     /// Factor of its force.
     PluckForce(f64),
-    /// Another one.
+    /// Others.
     Swell(f64),
+    Gain(f64),
 }
 
 impl From<Expression> for Said {
@@ -40,6 +44,7 @@ impl From<Expression> for Said {
             Expression::PluckPlace(metres) => Self::PluckPlace(f64::from(metres)),
             Expression::PluckForce(force) => Self::PluckForce(factor(force)),
             Expression::Swell(force) => Self::Swell(factor(force)),
+            Expression::Gain(gain) => Self::Gain(factor(gain).min(LOUDEST)),
         }
     }
 }
@@ -97,6 +102,7 @@ impl Performance {
                 Said::PluckPlace(metres) => own.place = metres,
                 Said::PluckForce(factor) => own.force = factor,
                 Said::Swell(factor) => own.swell = factor,
+                Said::Gain(factor) => own.gain = factor,
             }
             return;
         }

@@ -193,6 +193,9 @@ fn expression(event: &NoteEvent<()>) -> Option<(Address, Expression)> {
         NoteEvent::PolyExpression { voice_id, channel, key, expression, .. } => {
             (voice_id, channel, key, Expression::Swell(expression))
         }
+        NoteEvent::PolyVolume { voice_id, channel, key, gain, .. } => {
+            (voice_id, channel, key, Expression::Gain(gain))
+        }
         _ => return None,
     };
     Some((Address { voice, channel, key }, expression))

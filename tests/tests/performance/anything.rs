@@ -103,6 +103,8 @@ fn any_touching() -> impl Strategy<Value = Touching> {
 
 /// Largest factor of a force that a note can have for itself.
 const MOST: f32 = 100.0;
+/// The most that a host can make a note's pluck harder by its volume.
+const LOUDEST: f32 = 4.0;
 
 /// What a note can have for itself.
 fn any_expression(
@@ -117,6 +119,7 @@ fn any_expression(
         turn.prop_map(|semitones| Expression::Tuning(3.0 * semitones)),
         wild.clone().prop_map(Expression::PluckForce),
         wild.clone().prop_map(Expression::Swell),
+        wild.clone().prop_map(Expression::Gain),
         wild.clone().prop_map(Expression::FingerForce),
         // m: beyond the ends of any string.
         wild.prop_map(|place| Expression::PluckPlace(place - 2.0)),
@@ -198,12 +201,16 @@ impl Limits {
             Expression::Swell(factor) => Some(factor),
             _ => None,
         });
+        let louder = asked(|expression| match expression {
+            Expression::Gain(factor) => Some(factor.min(LOUDEST)),
+            _ => None,
+        });
         let pressed = asked(|expression| match expression {
             Expression::FingerForce(factor) => Some(factor),
             _ => None,
         });
         // Of the hardest pluck's force: variation makes a fifth of it more, and a strum 0.7 of that.
-        let strength = moved * swollen * (1.0 + 0.2 * touching.variation);
+        let strength = moved * swollen * louder * (1.0 + 0.2 * touching.variation);
         let strummed = 1.7 * strength;
         Self {
             // Three times as hard in a pop; or 50 N by who points.

@@ -130,7 +130,7 @@ fn what_is_said_of_a_pluck_counts_at_its_sample_after_its_note_on() {
 #[test]
 fn what_is_no_number_says_nothing() {
     type Said = fn(f32) -> Expression;
-    let all: [Said; 8] = [
+    let all: [Said; 9] = [
         Expression::Tuning,
         Expression::Pressure,
         Expression::Brightness,
@@ -138,6 +138,7 @@ fn what_is_no_number_says_nothing() {
         Expression::PluckPlace,
         Expression::PluckForce,
         Expression::Swell,
+        Expression::Gain,
         Expression::FingerForce,
     ];
     // On a stopped note: something before, at its sample, while it sounds, and on the one that is hammered over it.
@@ -202,6 +203,12 @@ fn what_a_host_and_a_player_say_of_a_note_multiplies() {
     for said in [[moved, swell], [swell, moved]] {
         assert!((force(&said) / force(&[]) - 0.125).abs() < 1e-9, "{said:?}");
     }
+    // So does the volume that hosts give a note, up to 12 dB.
+    for (gain, factor) in [(1.0, 1.0), (0.5, 0.5), (0.0, 0.0), (4.0, 4.0), (1000.0, 4.0), (-1.0, 0.0)] {
+        let found = force(&[Expression::Gain(gain), moved]) / force(&[]);
+        assert!((found - 0.5 * factor).abs() < 1e-9, "{found} for a gain of {gain}");
+    }
+    assert_eq!(force(&[Expression::Gain(1.0)]), force(&[]));
     // How hard the finger presses at last, at fret 7: at the note's own sample, while it sounds, or when it has come back.
     let pressed = |told: &[(u64, PlayerEvent)]| {
         let note = [(0, cc(68, 127)), (0, on(57, 90))];

@@ -79,6 +79,22 @@ fn brightness_and_controller_74_move_the_pluck() {
     assert_eq!(play(vec![midi(0, [0xB1, 74, 0]), on(0, 0, 45)]), usual);
 }
 
+/// As expression is; so a host's mixer of notes is heard, and the usual volume is none.
+#[test]
+fn volume_is_a_factor_of_the_force_of_the_pluck() {
+    let said = |at, what, value| play(vec![on(0, 0, 45), express(at, what, 45, value)]);
+    let usual = play(vec![on(0, 0, 45)]);
+    assert_eq!(said(0, NoteExpressionType::Volume, 1.0), usual);
+    let half = said(0, NoteExpressionType::Volume, 0.5);
+    assert!(rms(&half) < 0.7 * rms(&usual));
+    assert_eq!(half, said(0, NoteExpressionType::Expression, 0.5));
+    assert!(rms(&said(0, NoteExpressionType::Volume, 2.0)) > 1.5 * rms(&usual));
+    assert!(said(0, NoteExpressionType::Volume, 0.0).iter().all(|&sample| sample == 0.0));
+    // Once it is plucked a string sounds as it does; and where it is heard the set-up says.
+    assert_eq!(said(6000, NoteExpressionType::Volume, 0.5), usual);
+    assert_eq!(said(0, NoteExpressionType::Pan, 1.0), usual);
+}
+
 #[test]
 fn vibrato_swings() {
     let usual = play(vec![on(0, 0, 45)]);

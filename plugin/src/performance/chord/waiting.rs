@@ -45,16 +45,17 @@ pub(in crate::performance) struct OwnPluck {
     /// Factors of the pluck's force.
     pub force: f64,
     pub swell: f64,
+    pub gain: f64,
 }
 
 impl OwnPluck {
     /// Nothing special.
-    pub(super) const PLAIN: Self = Self { place: 0.0, brightness: 0.0, force: 1.0, swell: 1.0 };
+    pub(super) const PLAIN: Self = Self { place: 0.0, brightness: 0.0, force: 1.0, swell: 1.0, gain: 1.0 };
 
     /// With what the channel says.
     pub(super) fn with(&self, channel: Manner) -> Manner {
         let place = channel.place + self.place + self.brightness;
-        let force = channel.force * self.force * self.swell;
+        let force = channel.force * self.force * self.swell * self.gain;
         Manner { place, force, ..channel }
     }
 }

@@ -106,11 +106,12 @@ pub(super) unsafe fn note_event(event: &Event) -> Option<NoteEvent<()>> {
     }
 }
 
-/// What is said of one note: by the numbers that VST3 gives tuning, vibrato, expression and brightness.
+/// What is said of one note: by the numbers that VST3 gives volume, tuning, vibrato, expression and brightness.
 fn expression(timing: u32, said: &NoteExpressionValueEvent) -> Option<NoteEvent<()>> {
     let (voice_id, channel, key) = (VoiceID::ID(said.noteId), Channel::Wildcard, Key::Wildcard);
     let value = said.value as f32;
     Some(match said.typeId {
+        0 => NoteEvent::PolyVolume { timing, voice_id, channel, key, gain: 4.0 * value },
         2 => NoteEvent::PolyTuning { timing, voice_id, channel, key, tuning: 240.0 * (value - 0.5) },
         3 => NoteEvent::PolyVibrato { timing, voice_id, channel, key, vibrato: value },
         4 => NoteEvent::PolyExpression { timing, voice_id, channel, key, expression: value },

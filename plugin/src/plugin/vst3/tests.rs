@@ -119,6 +119,7 @@ fn a_note_off_is_not_lost_among_too_many_others() {
 
 #[test]
 fn note_expressions_reach_the_notes_they_are_for() {
+    const VOLUME: u32 = 0;
     const VIBRATO: u32 = 3;
     const FORCE: u32 = 4;
     const BRIGHTNESS: u32 = 5;
@@ -136,6 +137,8 @@ fn note_expressions_reach_the_notes_they_are_for() {
             (TUNING, 0.5 - 1.0 / 128.0, bend(&host, channel, 512)),
             (BRIGHTNESS, 0.0, host.controller(channel, 74, 0.0)),
             (FORCE, 0.5, host.controller(channel, 11, 64.0 / 127.0)),
+            // (Its scale goes to 12 dB.)
+            (VOLUME, 0.125, host.controller(channel, 11, 64.0 / 127.0)),
             (VIBRATO, 1.0, host.controller(channel, 1, 1.0)),
         ] {
             let said = played(&[], &[expression(id, kind, value)]);
@@ -147,9 +150,10 @@ fn note_expressions_reach_the_notes_they_are_for() {
             assert!(apart(&meant) < 0.05 * apart(&plain), "expression {kind} of note {id}");
         }
         // Those that come without sound, too, with their notes.
-        let host = Host::new();
-        let dull = expression(id, BRIGHTNESS, 0.0);
-        host.flush(Silence::Samples, &[], &[notes[0], notes[1], dull]);
-        assert!(host.play(LENGTH, &[], &[]) == played(&[], &[dull]));
+        for said in [expression(id, BRIGHTNESS, 0.0), expression(id, VOLUME, 0.1)] {
+            let host = Host::new();
+            host.flush(Silence::Samples, &[], &[notes[0], notes[1], said]);
+            assert!(host.play(LENGTH, &[], &[]) == played(&[], &[said]));
+        }
     }
 }
