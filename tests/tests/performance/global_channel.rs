@@ -11,12 +11,15 @@ static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 /// The open keys of its strings.
 const OPEN: [u8; 6] = [64, 59, 55, 50, 45, 40];
 
+/// What a channel says at a sample, whichever it is.
+type Said = (u64, fn(u8) -> PlayerEvent);
+
 /// The first channel of the strings, and the one that speaks for all of them.
 const GLOBAL: [(u8, u8); 4] = [(0, 15), (1, 0), (10, 9), (4, 3)];
 
 /// What hands do, told by some channels, to strings that have channels from one on: a chord that is let go of, with what is said
 /// before, during and after it.
-fn played(first: u8, by: &[u8], said: &[(u64, fn(u8) -> PlayerEvent)]) -> Vec<TimedGesture> {
+fn played(first: u8, by: &[u8], said: &[Said]) -> Vec<TimedGesture> {
     let mut player = GUITAR.player(EXACT);
     player.set_input(InputMode::Strings { first, from_last: false });
     let chord = |time: u64, fret: u8| {
@@ -40,7 +43,7 @@ fn played(first: u8, by: &[u8], said: &[(u64, fn(u8) -> PlayerEvent)]) -> Vec<Ti
 
 #[test]
 fn it_speaks_for_all_strings() {
-    let said: [(&str, &[(u64, fn(u8) -> PlayerEvent)]); 14] = [
+    let said: [(&str, &[Said]); 14] = [
         ("sustain", &[(0, |c| control(c, 64, 127)), (96_000, |c| control(c, 64, 0))]),
         ("sostenuto", &[(25_000, |c| control(c, 66, 127)), (96_000, |c| control(c, 66, 0))]),
         ("legato", &[(0, |c| control(c, 68, 127))]),
@@ -78,7 +81,7 @@ fn strings_keep_what_they_say_themselves() {
 /// Others that are no string's say nothing, and neither does one that is below the strings and a string's own.
 #[test]
 fn no_other_channel_speaks_for_strings() {
-    let palm: [(u64, fn(u8) -> PlayerEvent); 1] = [(0, |c| control(c, 20, 100))];
+    let palm: [Said; 1] = [(0, |c| control(c, 20, 100))];
     let plain = played(0, &[], &[]);
     assert_eq!(played(0, &[6, 7, 14], &palm), plain);
     // A pedal that only it holds falls where channels mean something else.
