@@ -243,7 +243,7 @@ fn a_song_its_stems_and_its_labels_appear_all_or_none() {
         let arguments = ["render", "short.mid", "-o", "new.wav", "--stems", "new", "--labels", "new.json"];
         let cheap = ["--quality", "draft", "--tail", "none"];
         // The first of them is there.
-        let first = || room.path().join("new.wav").exists();
+        let first = || room.path().join("new.json").exists();
         let mut child = begin(room.path(), &[], &[&arguments[..], &cheap].concat(), first);
         send("INT", &mut child);
         // It may have come to its end as well.
@@ -255,6 +255,21 @@ fn a_song_its_stems_and_its_labels_appear_all_or_none() {
         assert_eq!(names(room.path()), all, "{status}");
         assert_eq!(names(&room.path().join("new")).len(), 6, "{status}");
     }
+}
+
+/// Whoever is killed tidies nothing up, and a script that takes up its work again looks whether the sound is there.
+#[test]
+fn the_sound_of_a_song_appears_after_its_labels_and_its_stems() {
+    let room = room();
+    let arguments = ["render", "-o", "new.wav", "--stems", "new", "--labels", "new.json"];
+    let begun = || has_part(room.path()) && has_part(&room.path().join("new"));
+    let mut child = begin(room.path(), &[], &arguments, begun);
+    // What comes after the sound, which cannot take its place, does not appear either.
+    fs::create_dir(room.path().join("new.wav")).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(1));
+    assert!(room.path().join("new.json").exists(), "the labels come after the sound");
+    let stems = names(&room.path().join("new"));
+    assert!(stems.len() == 6 && stems.iter().all(|name| name.ends_with(".wav")), "{stems:?}");
 }
 
 #[test]

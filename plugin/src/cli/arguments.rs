@@ -30,6 +30,8 @@ Examples:
                                                the same notes farther up the neck
   low-action render song.mid --labels song.json
                                                with ground truth of every note
+  low-action render song.mid --labels song.json --skip-existing
+                                               the same, unless both are there
 
 Notes go to the string and fret nearest to the hand; those no string can give move by octaves. \
 Channel 10 is percussion and left out unless asked for with --channel 10 or announced as one of MPE. With --input \
@@ -106,6 +108,10 @@ pub struct RenderArgs {
     /// sounds its string, fret, pitch, times and technique, and every gesture of the hands, as JSON. The sound is the same.
     #[arg(long, value_name = "FILE")]
     pub labels: Option<PathBuf>,
+    /// Render nothing where the sound and all else that is asked for are there already, whatever they were made of: a loop over
+    /// many songs goes on where it was broken off.
+    #[arg(long)]
+    pub skip_existing: bool,
     /// Threads that share the strings among them, 1 to 64 [default: as many as there are processors]; strings over a body are
     /// one thread's. The sound is the same bits.
     #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=64), allow_hyphen_values = true)]

@@ -86,6 +86,12 @@ impl Draft {
     }
 }
 
+/// Whether a result is at its place already: an ordinary file, since what is written directly takes any number of results. As
+/// they appear whole, it is no half of one.
+pub fn is_there(path: &Path) -> bool {
+    matches!(Target::find(path), Ok(Target::File(place)) if place.is_file())
+}
+
 /// Lets finished results appear. What has to be copied, to a device or a pipe, may still fail, and comes first; the
 /// others only have to be renamed, and whoever asks the program to stop meanwhile waits until they are.
 ///

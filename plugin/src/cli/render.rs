@@ -38,7 +38,6 @@ use rendering::{Cut, Rendered, Rendering};
 pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let input = input_mode(arguments)?;
     let (setup, setup_file) = instrument::load(&arguments.instrument)?;
-    let song = read_song(arguments)?;
     let bend_range = arguments.bend_range.unwrap_or(EngineOptions::BEND_RANGE);
     let options = EngineOptions {
         quality: arguments.quality,
@@ -48,6 +47,14 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         threads: threads(arguments),
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
+    let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
+    let output = output_path(arguments)?;
+    check_paths(arguments, setup_file.as_deref(), &output, &names)?;
+    if arguments.skip_existing && files::are_there(arguments, &output, &names) {
+        say(&shown(&output), "skipped: all that is asked for is there already");
+        return Ok(());
+    }
+    let song = read_song(arguments)?;
     let longest_tail = arguments.tail.longest(options.tail());
     check_length(arguments, &song, longest_tail).with_context(|| song_name(arguments))?;
     for warning in &song.warnings {
@@ -66,9 +73,6 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let RenderArgs { ignore_rpn, hand_position, .. } = *arguments;
     let touching = Touching { ignore_rpn, hand_position, ..touching };
     engine.touch(&touching);
-    let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
-    let output = output_path(arguments)?;
-    check_paths(arguments, setup_file, &output, &names)?;
     let files = Files::begin(arguments, &output, &names)?;
 
     let source = Source { arguments, setup: &options.setup };
@@ -189,11 +193,11 @@ fn output_path(arguments: &RenderArgs) -> Result<PathBuf> {
 /// Refuses to write two results to one file, or in the place of the song or the instrument's file, if it has one.
 fn check_paths(
     arguments: &RenderArgs,
-    setup_file: Option<PathBuf>,
+    setup_file: Option<&Path>,
     output: &Path,
     strings: &[&str],
 ) -> Outcome {
-    let setup_file = setup_file.map(|path| ("the instrument".to_owned(), path));
+    let setup_file = setup_file.map(|path| ("the instrument".to_owned(), path.to_owned()));
     let song = arguments.song.clone().map(|song| ("the song".to_owned(), song));
     let read: Vec<_> = setup_file.into_iter().chain(song).collect();
     let mut written = vec![("the sound".to_owned(), output.to_owned())];

@@ -11,6 +11,7 @@ mod mounted;
 mod open_already;
 mod refusals;
 mod room;
+mod skipping;
 mod sounds;
 mod tails;
 mod threads;

@@ -10,7 +10,7 @@ use super::labels::{LabelFile, Labelled};
 use super::warn;
 use crate::cli::RenderArgs;
 use crate::cli::names::shown;
-use crate::cli::output::publish_all;
+use crate::cli::output::{is_there, publish_all};
 use crate::cli::unfinished::NewFolders;
 use crate::cli::wav::{Findings, WavFile};
 
@@ -42,11 +42,15 @@ impl Files {
         Ok(Self { mix, stems, labels, folder })
     }
 
-    /// Completes all files, then lets them appear: a disk that is full for one leaves none. Returns what
-    /// was found in the stereo file and in the strings' own.
+    /// Completes all files, then lets them appear: a disk that is full for one leaves none. The stereo sound comes last, so
+    /// that who finds it has the others, too, even if the program is killed meanwhile and tidies nothing up. Returns what was found
+    /// in the stereo file and in the strings' own.
     pub(super) fn finish(self, labelled: Labelled) -> Result<[Findings; 2]> {
-        let (draft, mix) = self.mix.complete()?;
-        let mut drafts = vec![draft];
+        let (sound, mix) = self.mix.complete()?;
+        let mut drafts = Vec::new();
+        if let Some(labels) = self.labels {
+            drafts.push(labels.complete(labelled)?);
+        }
         let mut stems = Findings::default();
         for file in self.stems {
             let (draft, findings) = file.complete()?;
@@ -54,13 +58,18 @@ impl Files {
             stems.not_finite += findings.not_finite;
             drafts.push(draft);
         }
-        if let Some(labels) = self.labels {
-            drafts.push(labels.complete(labelled)?);
-        }
+        drafts.push(sound);
         publish_all(drafts)?;
         drop(self.folder);
         Ok([mix, stems])
     }
+}
+
+/// Whether every file of a rendering is there already.
+pub(super) fn are_there(arguments: &RenderArgs, output: &Path, strings: &[&str]) -> bool {
+    let stems = stem_paths(arguments, strings);
+    let mut others = stems.iter().map(PathBuf::as_path).chain(arguments.labels.as_deref());
+    is_there(output) && others.all(is_there)
 }
 
 /// Where the strings' own sounds go, if they are wanted.

@@ -1,0 +1,56 @@
+//! What is there already is not rendered again where that is asked for, and only what is there whole is there.
+
+use std::fs;
+
+use crate::room::Room;
+
+/// The shortest rendering of all that there can be of a song.
+const ALL: [&str; 10] = [
+    "song.mid",
+    "-q",
+    "draft",
+    "--tail",
+    "none",
+    "--stems",
+    "stems",
+    "--labels",
+    "song.json",
+    "--skip-existing",
+];
+
+#[test]
+fn a_song_is_rendered_again_as_long_as_any_of_its_files_is_missing() {
+    let room = Room::new();
+    let all = &ALL[..];
+    let first = room.renders(all);
+    assert!(first.contains("times faster than real time"), "{first}");
+    let skipped = "song.wav: skipped: all that is asked for is there already\n";
+    for missing in ["song.wav", "song.json", "stems/3-G3.wav"] {
+        // Nothing is written, and what is there need not be what would be written.
+        fs::write(room.path("song.json"), "old").unwrap();
+        assert_eq!(room.renders(all), skipped);
+        assert_eq!(fs::read_to_string(room.path("song.json")).unwrap(), "old");
+        fs::remove_file(room.path(missing)).unwrap();
+        let said = room.renders(all);
+        assert!(said.contains("times faster than real time"), "{missing}: {said}");
+        assert!(
+            room.path(missing).exists() && fs::read(room.path("song.json")).unwrap() != b"old",
+            "{missing}"
+        );
+    }
+    // Fewer of them may be asked for; without it everything is rendered.
+    assert_eq!(room.renders(&["song.mid", "--skip-existing"]), skipped);
+    assert!(room.renders(&all[..9]).contains("times faster"));
+}
+
+#[test]
+fn what_is_no_file_is_never_there() {
+    let room = Room::new();
+    let brief = ["render", "song.mid", "-q", "draft", "--tail", "none", "--skip-existing", "-o"];
+    fs::create_dir(room.path("folder")).unwrap();
+    assert!(room.refuses(1, &[&brief[..], &["folder"]].concat()).contains("it is a folder"));
+    let output = room.run(&[&brief[..], &["-"]].concat());
+    assert!(output.status.success() && output.stdout.starts_with(b"RIFF"));
+    // Nor may the sound be what it is made from, though that is there.
+    assert!(room.refuses(2, &[&brief[..], &["song.mid"]].concat()).contains("name the same file"));
+}
