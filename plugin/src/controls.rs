@@ -132,6 +132,8 @@ pub struct Touching {
     pub velocity_curve: f64,
     /// Size of the small differences between plucks, 0 to 1.
     pub variation: f64,
+    /// Which sequence of them, as [`EngineOptions::seed`]; another begins with the next pluck.
+    pub take: u64,
     /// Factor of the force of the finger that stops a string.
     pub finger_force: f64,
     /// Factor of the stiffness of its pad.
@@ -169,6 +171,7 @@ impl Touching {
             pluck_release: 0.0,
             velocity_curve: crate::performance::VELOCITY_CURVE,
             variation,
+            take: 0,
             finger_force: 1.0,
             finger_hardness: 1.0,
             finger_mass: 1.0,

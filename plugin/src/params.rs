@@ -143,6 +143,9 @@ pub struct PlayerParams {
     /// How much the place, force and time of each pluck vary, 0 (exact) to 1.
     #[id = "variation"]
     pub variation: FloatParam,
+    /// Which sequence of those differences: N is that of `render --seed N`.
+    #[id = "take"]
+    pub take: IntParam,
     /// Factor of the force of the finger that stops a string.
     #[id = "finger_force"]
     pub finger_force: FloatParam,

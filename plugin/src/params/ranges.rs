@@ -18,6 +18,9 @@ use crate::plugin::state::Marked;
 /// to click.
 const LEVEL_RAMP: f32 = 20.0;
 
+/// The last take: more than anybody plays of one part, and few enough to be typed.
+const MOST_TAKES: i32 = 9_999;
+
 /// Steps of factors and parts: what hosts send is rounded to these, and so the number meant in decimal
 /// notation is recovered exactly.
 const PART_STEP: f32 = 0.01;
@@ -107,6 +110,8 @@ impl Default for PlayerParams {
                 .with_step_size(PART_STEP)
                 .with_string_to_value(Arc::new(number)),
             variation: part("Variation", EngineOptions::VARIATION as f32),
+            take: IntParam::new("Take", 0, IntRange::Linear { min: 0, max: MOST_TAKES })
+                .with_string_to_value(Arc::new(whole)),
             finger_force: factor("Finger force", 0.02, 4.0).with_poly_modulation_id(poly::FINGER_FORCE),
             finger_hardness: factor("Finger hardness", 0.01, 10.0),
             finger_mass: factor("Finger mass", 0.1, 10.0),

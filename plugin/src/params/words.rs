@@ -9,7 +9,7 @@ use super::LowActionParams;
 use crate::engine::Quality;
 
 /// What is heard of a parameter, by its [identifier](LowActionParams). All strings' tunings share one.
-const HEARD: [(&str, &str); 40] = [
+const HEARD: [(&str, &str); 41] = [
     ("instrument", "The instrument: strings, neck, hands and pickup."),
     ("instrument_file", "An instrument of your own, from your folder, in place of that one."),
     (
@@ -48,6 +48,10 @@ const HEARD: [(&str, &str); 40] = [
         "variation",
         "How much plucks differ from one another, as a hand's do. At 0 the hand does the same each time; the sound \
          still depends on how the string moves just then.",
+    ),
+    (
+        "take",
+        "Which of the ways in which they differ: with another number in each, two of these play a part as two people do.",
     ),
     ("finger_force", "How firmly fingers press. Too little and the note buzzes against its own fret."),
     ("finger_hardness", "Soft pads swallow the high notes, hard ones let the string rattle."),

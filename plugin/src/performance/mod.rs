@@ -141,7 +141,7 @@ impl Performance {
             means_otherwise: Channels::NONE,
             spoke: Channels::NONE,
             hands: hands.clone(),
-            touching: Touching::new(style.variation, style.bend_range),
+            touching: Touching { take: style.seed, ..Touching::new(style.variation, style.bend_range) },
             taken_over: false,
             compromises: Compromises::default(),
             chord: Vec::with_capacity(LARGEST_CHORD),
@@ -235,6 +235,9 @@ impl Performance {
         }
         if touching.hand_position != self.touching.hand_position {
             self.hand.set_home(touching.hand_position);
+        }
+        if touching.take != self.touching.take {
+            self.variation.begin_take(touching.take);
         }
         self.touching = *touching;
         self.variation.set_amount(touching.variation);

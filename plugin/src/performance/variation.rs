@@ -38,6 +38,11 @@ impl Variation {
         self.amount = amount.clamp(0.0, 1.0);
     }
 
+    /// Begins another sequence with the next pluck.
+    pub(crate) fn begin_take(&mut self, seed: u64) {
+        (self.seed, self.state) = (seed, seed);
+    }
+
     /// Starts the sequence again.
     pub(crate) fn reset(&mut self) {
         self.state = self.seed;

@@ -154,6 +154,7 @@ fn touching_by(params: &LowActionParams, exact: Exact) -> Touching {
         pluck_release: 1e-3 * exact(&player.pluck_release),
         velocity_curve: exact(&player.velocity_curve),
         variation: exact(&player.variation),
+        take: u64::try_from(player.take.value()).unwrap_or(0),
         finger_force: exact(&player.finger_force),
         finger_hardness: exact(&player.finger_hardness),
         finger_mass: exact(&player.finger_mass),
@@ -231,6 +232,9 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
             page.add_param(&control.hand_position);
             page.add_param(&control.keyswitches);
             page.add_param(&player.pluck_softest);
+        });
+        section.add_page("Before playing", |page| {
+            page.add_param(&player.take);
         });
     });
 }

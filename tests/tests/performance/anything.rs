@@ -86,6 +86,7 @@ fn any_touching() -> impl Strategy<Value = Touching> {
             pluck_duration,
             velocity_curve,
             variation,
+            take: 0,
             finger_force,
             finger_hardness,
             finger_mass,

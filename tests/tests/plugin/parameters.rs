@@ -19,7 +19,8 @@ use nice_plug::prelude::Params;
 
 /// The left channel of an engine.
 fn engine(options: &EngineOptions, score: &Score) -> Vec<f32> {
-    touched_engine(options, &Touching::new(options.variation, options.bend_range), score)
+    let touching = Touching::new(options.variation, options.bend_range);
+    touched_engine(options, &Touching { take: options.seed, ..touching }, score)
 }
 
 /// The left channel of an engine played by such hands.
@@ -171,6 +172,11 @@ const BUILT: &[Built] = &[
         ends: [0.0, 1.0],
         means: |options, high| options.variation = pick(high, 0.0, 1.0),
     },
+    Built {
+        id: "take",
+        ends: [0.0, 9_999.0],
+        means: |options, high| options.seed = if high { 9_999 } else { 0 },
+    },
 ];
 
 #[test]
@@ -286,9 +292,14 @@ fn everything_at_its_end_at_once_plays() {
 #[test]
 fn a_change_counts_from_its_sample() {
     // The sixth instrument has other strings; those of the ninth go on, under hands that press less.
-    for (id, value) in
-        [("pluck_force", 0.1), ("action", 0.9), ("loss_1", 1.0), ("instrument", 6.0), ("instrument", 9.0)]
-    {
+    for (id, value) in [
+        ("pluck_force", 0.1),
+        ("take", 7.0),
+        ("action", 0.9),
+        ("loss_1", 1.0),
+        ("instrument", 6.0),
+        ("instrument", 9.0),
+    ] {
         let at = 12_345;
         let usual = with(&[], &score());
         let mut changed = score();

@@ -278,7 +278,7 @@ fn hosts_are_told_the_truth() {
     let mut buffer = AudioPortInfoBuffer::new();
     assert_eq!(ports.get(&handle, 0, false, &mut buffer).expect("there is one").channel_count, 2);
     let pages = handle.get_extension::<PluginRemoteControls>().expect("it has pages");
-    assert_eq!(pages.count(&handle), 6);
+    assert_eq!(pages.count(&handle), 7);
     let mut buffer = RemoteControlsPageBuffer::new();
     let first = pages.get(&handle, 0, &mut buffer).expect("there is one");
     assert_eq!(first.param_ids[3].map(|id| id.get()), Some(parameter("action")));

@@ -19,12 +19,14 @@ pub fn show(ui: &mut Ui, given: &Given) {
         pluck_release,
         velocity_curve,
         variation,
+        take,
         finger_force,
         finger_hardness,
         finger_mass,
         finger_hover,
         hand_damping,
-        idle_hands,
+        // Beside the losses, in the panel of the sound.
+        idle_hands: _,
     } = &given.params.player;
     let ControlParams {
         input_mode,
@@ -39,19 +41,12 @@ pub fn show(ui: &mut Ui, given: &Given) {
     } = &given.params.control;
     let mut cells = Cells::new(ui.max_rect(), 6);
     cells.group(ui, "PLUCKS", 2);
-    let plucks = [
-        pluck_position,
-        pluck_force,
-        pluck_duration,
-        pluck_release,
-        pluck_softest,
-        velocity_curve,
-        variation,
-        idle_hands,
-    ];
-    for param in plucks {
+    for param in
+        [pluck_position, pluck_force, pluck_duration, pluck_release, pluck_softest, velocity_curve, variation]
+    {
         slider(ui, given, param, cells.next());
     }
+    slider(ui, given, take, cells.next());
     cells.group(ui, "FINGERS", 2);
     for param in [finger_force, finger_hardness, finger_mass, finger_hover, hand_damping, tremolo_arm] {
         slider(ui, given, param, cells.next());

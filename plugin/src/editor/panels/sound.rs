@@ -26,6 +26,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
     cells.group(ui, "LOSSES", 1);
     slider(ui, given, &setup.loss_0, cells.next());
     slider(ui, given, &setup.loss_1, cells.next());
+    slider(ui, given, &given.params.player.idle_hands, cells.next());
     cells.group(ui, "HOW LONG OPEN STRINGS RING", 3);
     if let Some(setup) = given.plan.setup() {
         show_times(ui, cells.rest(), setup);

@@ -8,7 +8,7 @@ use crate::setups::SHIPPED;
 fn hands_led_as_far_as_they_go_are_those_of_a_set_up() {
     let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
     let player = params.player.param_map();
-    assert_eq!(player.len(), 13);
+    assert_eq!(player.len(), 14);
     for (id, param, _) in player {
         // SAFETY: the pointers lead into `params`.
         let set = |value| unsafe { param._internal_set_normalized_value(value) };
