@@ -157,6 +157,8 @@ pub struct Touching {
     /// The fret, from 1 on, that the first finger of the left hand stays at where it can, or the last one if there are fewer; without,
     /// the hand moves as little as it can.
     pub hand_position: Option<u8>,
+    /// The fret of a capo on all strings, 0 for none.
+    pub capo: u8,
 }
 
 impl Touching {
@@ -183,6 +185,7 @@ impl Touching {
             legato: false,
             keyswitches: None,
             hand_position: None,
+            capo: 0,
         }
     }
 

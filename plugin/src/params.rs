@@ -196,6 +196,9 @@ pub struct ControlParams {
     /// The fret that the left hand plays about, 0 for wherever it has the least to move.
     #[id = "hand_position"]
     pub hand_position: IntParam,
+    /// The fret of a capo on all strings, 0 for none.
+    #[id = "capo"]
+    pub capo: IntParam,
 }
 
 /// What becomes of the sound.

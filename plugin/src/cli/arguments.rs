@@ -11,6 +11,7 @@ use low_action_dsp::neck::Neck;
 use super::render::{self, BitDepth, Tail};
 use crate::engine::{EngineOptions, Quality};
 use crate::params::{InputChoice, StringOrder};
+use crate::performance::HIGHEST_CAPO;
 
 /// Arguments of `low-action render`.
 #[derive(Debug, Clone, Args)]
@@ -28,6 +29,7 @@ Examples:
                                                from a MIDI guitar
   low-action render song.mid --hand-position 7 -o higher.wav
                                                the same notes farther up the neck
+  low-action render song.mid --capo 3          with a capo on the third fret
   low-action render song.mid --labels song.json
                                                with ground truth of every note
   low-action render song.mid --labels song.json --skip-existing
@@ -97,6 +99,9 @@ pub struct RenderArgs {
     /// [default: it moves as little as it can].
     #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=Neck::MOST_FRETS as u64), allow_hyphen_values = true)]
     pub hand_position: Option<u8>,
+    /// The fret of a capo, 1 to 31, unless the song says so itself (CC 26); no farther up than leaves five frets [default: none].
+    #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=HIGHEST_CAPO as u64), allow_hyphen_values = true)]
+    pub capo: Option<u8>,
     /// Longest music accepted, minutes, above 0 to 1e6.
     #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes, allow_hyphen_values = true)]
     pub max_length: f64,

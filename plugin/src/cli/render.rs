@@ -71,7 +71,8 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     engine.set_input(input);
     let touching = Touching::new(arguments.variation, bend_range);
     let RenderArgs { ignore_rpn, hand_position, .. } = *arguments;
-    let touching = Touching { take: arguments.seed, ignore_rpn, hand_position, ..touching };
+    let capo = arguments.capo.unwrap_or(0);
+    let touching = Touching { take: arguments.seed, ignore_rpn, hand_position, capo, ..touching };
     engine.touch(&touching);
     let files = Files::begin(arguments, &output, &names)?;
 

@@ -11,6 +11,7 @@ use super::{
     QualityChoice, RenderChoice, SetupParams, StringOrder, StringParams,
 };
 use crate::engine::EngineOptions;
+use crate::performance::HIGHEST_CAPO;
 use crate::plugin::shelf::{MOST_FILES, Shelf};
 use crate::plugin::state::Marked;
 
@@ -138,6 +139,7 @@ impl Default for ControlParams {
             legato: EnumParam::new("Legato", LegatoChoice::Pedal),
             keyswitches: number_or("off", "Keyswitches from key", -1, 108),
             hand_position: number_or("anywhere", "Hand position", 0, Neck::MOST_FRETS as i32),
+            capo: number_or("none", "Capo", 0, HIGHEST_CAPO as i32),
         }
     }
 }

@@ -9,7 +9,7 @@ use super::LowActionParams;
 use crate::engine::Quality;
 
 /// What is heard of a parameter, by its [identifier](LowActionParams). All strings' tunings share one.
-const HEARD: [(&str, &str); 41] = [
+const HEARD: [(&str, &str); 42] = [
     ("instrument", "The instrument: strings, neck, hands and pickup."),
     ("instrument_file", "An instrument of your own, from your folder, in place of that one."),
     (
@@ -82,6 +82,7 @@ const HEARD: [(&str, &str); 41] = [
         "hand_position",
         "The fret about which the left hand plays what several strings could give; anywhere: it moves as little as it can.",
     ),
+    ("capo", "The fret of a capo: open strings sound from there. No farther up than leaves five frets."),
 ];
 
 /// What a musician hears of the parameter with this identifier; nothing if there is none such.

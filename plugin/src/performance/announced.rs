@@ -5,7 +5,8 @@ use super::{CHANNELS, Performance};
 /// What was announced: the capo, keyswitches, where the hand plays, and what each channel was told.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Announced {
-    capo: usize,
+    /// The fret of a capo or that there is none, if a controller said so.
+    capo: Option<usize>,
     /// Where keyswitches begin or that there are none, if a controller said so.
     switches: Option<Option<u8>>,
     /// The fret that the hand plays about or that it goes where it likes, if a controller said so.
@@ -30,7 +31,7 @@ impl Performance {
             Channel { reach: channel.announced_reach(), members: channel.members }
         };
         Announced {
-            capo: self.hand.asked_capo(),
+            capo: Some(self.hand.asked_capo()).filter(|&capo| capo != usize::from(self.touching.capo)),
             switches: (self.switches != self.touching.keyswitches).then_some(self.switches),
             home: (self.hand.home() != self.touching.hand_position).then_some(self.hand.home()),
             channels: std::array::from_fn(channel),
@@ -48,6 +49,6 @@ impl Performance {
         }
         self.switches = announced.switches.unwrap_or(self.switches);
         self.hand.set_home(announced.home.unwrap_or(self.hand.home()));
-        self.set_capo(announced.capo);
+        self.set_capo(announced.capo.unwrap_or(self.hand.asked_capo()));
     }
 }

@@ -150,7 +150,7 @@ impl Performance {
                 self.let_fall_under(whose);
                 // What no channel owns, any of them puts back; in MPE the one that speaks for all.
                 if sender == MANAGER || !self.is_mpe() {
-                    self.set_capo(0);
+                    self.set_capo(self.touching.capo.into());
                     self.set_switches(self.touching.keyswitches);
                     self.hand.set_home(self.touching.hand_position);
                 }

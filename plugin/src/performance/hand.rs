@@ -22,6 +22,8 @@ mod cost;
 mod range;
 mod search;
 
+use low_action_dsp::neck::Neck;
+
 use cost::{AGAIN, LEAVE_OUT, MOVE, beyond};
 pub(crate) use range::{Range, octaves};
 use search::Search;
@@ -30,6 +32,8 @@ use search::Search;
 const SPAN: usize = 4;
 /// Frets that a capo leaves at least: on strings a fourth apart every note has a place then, in some octave.
 const OVER_CAPO: usize = 5;
+/// The highest fret that any instrument has a capo on.
+pub const HIGHEST_CAPO: usize = Neck::MOST_FRETS - OVER_CAPO;
 /// Most notes considered at one instant, one for each key; of more, the last to arrive are left out.
 pub(crate) const LARGEST_CHORD: usize = 128;
 

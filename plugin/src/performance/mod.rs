@@ -45,6 +45,7 @@ use chord::{JustBegun, Late, Unplaced};
 pub use compromises::Compromises;
 pub use control::InputMode;
 pub use event::{Expression, PlayerEvent, StringDeed};
+pub use hand::HIGHEST_CAPO;
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
 pub use moment::GestureSink;
 pub(crate) use moment::Moment;
@@ -236,6 +237,11 @@ impl Performance {
         if touching.hand_position != self.touching.hand_position {
             self.hand.set_home(touching.hand_position);
         }
+        if touching.capo != self.touching.capo {
+            // Notes of this sample have been told where they are to be without it.
+            self.begin_chord(out);
+            self.set_capo(touching.capo.into());
+        }
         if touching.take != self.touching.take {
             self.variation.begin_take(touching.take);
         }
@@ -350,6 +356,7 @@ impl Performance {
         (self.means_otherwise, self.spoke) = (Channels::NONE, Channels::NONE);
         self.switches = self.touching.keyswitches;
         self.hand.set_home(self.touching.hand_position);
+        self.set_capo(self.touching.capo.into());
         self.now = 0;
         self.pick_up_hands();
     }

@@ -81,6 +81,7 @@ fn they_say_what_they_are_of() {
         ("input", "auto".into()),
         ("ignore_rpn", false.into()),
         ("hand_position", Value::Null),
+        ("capo", Value::Null),
         ("allow_truncated", false.into()),
         ("tail", "0".into()),
         ("bit_depth", "24".into()),

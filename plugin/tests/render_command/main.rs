@@ -4,6 +4,7 @@
 // A panic is a test's report.
 #![allow(clippy::unwrap_used)]
 
+mod hands;
 mod labels;
 #[cfg(target_os = "linux")]
 mod mounted;

@@ -47,6 +47,10 @@ fn wrong_usage_is_code_2() {
         (&["render", "song.mid", "--bend-range", "97"], "0 to 96 semitones"),
         (&["render", "song.mid", "--hand-position", "0"], "must be a whole number from 1 to 36"),
         (
+            &["render", "song.mid", "--capo", "32"],
+            "'32' for '--capo <FRET>': must be a whole number from 1 to 31",
+        ),
+        (
             &["render", "song.mid", "--input", "mpe", "--bend-range", "12"],
             "--bend-range is not for --input mpe: there wheels reach 48 semitones",
         ),

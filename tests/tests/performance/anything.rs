@@ -71,8 +71,8 @@ fn any_touching() -> impl Strategy<Value = Touching> {
     // (Steps of the range of the wheel are whole, and keys from −1 on.)
     let told = (ranged(&control.bend_range), any::<bool>(), ranged(&control.tremolo_arm), any::<bool>());
     let keyswitches = prop_oneof![Just(-1.0), 0.0..60.0, ranged(&control.keyswitches)];
-    let places = (keyswitches, any::<Option<u8>>());
-    (plucks, fingers, told, places).prop_map(|(plucks, fingers, told, (keyswitches, hand_position))| {
+    let places = (keyswitches, any::<Option<u8>>(), prop_oneof![3 => Just(0), 1 => any::<u8>()]);
+    (plucks, fingers, told, places).prop_map(|(plucks, fingers, told, (keyswitches, hand_position, capo))| {
         let (position, pluck_force, pluck_softest, pluck_duration, release, velocity_curve, variation) =
             plucks;
         let (finger_force, finger_hardness, finger_mass, finger_hover, hand_damping) = fingers;
@@ -98,6 +98,7 @@ fn any_touching() -> impl Strategy<Value = Touching> {
             legato,
             keyswitches: (keyswitches >= 0.0).then_some(keyswitches as u8),
             hand_position,
+            capo,
         }
     })
 }

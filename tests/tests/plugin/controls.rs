@@ -164,6 +164,37 @@ fn keyswitches_tell_the_hands_and_make_no_sound() {
     }
 }
 
+/// By bits: the parameter is what the controller is, until that says something else and again when it is put back.
+#[test]
+fn the_capo_is_that_of_its_controller() {
+    let (at, said) = (4000, |value| Action::Midi([0xB0, 26, value]));
+    let fret = |fret: u8| Action::Parameter(parameter("capo"), f64::from(fret));
+    // An open string without one, a finger over the first, the second itself.
+    let notes = [(at, Action::NoteOn { channel: 0, key: 50, velocity: 100 })];
+    let play = |before: &[(u64, Action)]| with(&[], &[before, &notes].concat());
+    let [none, third, fifth] = [0, 3, 5].map(|fret| play(&[(2000, said(fret))]));
+    assert!(none != third && third != fifth && none != fifth, "a capo changes nothing");
+    assert!(play(&[(2000, fret(3))]) == third, "the parameter is another capo");
+    // (The hand has gone up the neck for it, and stays there.)
+    let by_controller = |values: [u8; 3]| {
+        let [first, second, last] = values.map(said);
+        play(&[(1000, first), (1500, second), (2000, last)])
+    };
+    let reset = Action::Midi([0xB0, 121, 0]);
+    for (told, values, what) in [
+        ([fret(3), fret(3), said(5)], [3, 3, 5], "the controller does not come after it"),
+        ([fret(3), fret(3), said(0)], [3, 3, 0], "the controller does not take it off"),
+        ([fret(3), said(5), reset], [3, 5, 3], "it is not put back"),
+        ([fret(3), said(0), reset], [3, 0, 3], "it is not put back on"),
+        ([said(5), said(5), fret(3)], [5, 5, 3], "the parameter does not come after it"),
+    ] {
+        let [first, second, last] = told;
+        assert!(play(&[(1000, first), (1500, second), (2000, last)]) == by_controller(values), "{what}");
+    }
+    // Set beforehand it is there from the beginning, for a rendering, too.
+    assert!(with(&[("capo", 3.0)], &notes.to_vec()) == third);
+}
+
 #[test]
 fn level_and_bypass_act_on_the_output_alone() {
     let usual = with(&[], &score());

@@ -34,10 +34,12 @@ pub fn show(ui: &mut Ui, given: &Given) {
         string_order,
         bend_range,
         ignore_rpn,
-        tremolo_arm,
+        // Beside the tuning, in the panel of the sound.
+        tremolo_arm: _,
         legato,
         keyswitches,
         hand_position,
+        capo,
     } = &given.params.control;
     let mut cells = Cells::new(ui.max_rect(), 6);
     cells.group(ui, "PLUCKS", 2);
@@ -48,9 +50,10 @@ pub fn show(ui: &mut Ui, given: &Given) {
     }
     slider(ui, given, take, cells.next());
     cells.group(ui, "FINGERS", 2);
-    for param in [finger_force, finger_hardness, finger_mass, finger_hover, hand_damping, tremolo_arm] {
+    for param in [finger_force, finger_hardness, finger_mass, finger_hover, hand_damping] {
         slider(ui, given, param, cells.next());
     }
+    slider(ui, given, capo, cells.next());
     choice(ui, given, legato, cells.next(), LegatoChoice::variants().len());
     slider(ui, given, hand_position, cells.next());
     cells.group(ui, "NOTES", 2);

@@ -22,6 +22,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
     switch(ui, given, &output.bypass, cells.next());
     cells.group(ui, "PITCH", 1);
     slider(ui, given, &setup.tuning, cells.next());
+    slider(ui, given, &given.params.control.tremolo_arm, cells.next());
     switch(ui, given, &setup.tension_modulation, cells.next());
     cells.group(ui, "LOSSES", 1);
     slider(ui, given, &setup.loss_0, cells.next());

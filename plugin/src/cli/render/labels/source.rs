@@ -40,6 +40,7 @@ pub(super) struct About<'a> {
     bend_range: Option<f64>,
     ignore_rpn: bool,
     hand_position: Option<u8>,
+    capo: Option<u8>,
     allow_truncated: bool,
     /// In the words of their options.
     tail: String,
@@ -88,6 +89,7 @@ impl Source<'_> {
             bend_range: arguments.bend_range,
             ignore_rpn: arguments.ignore_rpn,
             hand_position: arguments.hand_position,
+            capo: arguments.capo,
             allow_truncated: arguments.allow_truncated,
             tail: arguments.tail.to_string(),
             bit_depth: arguments.bit_depth.to_string(),
