@@ -159,6 +159,8 @@ pub struct Touching {
     pub hand_position: Option<u8>,
     /// The fret of a capo on all strings, 0 for none.
     pub capo: u8,
+    /// Whether controllers 20 to 28 are heard, which tell hands what to do.
+    pub hand_controllers: bool,
 }
 
 impl Touching {
@@ -186,6 +188,7 @@ impl Touching {
             keyswitches: None,
             hand_position: None,
             capo: 0,
+            hand_controllers: true,
         }
     }
 

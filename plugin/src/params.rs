@@ -199,6 +199,9 @@ pub struct ControlParams {
     /// The fret of a capo on all strings, 0 for none.
     #[id = "capo"]
     pub capo: IntParam,
+    /// Whether the hands listen to controllers 20 to 28.
+    #[id = "hand_controllers"]
+    pub hand_controllers: BoolParam,
 }
 
 /// What becomes of the sound.

@@ -102,6 +102,9 @@ pub struct RenderArgs {
     /// The fret of a capo, 1 to 31, unless the song says so itself (CC 26); no farther up than leaves five frets [default: none].
     #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=HIGHEST_CAPO as u64), allow_hyphen_values = true)]
     pub capo: Option<u8>,
+    /// Pass over the controllers by which a song tells hands what to do (CC 20 to 28), where they mean something else.
+    #[arg(long)]
+    pub ignore_hand_controllers: bool,
     /// Longest music accepted, minutes, above 0 to 1e6.
     #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes, allow_hyphen_values = true)]
     pub max_length: f64,

@@ -72,7 +72,9 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let touching = Touching::new(arguments.variation, bend_range);
     let RenderArgs { ignore_rpn, hand_position, .. } = *arguments;
     let capo = arguments.capo.unwrap_or(0);
-    let touching = Touching { take: arguments.seed, ignore_rpn, hand_position, capo, ..touching };
+    let hand_controllers = !arguments.ignore_hand_controllers;
+    let touching =
+        Touching { take: arguments.seed, ignore_rpn, hand_position, capo, hand_controllers, ..touching };
     engine.touch(&touching);
     let files = Files::begin(arguments, &output, &names)?;
 

@@ -140,6 +140,7 @@ impl Default for ControlParams {
             keyswitches: number_or("off", "Keyswitches from key", -1, 108),
             hand_position: number_or("anywhere", "Hand position", 0, Neck::MOST_FRETS as i32),
             capo: number_or("none", "Capo", 0, HIGHEST_CAPO as i32),
+            hand_controllers: BoolParam::new("Hands by CC 20 to 28", true),
         }
     }
 }

@@ -9,7 +9,7 @@ use super::LowActionParams;
 use crate::engine::Quality;
 
 /// What is heard of a parameter, by its [identifier](LowActionParams). All strings' tunings share one.
-const HEARD: [(&str, &str); 42] = [
+const HEARD: [(&str, &str); 43] = [
     ("instrument", "The instrument: strings, neck, hands and pickup."),
     ("instrument_file", "An instrument of your own, from your folder, in place of that one."),
     (
@@ -81,6 +81,10 @@ const HEARD: [(&str, &str); 42] = [
     (
         "hand_position",
         "The fret about which the left hand plays what several strings could give; anywhere: it moves as little as it can.",
+    ),
+    (
+        "hand_controllers",
+        "Whether CC 20 to 28 lay palms, capos and more. Off where a keyboard's knobs send them for something else.",
     ),
     ("capo", "The fret of a capo: open strings sound from there. No farther up than leaves five frets."),
 ];

@@ -47,6 +47,9 @@ impl Performance {
         if self.is_mpe() {
             self.agree_on_reach();
         }
+        if !self.touching.hand_controllers {
+            return;
+        }
         self.switches = announced.switches.unwrap_or(self.switches);
         self.hand.set_home(announced.home.unwrap_or(self.hand.home()));
         self.set_capo(announced.capo.unwrap_or(self.hand.asked_capo()));

@@ -138,6 +138,12 @@ impl Articulation {
         }
     }
 
+    /// Puts back what controllers 20 to 25 have set, or keyswitches of it.
+    pub(crate) fn forget_hands(&mut self) {
+        let Self { legato, slide, slide_time, .. } = *self;
+        *self = Self { legato, slide, slide_time, ..Self::PLAIN };
+    }
+
     /// Follows a keyswitch, counted from the first, if there is one of that number. Each takes the
     /// place of the one before; how long slides and strums take stays.
     pub(crate) fn switch(&mut self, number: u8) {

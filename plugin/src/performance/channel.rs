@@ -30,6 +30,11 @@ pub(super) mod controller {
     /// Where on the neck the left hand plays.
     pub const HAND: u8 = 28;
 
+    /// Whether it tells hands what to do, which a keyboard's knobs may not mean.
+    pub fn is_of_hands(number: u8) -> bool {
+        (20..=HAND).contains(&number)
+    }
+
     /// Whether it changes something that belongs to no channel; where notes have channels of their own, one of them that is reset
     /// does not.
     pub fn is_of_all(number: u8, mpe: bool) -> bool {

@@ -163,6 +163,20 @@ impl Performance {
         }
     }
 
+    /// Puts back what controllers that tell hands what to do have set, as they are heard no more.
+    pub(super) fn forget_hand_controllers(&mut self, out: &mut impl GestureSink) {
+        let whose = Whose { channel: MANAGER, others: Channels::ALL };
+        self.begin_chord(out);
+        self.channels.iter_mut().for_each(|channel| channel.articulation.forget_hands());
+        self.set_capo(self.touching.capo.into());
+        self.set_switches(self.touching.keyswitches);
+        self.hand.set_home(self.touching.hand_position);
+        self.tell_chord(Request::Touch, |_| true);
+        self.tell_keys_under(Request::Touch, whose);
+        self.ask(Request::Touch, whose, out);
+        self.lay_palms(whose, out);
+    }
+
     /// Does to every string what is asked.
     pub(super) fn ask(&mut self, request: Request, whose: Whose, out: &mut impl GestureSink) {
         for index in 0..self.strings.len() {

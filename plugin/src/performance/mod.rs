@@ -39,7 +39,7 @@ use crate::controls::Touching;
 pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedAnnotation};
 pub use announced::Announced;
 use articulation::Stop;
-use channel::Channel;
+use channel::{Channel, controller};
 pub(crate) use channels::{Channels, Spoken, announced_members};
 use chord::{JustBegun, Late, Unplaced};
 pub use compromises::Compromises;
@@ -188,6 +188,8 @@ impl Performance {
                 }
                 self.release_keys(channel, out);
             }
+            PlayerEvent::Controller { number, .. }
+                if controller::is_of_hands(number) && !self.touching.hand_controllers => {}
             PlayerEvent::Controller { channel, number, value } => {
                 if self.changes_chord(channel, number) {
                     self.begin_chord(out);
@@ -245,7 +247,11 @@ impl Performance {
         if touching.take != self.touching.take {
             self.variation.begin_take(touching.take);
         }
+        let ceases = self.touching.hand_controllers && !touching.hand_controllers;
         self.touching = *touching;
+        if ceases {
+            self.forget_hand_controllers(out);
+        }
         self.variation.set_amount(touching.variation);
         for channel in &mut self.channels {
             channel.set_range(touching.bend_range, touching.ignore_rpn);

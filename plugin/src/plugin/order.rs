@@ -167,6 +167,7 @@ fn touching_by(params: &LowActionParams, exact: Exact) -> Touching {
         keyswitches: u8::try_from(control.keyswitches.value()).ok(),
         hand_position: u8::try_from(control.hand_position.value()).ok().filter(|&fret| fret > 0),
         capo: u8::try_from(control.capo.value()).unwrap_or(0),
+        hand_controllers: control.hand_controllers.value(),
     }
 }
 
@@ -237,6 +238,7 @@ pub(super) fn remote_controls(params: &LowActionParams, context: &mut impl Remot
         section.add_page("Before playing", |page| {
             page.add_param(&player.take);
             page.add_param(&control.capo);
+            page.add_param(&control.hand_controllers);
         });
     });
 }

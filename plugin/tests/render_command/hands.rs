@@ -46,3 +46,13 @@ fn a_capo_is_that_of_its_controller() {
     let off = rendered(&room, "off.mid", &[]).0;
     assert!(rendered(&room, "none.mid", &["--capo", "2"]).0 == off && off != told.0);
 }
+
+#[test]
+fn controllers_of_hands_are_passed_over_where_that_is_asked_for() {
+    let room = Room::new();
+    write_after(&room, "told.mid", &[[0xB0, 20, 100]]);
+    let [told, usual] = ["told.mid", "song.mid"].map(|song| rendered(&room, song, &[]));
+    let passed = rendered(&room, "told.mid", &["--ignore-hand-controllers"]);
+    assert!(passed.0 == usual.0 && told.0 != usual.0);
+    assert_eq!((&passed.1["ignore_hand_controllers"], &passed.1["notes"]), (&true.into(), &usual.1["notes"]));
+}

@@ -82,6 +82,7 @@ fn they_say_what_they_are_of() {
         ("ignore_rpn", false.into()),
         ("hand_position", Value::Null),
         ("capo", Value::Null),
+        ("ignore_hand_controllers", false.into()),
         ("allow_truncated", false.into()),
         ("tail", "0".into()),
         ("bit_depth", "24".into()),

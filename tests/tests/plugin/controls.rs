@@ -195,6 +195,50 @@ fn the_capo_is_that_of_its_controller() {
     assert!(with(&[("capo", 3.0)], &notes.to_vec()) == third);
 }
 
+/// By bits, of each of them: while they are not heard it is as if they had not been sent, and once they are heard no more as if
+/// they had been put back.
+#[test]
+fn controllers_of_hands_are_heard_or_not() {
+    let heard = |at: u64, on: f64| (at, Action::Parameter(parameter("hand_controllers"), on));
+    let said = |at: u64, number: u8, value: u8| (at, Action::Midi([0xB0, number, value]));
+    // Two notes at once, as strums need, one of them on an open string, as capos do, and both once more.
+    let notes = [(4000, 43), (4000, 50), (12_000, 43), (12_000, 55)];
+    let notes = notes.map(|(at, key)| (at, Action::NoteOn { channel: 0, key, velocity: 100 }));
+    let play = |before: &[(u64, Action)]| with(&[], &[before, &notes].concat());
+    let plain = play(&[]);
+    // What is said by a value, and what takes it back. From key 43 on the lowest note is a keyswitch.
+    let told: [(u8, u8, u8); 9] = [
+        (20, 90, 0),
+        (21, 90, 0),
+        (22, 4, 0),
+        (23, 2, 0),
+        (24, 127, 64),
+        (25, 90, 0),
+        (26, 3, 0),
+        (27, 43, 0),
+        (28, 7, 0),
+    ];
+    for (number, value, usual) in told {
+        // (A strum for an accent to be one of.)
+        let strum = |at: u64, value: u8| (number == 24).then_some(said(at, 21, value));
+        let tell = |at: u64, value: u8, wide: u8| -> Score {
+            strum(at, wide).into_iter().chain([said(at, number, value)]).collect()
+        };
+        let first = tell(1000, value, 90);
+        assert!(play(&first) != plain, "CC {number} changes nothing");
+        assert!(play(&[&[heard(500, 0.0)], &first[..]].concat()) == plain, "CC {number} is heard");
+        let back = play(&[&first[..], &tell(2000, usual, 0)].concat());
+        assert!(play(&[&first[..], &[heard(2000, 0.0)]].concat()) == back, "CC {number} is not put back");
+        // Heard again, they are what is said from then on.
+        let again = [&first[..], &[heard(2000, 0.0), heard(2500, 1.0)]].concat();
+        assert!(play(&again) == back, "CC {number} comes back");
+        assert!(play(&[&again[..], &tell(3000, value, 90)].concat()) != back, "CC {number} stays unheard");
+    }
+    // Others are none of theirs.
+    let swung = said(1000, 1, 127);
+    assert!(play(&[swung]) != plain && play(&[heard(500, 0.0), swung]) == play(&[swung]));
+}
+
 #[test]
 fn level_and_bypass_act_on_the_output_alone() {
     let usual = with(&[], &score());

@@ -373,6 +373,13 @@ const HEARD: &[Heard] = &[
     Heard { id: "keyswitches", values: [0.0, 47.0], beside: &[], score: || on_channel(0, &[]) },
     Heard { id: "hand_position", values: [0.0, 12.0], beside: &[], score },
     Heard { id: "capo", values: [0.0, 5.0], beside: &[], score },
+    // A palm.
+    Heard {
+        id: "hand_controllers",
+        values: [0.0, 1.0],
+        beside: &[],
+        score: || on_channel(0, &[[0xB0, 20, 100]]),
+    },
     // What the other strings of an instrument with a body hear.
     Heard { id: "idle_hands", values: [0.0, 1.0], beside: &[("instrument", 1.0)], score },
     Heard { id: "level", values: [0.0, 1.0], beside: &[], score },

@@ -40,6 +40,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
         keyswitches,
         hand_position,
         capo,
+        hand_controllers,
     } = &given.params.control;
     let mut cells = Cells::new(ui.max_rect(), 6);
     cells.group(ui, "PLUCKS", 2);
@@ -63,6 +64,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
     slider(ui, given, bend_range, cells.next());
     switch(ui, given, ignore_rpn, cells.next());
     slider(ui, given, keyswitches, cells.next());
+    switch(ui, given, hand_controllers, cells.next());
     if let Some(keyboard) = given.keyboard {
         show_keys(ui, given, keyboard, cells.next());
     }

@@ -41,6 +41,7 @@ pub(super) struct About<'a> {
     ignore_rpn: bool,
     hand_position: Option<u8>,
     capo: Option<u8>,
+    ignore_hand_controllers: bool,
     allow_truncated: bool,
     /// In the words of their options.
     tail: String,
@@ -90,6 +91,7 @@ impl Source<'_> {
             ignore_rpn: arguments.ignore_rpn,
             hand_position: arguments.hand_position,
             capo: arguments.capo,
+            ignore_hand_controllers: arguments.ignore_hand_controllers,
             allow_truncated: arguments.allow_truncated,
             tail: arguments.tail.to_string(),
             bit_depth: arguments.bit_depth.to_string(),
