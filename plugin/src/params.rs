@@ -6,6 +6,7 @@
 
 mod choices;
 mod ranges;
+pub(crate) mod settings;
 mod start;
 pub mod words;
 
@@ -13,6 +14,7 @@ use nice_plug::prelude::*;
 
 pub use choices::{InputChoice, InstrumentChoice, LegatoChoice, QualityChoice, RenderChoice, StringOrder};
 pub use ranges::{exact, exact_without_modulation, poly};
+pub use settings::Setting;
 pub(crate) use start::start;
 pub use start::{Start, begin_with};
 

@@ -1,17 +1,17 @@
 //! What each command can be told.
 
+mod taken;
+
 use std::ffi::OsString;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::TypedValueParser;
-use low_action_dsp::neck::Neck;
 
 use super::render::{self, BitDepth, Tail};
 use crate::engine::{EngineOptions, Quality};
-use crate::params::{InputChoice, StringOrder};
-use crate::performance::HIGHEST_CAPO;
+pub use taken::TakenArgs;
 
 /// Arguments of `low-action render`.
 #[derive(Debug, Clone, Args)]
@@ -76,35 +76,9 @@ pub struct RenderArgs {
     /// Play what is there of a song whose last track is cut off, instead of refusing it.
     #[arg(long)]
     pub allow_truncated: bool,
-    /// What channels mean: auto (MPE if the song announces it, or else keyboard), keyboard (string and fret are
-    /// chosen for each note), strings (each channel is a string, as guitar controllers send), mpe (each note has a
-    /// channel, channel 1 acts on all).
-    #[arg(long, value_name = "MODE", default_value = "auto", value_parser = render::parse_choice::<InputChoice>())]
-    pub input: InputChoice,
-    /// The first channel that is a string, 1 to 16, with --input strings; the next string has the next channel
-    /// [default: 1].
-    #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=16), allow_hyphen_values = true)]
-    pub first_channel: Option<u8>,
-    /// Whether that is the set-up's first string, the highest on guitars, or its last [default: first_first].
-    #[arg(long, value_name = "ORDER", value_parser = render::parse_choice::<StringOrder>())]
-    pub string_order: Option<StringOrder>,
-    /// How far a full turn of the pitch wheel bends, 0 to 96 semitones, unless the song says so itself [default: 2]. Not for
-    /// MPE: there it is 48, channel 1's 2, or what the song says.
-    #[arg(long, value_name = "SEMITONES", value_parser = render::parse_bend, allow_hyphen_values = true)]
-    pub bend_range: Option<f64>,
-    /// Pass over what the song says of the bend range (registered parameter 0).
-    #[arg(long)]
-    pub ignore_rpn: bool,
-    /// The fret about which the left hand plays what several strings could give, 1 to 36, unless the song says so itself (CC 28)
-    /// [default: it moves as little as it can].
-    #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=Neck::MOST_FRETS as u64), allow_hyphen_values = true)]
-    pub hand_position: Option<u8>,
-    /// The fret of a capo, 1 to 31, unless the song says so itself (CC 26); no farther up than leaves five frets [default: none].
-    #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=HIGHEST_CAPO as u64), allow_hyphen_values = true)]
-    pub capo: Option<u8>,
-    /// Pass over the controllers by which a song tells hands what to do (CC 20 to 28), where they mean something else.
-    #[arg(long)]
-    pub ignore_hand_controllers: bool,
+    /// How notes are taken.
+    #[command(flatten)]
+    pub taken: TakenArgs,
     /// Longest music accepted, minutes, above 0 to 1e6.
     #[arg(long, value_name = "MIN", default_value_t = 60.0, value_parser = render::parse_minutes, allow_hyphen_values = true)]
     pub max_length: f64,
@@ -259,6 +233,9 @@ pub struct StandAloneArgs {
     /// Samples computed at a time, 1 to 65536: fewer answer sooner, more are safer. JACK has its own [default: 256].
     #[arg(short, long, value_name = "SAMPLES", value_parser = whole::<u32>(1..=65_536), allow_hyphen_values = true)]
     pub period_size: Option<u32>,
+    /// How notes are taken.
+    #[command(flatten)]
+    pub taken: TakenArgs,
     /// Lists outputs and MIDI inputs, and plays nothing.
     #[arg(long)]
     pub list_devices: bool,

@@ -32,7 +32,7 @@ use anyhow::Context;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
-pub use arguments::{InstrumentsArgs, RenderArgs, SceneArgs, StandAloneArgs};
+pub use arguments::{InstrumentsArgs, RenderArgs, SceneArgs, StandAloneArgs, TakenArgs};
 pub use render::{BitDepth, Tail};
 
 /// A fretted string instrument whose strings really hit the frets.
@@ -50,6 +50,8 @@ Examples:
   low-action --instrument tanpura            played by the first keyboard
   low-action --list-devices                  outputs and MIDI inputs by name
   low-action --instrument bass --midi-input \"Keystation 49\" --period-size 128
+  low-action --midi-input GR-55 --input strings --first-channel 11 --bend-range 12
+                                             by a MIDI guitar: channel 11 is the first string
   low-action render                          the built-in demo, to demo.wav
   low-action render song.mid --instrument classical
   low-action scene scene.toml --wav out.wav --trace out.npz

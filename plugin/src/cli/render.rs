@@ -21,13 +21,13 @@ use super::descriptors::descriptor;
 use super::names::{escaped, shown};
 use super::paths::{is_dash, keep_apart};
 pub use super::wav::BitDepth;
-use super::{Failure, Outcome, RenderArgs, instrument, say};
+use super::{Failure, Outcome, RenderArgs, TakenArgs, instrument, say};
 use crate::controls::Touching;
 use crate::demo;
 use crate::engine::{Engine, EngineOptions};
 use crate::midi_file::{LARGEST_FILE, Selection, Song};
-use crate::params::{InputChoice, StringOrder};
-use crate::performance::{Compromises, InputMode, LONGEST_WAIT};
+use crate::params::InputChoice;
+use crate::performance::{Compromises, LONGEST_WAIT};
 use files::{Files, stem_paths};
 use labels::Source;
 pub use options::Tail;
@@ -36,9 +36,9 @@ use rendering::{Cut, Rendered, Rendering};
 
 /// Renders a song.
 pub(super) fn run(arguments: &RenderArgs) -> Outcome {
-    let input = input_mode(arguments)?;
+    let input = arguments.taken.mode()?;
     let (setup, setup_file) = instrument::load(&arguments.instrument)?;
-    let bend_range = arguments.bend_range.unwrap_or(EngineOptions::BEND_RANGE);
+    let bend_range = arguments.taken.bend_range.unwrap_or(EngineOptions::BEND_RANGE);
     let options = EngineOptions {
         quality: arguments.quality,
         variation: arguments.variation,
@@ -70,11 +70,15 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     }
     engine.set_input(input);
     let touching = Touching::new(arguments.variation, bend_range);
-    let RenderArgs { ignore_rpn, hand_position, .. } = *arguments;
-    let capo = arguments.capo.unwrap_or(0);
-    let hand_controllers = !arguments.ignore_hand_controllers;
-    let touching =
-        Touching { take: arguments.seed, ignore_rpn, hand_position, capo, hand_controllers, ..touching };
+    let TakenArgs { ignore_rpn, hand_position, capo, ignore_hand_controllers, .. } = arguments.taken;
+    let touching = Touching {
+        take: arguments.seed,
+        ignore_rpn,
+        hand_position,
+        capo: capo.unwrap_or(0),
+        hand_controllers: !ignore_hand_controllers,
+        ..touching
+    };
     engine.touch(&touching);
     let files = Files::begin(arguments, &output, &names)?;
 
@@ -90,26 +94,6 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
 fn threads(arguments: &RenderArgs) -> NonZeroUsize {
     let asked = arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into()));
     asked.unwrap_or_else(|| thread::available_parallelism().unwrap_or(NonZeroUsize::MIN))
-}
-
-/// What channels mean; refuses what would say so in vain.
-fn input_mode(arguments: &RenderArgs) -> Result<InputMode, Failure> {
-    let RenderArgs { input, first_channel, string_order, .. } = arguments;
-    let of_strings =
-        [("--first-channel", first_channel.is_some()), ("--string-order", string_order.is_some())];
-    if arguments.bend_range.is_some() && *input == InputChoice::Mpe {
-        let reason = "--bend-range is not for --input mpe: there wheels reach 48 semitones, channel 1's 2, or what the song says";
-        return Err(Failure::Usage(reason.into()));
-    }
-    if arguments.hand_position.is_some() && *input == InputChoice::Strings {
-        let reason =
-            "--hand-position is not for --input strings: there each note has its string, and so its fret";
-        return Err(Failure::Usage(reason.into()));
-    }
-    match of_strings.into_iter().find(|&(_, given)| given && *input != InputChoice::Strings) {
-        Some((option, _)) => Err(Failure::Usage(format!("{option} is only for --input strings"))),
-        None => Ok(input.mode(first_channel.unwrap_or(1), string_order.unwrap_or(StringOrder::FirstFirst))),
-    }
 }
 
 /// What the song is called in messages.
@@ -131,7 +115,7 @@ fn read_song(arguments: &RenderArgs) -> Result<Song> {
     let selection = Selection {
         track: arguments.track.map(usize::from),
         channel: arguments.channel,
-        tenth: matches!(arguments.input, InputChoice::Strings | InputChoice::Mpe),
+        tenth: matches!(arguments.taken.input, InputChoice::Strings | InputChoice::Mpe),
         truncated: arguments.allow_truncated,
     };
     let Some(path) = &arguments.song else {

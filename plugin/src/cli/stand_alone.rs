@@ -18,7 +18,8 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
         unless_closed(std::io::stdout().write_all(standalone::list().as_bytes()))?;
         return Ok(());
     }
-    let mut start = Start { quality: arguments.quality, ..Start::default() };
+    let settings = arguments.taken.settings()?;
+    let mut start = Start { quality: arguments.quality, settings, ..Start::default() };
     let name = arguments.instrument.to_string_lossy();
     let setup = match (crate::params::InstrumentChoice::named(&name), Setup::shipped(&name)) {
         (Some(choice), Some(setup)) => {

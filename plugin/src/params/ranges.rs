@@ -5,6 +5,7 @@ use std::sync::Arc;
 use low_action_dsp::neck::Neck;
 use nice_plug::prelude::*;
 
+use super::settings;
 use super::start::{Start, start};
 use super::{
     ControlParams, InputChoice, InstrumentParams, LegatoChoice, LowActionParams, OutputParams, PlayerParams,
@@ -37,7 +38,7 @@ impl Default for LowActionParams {
 impl LowActionParams {
     /// Everything as usual but for the start, with such files of the user's.
     pub(crate) fn new(shelf: Shelf, start: &Start) -> Self {
-        Self {
+        let new = Self {
             mark: Marked,
             layout: start.layout.clone(),
             instrument: InstrumentParams::new(&shelf, start),
@@ -47,7 +48,9 @@ impl LowActionParams {
             player: PlayerParams::default(),
             control: ControlParams::default(),
             output: OutputParams::default(),
-        }
+        };
+        settings::apply(&new, &start.settings);
+        new
     }
 }
 
@@ -211,7 +214,7 @@ fn shift(name: &str, min: f32, max: f32, unit: &'static str, step: f32) -> Float
 }
 
 /// The number that a text begins with, whatever unit follows it, with a point or a comma.
-fn number(text: &str) -> Option<f32> {
+pub(super) fn number(text: &str) -> Option<f32> {
     let text = text.trim().trim_end_matches(|letter: char| !letter.is_ascii_digit());
     text.replace(',', ".").replace('−', "-").parse().ok()
 }

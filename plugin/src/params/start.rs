@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, OnceLock};
 
-use super::InstrumentChoice;
+use super::{InstrumentChoice, Setting};
 use crate::engine::Quality;
 use crate::plugin::layout::Layout;
 
@@ -16,6 +16,8 @@ pub struct Start {
     pub file: Option<(String, String)>,
     /// How much computing.
     pub quality: Quality,
+    /// What is set of everything else, the later ones in place of those before.
+    pub settings: Vec<Setting>,
     /// Whether there is no display to open a window on.
     pub windowless: bool,
     /// How the window was left; all that are made share it.

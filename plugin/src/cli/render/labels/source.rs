@@ -72,6 +72,7 @@ impl Source<'_> {
     /// What is to be said of a sound of so many samples.
     pub(super) fn about(&self, samples: u64) -> About<'_> {
         let Self { arguments, setup } = *self;
+        let taken = &arguments.taken;
         About {
             program: concat!("low-action ", env!("CARGO_PKG_VERSION")),
             song: arguments.song.as_ref().map(|song| song.to_string_lossy().into_owned()),
@@ -84,14 +85,14 @@ impl Source<'_> {
             seed: arguments.seed,
             track: arguments.track,
             channel: arguments.channel,
-            input: id(arguments.input, InputChoice::ids()),
-            first_channel: arguments.first_channel,
-            string_order: arguments.string_order.and_then(|order| id(order, StringOrder::ids())),
-            bend_range: arguments.bend_range,
-            ignore_rpn: arguments.ignore_rpn,
-            hand_position: arguments.hand_position,
-            capo: arguments.capo,
-            ignore_hand_controllers: arguments.ignore_hand_controllers,
+            input: id(taken.input, InputChoice::ids()),
+            first_channel: taken.first_channel,
+            string_order: taken.string_order.and_then(|order| id(order, StringOrder::ids())),
+            bend_range: taken.bend_range,
+            ignore_rpn: taken.ignore_rpn,
+            hand_position: taken.hand_position,
+            capo: taken.capo,
+            ignore_hand_controllers: taken.ignore_hand_controllers,
             allow_truncated: arguments.allow_truncated,
             tail: arguments.tail.to_string(),
             bit_depth: arguments.bit_depth.to_string(),
