@@ -30,6 +30,8 @@ Examples:
   low-action render song.mid --hand-position 7 -o higher.wav
                                                the same notes farther up the neck
   low-action render song.mid --capo 3          with a capo on the third fret
+  low-action render song.mid --legato always --set pluck_position=40 --set finger_force=60
+                                               as the plugins are set
   low-action render song.mid --labels song.json
                                                with ground truth of every note
   low-action render song.mid --labels song.json --skip-existing

@@ -21,7 +21,7 @@ use super::descriptors::descriptor;
 use super::names::{escaped, shown};
 use super::paths::{is_dash, keep_apart};
 pub use super::wav::BitDepth;
-use super::{Failure, Outcome, RenderArgs, TakenArgs, instrument, say};
+use super::{Failure, Outcome, RenderArgs, instrument, say};
 use crate::controls::Touching;
 use crate::demo;
 use crate::engine::{Engine, EngineOptions};
@@ -37,13 +37,14 @@ use rendering::{Cut, Rendered, Rendering};
 /// Renders a song.
 pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let input = arguments.taken.mode()?;
-    let (setup, setup_file) = instrument::load(&arguments.instrument)?;
-    let bend_range = arguments.taken.bend_range.unwrap_or(EngineOptions::BEND_RANGE);
+    refuse_settings(arguments)?;
+    let (mut setup, setup_file) = instrument::load(&arguments.instrument)?;
+    arguments.taken.work_on(&mut setup);
     let options = EngineOptions {
         quality: arguments.quality,
         variation: arguments.variation,
         seed: arguments.seed,
-        bend_range,
+        bend_range: arguments.taken.bend_range.unwrap_or(EngineOptions::BEND_RANGE),
         threads: threads(arguments),
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
     };
@@ -63,22 +64,14 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let mut engine =
         Engine::new(&options).with_context(|| escaped(&arguments.instrument.to_string_lossy()))?;
     // (Of those that come with the program it is known, and what they are for.)
-    if setup_file.is_some()
+    if (setup_file.is_some() || !arguments.taken.set.is_empty())
         && let Some(warning) = tuning::out_of_tune(&options.setup, engine.instrument(), options.quality)?
     {
         warn(arguments, &warning);
     }
     engine.set_input(input);
-    let touching = Touching::new(arguments.variation, bend_range);
-    let TakenArgs { ignore_rpn, hand_position, capo, ignore_hand_controllers, .. } = arguments.taken;
-    let touching = Touching {
-        take: arguments.seed,
-        ignore_rpn,
-        hand_position,
-        capo: capo.unwrap_or(0),
-        hand_controllers: !ignore_hand_controllers,
-        ..touching
-    };
+    let touching =
+        Touching { take: options.seed, variation: options.variation, ..arguments.taken.touching() };
     engine.touch(&touching);
     let files = Files::begin(arguments, &output, &names)?;
 
@@ -94,6 +87,17 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
 fn threads(arguments: &RenderArgs) -> NonZeroUsize {
     let asked = arguments.threads.and_then(|threads| NonZeroUsize::new(threads.into()));
     asked.unwrap_or_else(|| thread::available_parallelism().unwrap_or(NonZeroUsize::MIN))
+}
+
+/// Refuses settings that a song has options for.
+fn refuse_settings(arguments: &RenderArgs) -> Outcome {
+    let own = [("variation", "--variation"), ("take", "--seed")];
+    match own.into_iter().find(|(id, _)| arguments.taken.set.iter().any(|setting| setting.id() == *id)) {
+        Some((id, option)) => {
+            Err(Failure::Usage(format!("--set {id} is for the stand-alone instrument: a song has {option}")))
+        }
+        None => Ok(()),
+    }
 }
 
 /// What the song is called in messages.

@@ -21,7 +21,7 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
     let settings = arguments.taken.settings()?;
     let mut start = Start { quality: arguments.quality, settings, ..Start::default() };
     let name = arguments.instrument.to_string_lossy();
-    let setup = match (crate::params::InstrumentChoice::named(&name), Setup::shipped(&name)) {
+    let mut setup = match (crate::params::InstrumentChoice::named(&name), Setup::shipped(&name)) {
         (Some(choice), Some(setup)) => {
             start.instrument = choice;
             setup
@@ -33,6 +33,7 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
             setup
         }
     };
+    arguments.taken.work_on(&mut setup);
     let devices = Devices {
         backend: arguments.backend.clone(),
         output: arguments.output_device.clone(),

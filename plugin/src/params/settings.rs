@@ -44,6 +44,13 @@ impl Setting {
     }
 }
 
+/// The identifiers of all that hands and luthiers have to do with: what is played, how exactly, and what becomes of the sound is
+/// not of it.
+pub(crate) fn ids() -> Vec<String> {
+    let is_other = |group: &str| ["Instrument", "Output"].contains(&group);
+    usual().param_map().into_iter().filter(|(.., group)| !is_other(group)).map(|(id, ..)| id).collect()
+}
+
 /// The parameters with such values, the later ones in place of those before, and everything else as usual.
 pub(crate) fn with(settings: &[Setting]) -> LowActionParams {
     LowActionParams::new(Shelf::new(Vec::new()), &Start { settings: settings.to_vec(), ..Start::default() })

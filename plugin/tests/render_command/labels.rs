@@ -64,6 +64,10 @@ fn they_say_what_they_are_of() {
         "none",
         "--track",
         "1",
+        "--set",
+        "finger_force=60",
+        "--set",
+        "velocity_curve=2",
     ]);
     let (text, labels) = read(&room, "x.json");
     for (key, expected) in [
@@ -82,6 +86,8 @@ fn they_say_what_they_are_of() {
         ("ignore_rpn", false.into()),
         ("hand_position", Value::Null),
         ("capo", Value::Null),
+        ("legato", "pedal".into()),
+        ("set", serde_json::json!({ "finger_force": "60 %", "velocity_curve": "2.00" })),
         ("ignore_hand_controllers", false.into()),
         ("allow_truncated", false.into()),
         ("tail", "0".into()),

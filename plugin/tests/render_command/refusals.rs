@@ -45,6 +45,19 @@ fn wrong_usage_is_code_2() {
             "--hand-position is not for --input strings",
         ),
         (&["render", "song.mid", "--bend-range", "97"], "0 to 96 semitones"),
+        (&["render", "song.mid", "--legato", "never"], "pedal, always"),
+        (&["render", "song.mid", "--set", "pluck_force"], "must be ID=VALUE, as velocity_curve=2"),
+        (&["render", "song.mid", "--set", "pluck_force=501"], "pluck_force must be 5 % to 500 %"),
+        (&["render", "song.mid", "--set", "keyswitches=109"], "keyswitches must be off, or 0 to 108"),
+        (
+            &["render", "song.mid", "--set", "level=0"],
+            "there is no parameter level: must be action, relief, ",
+        ),
+        (&["render", "song.mid", "--set", "capo=2"], "capo has an option of its own, --capo"),
+        (
+            &["render", "song.mid", "--set", "take=2"],
+            "--set take is for the stand-alone instrument: a song has --seed",
+        ),
         (&["render", "song.mid", "--hand-position", "0"], "must be a whole number from 1 to 36"),
         (
             &["render", "song.mid", "--capo", "32"],

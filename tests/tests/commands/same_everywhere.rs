@@ -6,7 +6,7 @@ use low_action::engine::{Engine, EngineOptions, Quality};
 use low_action::midi_file::{Selection, Song};
 use low_action_dsp::Setup;
 use low_action_tests::command::Workplace;
-use low_action_tests::host::{Action, Host, Score};
+use low_action_tests::host::{Action, Host, Score, parameter};
 use low_action_tests::midi::{file, track};
 use low_action_tests::stage::peak;
 
@@ -46,12 +46,12 @@ fn song() -> Vec<u8> {
 }
 
 /// Both channels of the file that the command line makes of it.
-fn rendered() -> [Vec<f32>; 2] {
+fn rendered(options: &[&str]) -> [Vec<f32>; 2] {
     let place = Workplace::new(env!("CARGO_BIN_EXE_low-action-command"));
     place.write("song.mid", song());
     // A second after its end at a tick of 90.
     let arguments = ["render", "song.mid", "-o", "out.wav", "-b", "32f", "-q", "studio", "--tail", "1"];
-    let done = place.run(&arguments);
+    let done = place.run(&[&arguments[..], options].concat());
     assert_eq!(done.code, 0, "{}", done.error);
     let samples: Vec<f32> = WavReader::open(place.path("out.wav"))
         .expect("it is a WAV file")
@@ -76,10 +76,14 @@ fn played() -> [Vec<f32>; 2] {
 }
 
 /// Both channels of the plugin in a host.
-fn hosted() -> [Vec<f32>; 2] {
+fn hosted(settings: &[(&str, f64)]) -> [Vec<f32>; 2] {
+    let mut host = Host::new();
+    let set = settings.iter().map(|&(id, value)| (0, Action::Parameter(parameter(id), value))).collect();
+    // A first activation takes the values in; the second begins with them.
+    host.play(f64::from(RATE), &set, 64, &[64]);
     let score: Score =
         MESSAGES.iter().map(|(tick, message)| (TICK * u64::from(*tick), Action::Midi(*message))).collect();
-    Host::new().play(f64::from(RATE), &score, LENGTH, &[480, 1, 960])
+    host.play(f64::from(RATE), &score, LENGTH, &[480, 1, 960])
 }
 
 /// Fails at the first sample that is not the same bits.
@@ -90,9 +94,49 @@ fn assert_same_bits(expected: &[f32], found: &[f32], what: &str) {
     }
 }
 
+/// Options of a command, and what a host sets for them, 0 to 1 or by steps.
+type Told = (&'static [&'static str], &'static [(&'static str, f64)]);
+
+/// What can be told of hands and strings.
+const TOLD: [Told; 8] = [
+    (&["--seed", "7"], &[("take", 7.0)]),
+    (&["--capo", "2"], &[("capo", 2.0)]),
+    (&["--legato", "always", "--input", "strings"], &[("legato", 1.0), ("input_mode", 2.0)]),
+    (&["--ignore-hand-controllers"], &[("hand_controllers", 0.0)]),
+    (&["--set", "velocity_curve=2.5"], &[("velocity_curve", 0.625)]),
+    (&["--set", "keyswitches=45"], &[("keyswitches", 46.0)]),
+    (
+        &["--set", "pluck_position=20 mm", "--set", "pluck_softest=25"],
+        &[("pluck_position", 0.4), ("pluck_softest", 0.25)],
+    ),
+    (
+        &["--set", "string_tuning_6=-2", "--set", "tension_modulation=off"],
+        &[("string_tuning_6", 10.0 / 19.0), ("tension_modulation", 0.0)],
+    ),
+];
+
+#[test]
+fn what_a_command_is_told_is_what_a_host_sets() {
+    let usual = hosted(&[]);
+    let late = Engine::LATENCY as usize;
+    for (options, settings) in TOLD {
+        let (rendered, hosted) = (rendered(options), hosted(settings));
+        assert!(hosted != usual, "{options:?} changes nothing");
+        for side in [0, 1] {
+            let common = (LENGTH - late).min(rendered[side].len());
+            assert!(common > LENGTH / 2, "{options:?}: the file has {common} samples");
+            assert_same_bits(
+                &hosted[side][late..][..common],
+                &rendered[side][..common],
+                &format!("{options:?}"),
+            );
+        }
+    }
+}
+
 #[test]
 fn a_song_sounds_the_same_as_a_file_in_a_host_and_alone() {
-    let (rendered, played, hosted) = (rendered(), played(), hosted());
+    let (rendered, played, hosted) = (rendered(&[]), played(), hosted(&[]));
     let late = Engine::LATENCY as usize;
     assert!(late > 0);
     for side in [0, 1] {

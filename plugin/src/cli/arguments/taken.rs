@@ -1,13 +1,17 @@
 //! How notes and controllers are taken: what a song and what a keyboard or guitar can be told of alike.
 
 use clap::Args;
+use low_action_dsp::Setup;
 use low_action_dsp::neck::Neck;
 use nice_plug::prelude::Enum;
 
 use super::whole;
 use crate::cli::{Failure, render};
-use crate::params::{InputChoice, Setting, StringOrder};
+use crate::controls::Touching;
+use crate::engine::EngineOptions;
+use crate::params::{InputChoice, LegatoChoice, Setting, StringOrder, settings};
 use crate::performance::{HIGHEST_CAPO, InputMode};
+use crate::plugin::order::{self, Order};
 
 /// Options of `render` and of the stand-alone instrument.
 #[derive(Debug, Clone, Args)]
@@ -39,9 +43,43 @@ pub struct TakenArgs {
     /// [default: none].
     #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=HIGHEST_CAPO as u64), allow_hyphen_values = true)]
     pub capo: Option<u8>,
+    /// When overlapping notes on one string are connected by hammers, pulls and slides: pedal (while CC 68 or 65 is down) or always.
+    #[arg(long, value_name = "WHEN", default_value = "pedal", value_parser = render::parse_choice::<LegatoChoice>())]
+    pub legato: LegatoChoice,
     /// Pass over the controllers that tell hands what to do (CC 20 to 28), where they mean something else.
     #[arg(long)]
     pub ignore_hand_controllers: bool,
+    /// Set another parameter of the plugins, of those of hands, set-up, strings and control, to what they show: velocity_curve=2,
+    /// keyswitches=36, pluck_force=\"80 %\"; any number of times.
+    #[arg(long, value_name = "ID=VALUE", value_parser = parse_setting, allow_hyphen_values = true)]
+    pub set: Vec<Setting>,
+}
+
+/// Parameters that have options of their own.
+const OWN: [(&str, &str); 9] = [
+    ("input_mode", "--input"),
+    ("first_channel", "--first-channel"),
+    ("string_order", "--string-order"),
+    ("bend_range", "--bend-range"),
+    ("ignore_rpn", "--ignore-rpn"),
+    ("hand_position", "--hand-position"),
+    ("capo", "--capo"),
+    ("legato", "--legato"),
+    ("hand_controllers", "--ignore-hand-controllers"),
+];
+
+/// Reads `--set`.
+fn parse_setting(text: &str) -> Result<Setting, String> {
+    let (id, value) = text.split_once('=').ok_or("must be ID=VALUE, as velocity_curve=2")?;
+    if let Some((_, option)) = OWN.iter().find(|(own, _)| *own == id) {
+        return Err(format!("{id} has an option of its own, {option}"));
+    }
+    let ids: Vec<String> =
+        settings::ids().into_iter().filter(|known| OWN.iter().all(|(own, _)| own != known)).collect();
+    match ids.iter().any(|known| known == id) {
+        true => Setting::read(id, value),
+        false => Err(format!("there is no parameter {id}: must be {}", ids.join(", "))),
+    }
 }
 
 impl TakenArgs {
@@ -68,6 +106,26 @@ impl TakenArgs {
         }
     }
 
+    /// How hands act, as far as they are told here.
+    pub(in crate::cli) fn touching(&self) -> Touching {
+        Touching {
+            bend_range: self.bend_range.unwrap_or(EngineOptions::BEND_RANGE),
+            ignore_rpn: self.ignore_rpn,
+            hand_position: self.hand_position,
+            capo: self.capo.unwrap_or(0),
+            legato: self.legato == LegatoChoice::Always,
+            hand_controllers: !self.ignore_hand_controllers,
+            ..order::touching(&settings::with(&self.set))
+        }
+    }
+
+    /// Does to a set-up what is set of it.
+    pub(in crate::cli) fn work_on(&self, setup: &mut Setup) {
+        if !self.set.is_empty() {
+            Order::of(&settings::with(&self.set), 0.0, false).luthier.work_on(setup);
+        }
+    }
+
     /// The same as values of parameters; refuses what would say something in vain, and what they do not have.
     #[cfg_attr(not(any(feature = "standalone", test)), expect(dead_code, reason = "nobody begins with them"))]
     pub(in crate::cli) fn settings(&self) -> Result<Vec<Setting>, Failure> {
@@ -88,10 +146,11 @@ impl TakenArgs {
             ("ignore_rpn", off(self.ignore_rpn, "On")),
             ("hand_position", self.hand_position.map(number)),
             ("capo", self.capo.map(number)),
+            ("legato", named(self.legato.to_index(), LegatoChoice::variants())),
             ("hand_controllers", off(self.ignore_hand_controllers, "Off")),
         ];
         let told = told.into_iter().filter_map(|(id, text)| Some(Setting::read(id, &text?)));
-        told.collect::<Result<_, _>>().map_err(Failure::Usage)
+        told.chain(self.set.iter().cloned().map(Ok)).collect::<Result<_, _>>().map_err(Failure::Usage)
     }
 }
 
@@ -100,8 +159,6 @@ mod tests {
     use clap::Parser;
 
     use super::*;
-    use crate::params::settings;
-    use crate::plugin::order;
 
     #[derive(Parser)]
     struct Line {
@@ -117,11 +174,13 @@ mod tests {
     #[test]
     fn the_instrument_begins_as_its_options_say() {
         let line = "--input strings --first-channel 11 --string-order last_first --bend-range 12 --ignore-rpn --capo 2 \
-                    --ignore-hand-controllers";
+                    --ignore-hand-controllers --legato always --set keyswitches=36";
         let params = settings::with(&taken(line).settings().unwrap());
         assert_eq!(order::input(&params), InputMode::Strings { first: 10, from_last: true });
         let usual = order::touching(&settings::with(&[]));
-        let expected = crate::controls::Touching {
+        let expected = Touching {
+            legato: true,
+            keyswitches: Some(36),
             bend_range: 12.0,
             ignore_rpn: true,
             capo: 2,
@@ -129,6 +188,8 @@ mod tests {
             ..usual
         };
         assert_eq!(order::touching(&params), expected);
+        // As a song is rendered.
+        assert_eq!(taken(line).touching(), expected);
         let params = settings::with(&taken("--input mpe").settings().unwrap());
         assert_eq!((order::input(&params), order::touching(&params)), (InputMode::Mpe, usual));
         let params = settings::with(&taken("--hand-position 7").settings().unwrap());

@@ -1,5 +1,7 @@
 //! What a sound was made from.
 
+use std::collections::BTreeMap;
+
 use low_action_dsp::setup::{SetupString, frequency};
 use low_action_dsp::{Error, Instrument, Setup};
 use nice_plug::prelude::Enum;
@@ -7,7 +9,7 @@ use serde::Serialize;
 
 use crate::cli::RenderArgs;
 use crate::cli::render::tuning::stopped;
-use crate::params::{InputChoice, StringOrder};
+use crate::params::{InputChoice, LegatoChoice, StringOrder};
 
 /// What a sound is made from.
 pub(in crate::cli::render) struct Source<'a> {
@@ -41,7 +43,10 @@ pub(super) struct About<'a> {
     ignore_rpn: bool,
     hand_position: Option<u8>,
     capo: Option<u8>,
+    legato: Option<&'static str>,
     ignore_hand_controllers: bool,
+    /// Parameters by their identifiers, as hosts show them.
+    set: BTreeMap<&'a str, &'a str>,
     allow_truncated: bool,
     /// In the words of their options.
     tail: String,
@@ -92,7 +97,9 @@ impl Source<'_> {
             ignore_rpn: taken.ignore_rpn,
             hand_position: taken.hand_position,
             capo: taken.capo,
+            legato: id(taken.legato, LegatoChoice::ids()),
             ignore_hand_controllers: taken.ignore_hand_controllers,
+            set: taken.set.iter().map(|setting| (setting.id(), setting.shown())).collect(),
             allow_truncated: arguments.allow_truncated,
             tail: arguments.tail.to_string(),
             bit_depth: arguments.bit_depth.to_string(),
