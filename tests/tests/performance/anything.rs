@@ -71,40 +71,37 @@ fn any_touching() -> impl Strategy<Value = Touching> {
     // (Steps of the range of the wheel are whole, and keys from −1 on.)
     let told = (ranged(&control.bend_range), any::<bool>(), ranged(&control.tremolo_arm), any::<bool>());
     let keyswitches = prop_oneof![Just(-1.0), 0.0..60.0, ranged(&control.keyswitches)];
-    let places =
-        (keyswitches, any::<Option<u8>>(), prop_oneof![3 => Just(0), 1 => any::<u8>()], any::<bool>());
-    (plucks, fingers, told, places).prop_map(
-        |(plucks, fingers, told, (keyswitches, hand_position, capo, hand_controllers))| {
-            let (position, pluck_force, pluck_softest, pluck_duration, release, velocity_curve, variation) =
-                plucks;
-            let (finger_force, finger_hardness, finger_mass, finger_hover, hand_damping) = fingers;
-            let (bend_range, ignore_rpn, tremolo_arm, legato) = told;
-            Touching {
-                // The parameters are in mm and ms.
-                pluck_position: 1e-3 * position,
-                pluck_release: 1e-3 * release,
-                pluck_force,
-                pluck_softest,
-                pluck_duration,
-                velocity_curve,
-                variation,
-                take: 0,
-                finger_force,
-                finger_hardness,
-                finger_mass,
-                finger_hover,
-                hand_damping,
-                bend_range: bend_range.round(),
-                ignore_rpn,
-                tremolo_arm,
-                legato,
-                keyswitches: (keyswitches >= 0.0).then_some(keyswitches as u8),
-                hand_position,
-                capo,
-                hand_controllers,
-            }
-        },
-    )
+    let places = (keyswitches, any::<Option<u8>>());
+    (plucks, fingers, told, places).prop_map(|(plucks, fingers, told, (keyswitches, hand_position))| {
+        let (position, pluck_force, pluck_softest, pluck_duration, release, velocity_curve, variation) =
+            plucks;
+        let (finger_force, finger_hardness, finger_mass, finger_hover, hand_damping) = fingers;
+        let (bend_range, ignore_rpn, tremolo_arm, legato) = told;
+        Touching {
+            // The parameters are in mm and ms.
+            pluck_position: 1e-3 * position,
+            pluck_release: 1e-3 * release,
+            pluck_force,
+            pluck_softest,
+            pluck_duration,
+            velocity_curve,
+            variation,
+            take: 0,
+            finger_force,
+            finger_hardness,
+            finger_mass,
+            finger_hover,
+            hand_damping,
+            bend_range: bend_range.round(),
+            ignore_rpn,
+            tremolo_arm,
+            legato,
+            keyswitches: (keyswitches >= 0.0).then_some(keyswitches as u8),
+            hand_position,
+            capo: 0,
+            hand_controllers: true,
+        }
+    })
 }
 
 /// Largest factor of a force that a note can have for itself.
