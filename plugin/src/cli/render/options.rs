@@ -10,7 +10,7 @@ use crate::engine::EngineOptions;
 
 /// What `auto` waits at most, s: as long as the instrument's own losses need for as much as it waits for, and a tenth more, but no
 /// less than the one, which ends what nothing damps (a tremolo whose key stays down), and no more than the other: without losses it
-/// would wait for ever. The longest strings of the set-ups that come with the program need 16 to 37 s.
+/// would wait for ever. The longest strings of the set-ups that come with the program need 11 to 37 s.
 const LONGEST_TAIL: (f64, f64) = (30.0, 120.0);
 
 /// How long to go on after the last event.
