@@ -1,5 +1,7 @@
 //! What a host and a player notice of an engine at work.
 
+use std::time::Duration;
+
 use nice_plug::midi::{Channel, Key, VoiceID};
 
 use super::*;
@@ -178,4 +180,23 @@ fn only_what_plays_in_real_time_looks_at_the_clock() {
     let meters = Arc::new(Meters::default());
     assert!(playing(order(), false, &meters).start_clock().is_some());
     assert!(playing(order(), true, &meters).start_clock().is_none());
+}
+
+/// What a clock says that was started a second ago, in no time: later than any block may be.
+#[test]
+fn a_block_that_took_too_long_by_the_clock_relaxes_what_comes_if_it_may() {
+    for may_relax in [false, true] {
+        let meters = Arc::new(Meters::default());
+        let mut playing = playing(order(), false, &meters);
+        let started = Instant::now().checked_sub(Duration::from_secs(1));
+        assert!(started.is_some(), "the clock has run for a second");
+        playing.stop_clock(started, 480, may_relax);
+        assert_eq!(meters.relaxed(), may_relax);
+        assert!(meters.load() > 1.0, "{}", meters.load());
+        // Whoever has not started it has all the time there is.
+        let meters = Arc::new(Meters::default());
+        let mut playing = self::playing(order(), true, &meters);
+        playing.stop_clock(None, 480, may_relax);
+        assert!(!meters.relaxed() && meters.load() == 0.0);
+    }
 }
