@@ -1,6 +1,7 @@
 //! The promise: every note that sounds has one label, and its words say what hands do. What it has of numbers is what the
 //! physics is given.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -193,6 +194,8 @@ fn what_connects_notes_and_what_ends_them_has_its_word() {
 
 #[test]
 fn numbers_of_a_note_are_those_of_the_gesture_that_makes_it_sound() {
+    // How many notes of each technique there are to look at, and by what gesture.
+    let mut checked: BTreeMap<(String, String), usize> = BTreeMap::new();
     for (name, bytes) in documented() {
         let played = render(PROGRAM, &bytes, &FAST);
         let gestures = list(&played.labels, "gestures");
@@ -206,7 +209,29 @@ fn numbers_of_a_note_are_those_of_the_gesture_that_makes_it_sound() {
                         .iter()
                         .all(|&key| gesture[key].as_f64() == note[format!("stroke_{key}")].as_f64())
             });
-            assert!(made_by.is_some(), "{name}: {note}");
+            let made_by = made_by.unwrap_or_else(|| panic!("{name}: {note}"));
+            let [technique, gesture] = [&note["technique"], &made_by["gesture"]]
+                .map(|word| word.as_str().expect("a word").to_owned());
+            *checked.entry((technique, gesture)).or_default() += 1;
         }
     }
+    println!("{checked:?}");
+    let kinds = [
+        ("hammer_on", "throw"),
+        ("pinch", "pluck"),
+        ("pluck", "pluck"),
+        ("pop", "pluck"),
+        ("pull_off", "pluck"),
+        ("rest_stroke", "pluck"),
+        ("slap", "throw"),
+        ("slide", "slide"),
+        ("tap", "throw"),
+        ("up_stroke", "pluck"),
+    ];
+    let found = checked.keys().map(|(technique, gesture)| (technique.as_str(), gesture.as_str()));
+    assert!(found.eq(kinds), "{checked:?}");
+    assert!(
+        checked.values().all(|&notes| notes >= 5) && checked.values().sum::<usize>() > 500,
+        "{checked:?}"
+    );
 }
