@@ -80,15 +80,18 @@ fn bass_chords_are_loud_enough_and_never_clip() {
     check("bass", &chords);
 }
 
-/// Harder plucks are louder: by 3 to 12 dB from velocity 60 to 100, of which the player's law asks 6.7.
+/// From velocity 60 to 100 force grows by 6.7 dB, as velocity's power of 1.5, and so does the peak: within 2 dB, for hard plucks hit
+/// frets, which takes some of it, and slip off faster, which makes edges sharper.
 #[test]
 fn velocity_is_heard() {
+    let law = 30.0 * (100.0_f64 / 60.0).log10();
     for name in Setup::BUILTIN {
         let setup = Setup::builtin(name).unwrap();
         let keys: &[u8] = if name == "bass" { &BASS[0] } else { &GUITAR[0] };
         let [soft, loud] = [60, 100].map(|velocity| peak(&chord(&setup, keys, velocity, 0.0, 0.5)));
         let rise = 20.0 * (loud / soft).log10();
-        assert!((3.0..12.0).contains(&rise), "{name}: {rise:.1} dB");
+        println!("{name}: {rise:.1} dB");
+        assert!((rise - law).abs() < 2.0, "{name}: {rise:.1} dB and not {law:.1}");
     }
 }
 
