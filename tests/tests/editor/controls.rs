@@ -53,16 +53,18 @@ fn a_drag_is_one_gesture_and_shift_is_finer() {
     assert!(is_gesture(&desk.host.take(), "variation"));
     let coarse = desk.params.player.variation.value() - 0.25;
     assert!((0.15..0.4).contains(&coarse), "{coarse}");
+    // Ten times as far comes to as much, within the hundredths in which the value goes.
     desk.point(from);
     desk.press(from, true, Modifiers::SHIFT);
     for step in 1..=10 {
-        let to = from - vec2(4.0 * step as f32, 0.0);
+        let to = from + vec2(40.0 * step as f32, 0.0);
         desk.harness.event_modifiers(Event::PointerMoved(to), Modifiers::SHIFT);
         desk.picture();
     }
-    desk.press(from - vec2(40.0, 0.0), false, Modifiers::SHIFT);
-    let fine = 0.25 + coarse - desk.params.player.variation.value();
-    assert!((0.5 * coarse..2.0 * coarse).contains(&(10.0 * fine)), "{coarse} and {fine}");
+    desk.press(from + vec2(400.0, 0.0), false, Modifiers::SHIFT);
+    let fine = 0.1 * (desk.params.player.variation.value() - 0.25 - coarse);
+    println!("{coarse} and {fine}");
+    assert!((9.5..10.5).contains(&(coarse / fine)), "{coarse} and {fine}");
 }
 
 #[test]

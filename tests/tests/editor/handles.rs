@@ -4,6 +4,8 @@
 use egui::{Event, Key, Modifiers, Pos2, vec2};
 use low_action::params::InstrumentChoice;
 use low_action::setups::SHIPPED;
+use low_action_dsp::Setup;
+use low_action_dsp::neck::Neck;
 use low_action_tests::desk::{Desk, Told, is_gesture};
 use nice_plug::prelude::{Enum, ParamSetter};
 
@@ -49,14 +51,29 @@ fn marks_along_the_strings_follow_the_mouse() {
 #[test]
 fn action_and_relief_are_moved_in_the_side_view() {
     let mut desk = Desk::new();
-    let told = drag(&mut desk, "Action", vec2(0.0, 20.0));
-    assert!(is_gesture(&told, "action"), "{told:?}");
-    assert!((1.3..2.0).contains(&desk.params.setup.action.value()), "{}", desk.params.setup.action.value());
-    let told = drag(&mut desk, "Relief", vec2(0.0, 20.0));
-    assert!(is_gesture(&told, "relief"), "{told:?}");
-    assert!((0.5..1.5).contains(&desk.params.setup.relief.value()), "{}", desk.params.setup.relief.value());
-    drag(&mut desk, "Action", vec2(0.0, -15.0));
-    assert!(desk.params.setup.action.value() < 1.4);
+    // The board where the mark of relief is, half way between frets 5 and 6, sinks by less than the relief grows, which is counted
+    // from fret to fret while fret 12 stays where it is.
+    let neck = Setup::builtin("electric").expect("it is built in").neck;
+    let deeper = Neck { relief: neck.relief + 1e-4, ..neck.clone() };
+    let [before, after] = [&neck, &deeper].map(|neck| neck.board_line(neck.equal_place(5.5)));
+    let sinks = ((before - after) / 1e-4) as f32;
+    for (name, id, follows, ways) in
+        [("Action", "action", 1.0, [-10.0, 6.0]), ("Relief", "relief", sinks, [10.0, -6.0])]
+    {
+        for way in ways {
+            desk.wait(0.1);
+            let from = desk.named(name);
+            let told = drag(&mut desk, name, vec2(3.0, way));
+            assert!(is_gesture(&told, id), "{told:?}");
+            desk.wait(0.1);
+            let moved = desk.named(name) - from;
+            println!("{name} went {moved:?}, the mouse {way} points down, of which {follows}");
+            assert!((moved.y - follows * way).abs() < 2.0 && moved.x == 0.0, "{name} went {moved:?}");
+        }
+    }
+    let [action, relief] = [&desk.params.setup.action, &desk.params.setup.relief].map(|param| param.value());
+    println!("action {action}, relief {relief}");
+    assert!(action < 1.0 && relief > 0.0, "action {action}, relief {relief}");
 }
 
 /// What is held may go: another instrument has no coil.
@@ -165,11 +182,13 @@ fn shift_is_finer_and_a_double_click_brings_back() {
     desk.point(from);
     desk.press(from, true, Modifiers::SHIFT);
     for step in 1..=10 {
-        shifted(&mut desk, from + vec2(-10.0 * step as f32, 0.0));
+        shifted(&mut desk, from + vec2(-40.0 * step as f32, 0.0));
     }
-    desk.press(from + vec2(-100.0, 0.0), false, Modifiers::SHIFT);
-    let fine = desk.params.setup.pickup_position.value() - coarse;
-    assert!((0.05..0.2).contains(&(fine / coarse)), "{coarse} mm and {fine} mm");
+    desk.press(from + vec2(-400.0, 0.0), false, Modifiers::SHIFT);
+    // Four times as far, so that the millimetres in which the value goes do not hide what it comes to.
+    let fine = 0.25 * (desk.params.setup.pickup_position.value() - coarse);
+    println!("{coarse} mm and {fine} mm");
+    assert!((9.5..10.5).contains(&(coarse / fine)), "{coarse} mm and {fine} mm");
     desk.wait(1.0);
     desk.host.take();
     let at = desk.named("Pickup position");
