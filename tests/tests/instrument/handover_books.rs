@@ -109,6 +109,8 @@ fn what_is_observed_begins_with_what_is_taken_over() {
     assert!(instrument.hand_over(build(&electric)).is_ok());
     let (observed, state) = (instrument.observed(0), instrument.state(0));
     assert!(state.displacement().any(|u| u != 0.0), "it rings");
+    let points = state.displacement().count();
+    assert_eq!([observed.lowest.len(), observed.highest.len()], [points; 2]);
     for (seen, now) in observed.lowest.iter().chain(&observed.highest).zip(state.displacement().cycle()) {
         assert_eq!(*seen, now);
     }

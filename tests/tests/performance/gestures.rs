@@ -35,7 +35,7 @@ fn controller(number: u8, value: u8) -> PlayerEvent {
     PlayerEvent::Controller { channel: 0, number, value: f32::from(value) / 127.0 }
 }
 
-/// Plays events and two seconds more.
+/// Plays events and what follows until every hand is gone.
 fn play(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
     play_by(&mut player(EXACT), events)
 }
@@ -140,7 +140,7 @@ fn a_repeated_key_outlives_the_release_of_its_first_press() {
         let gestures = play(&[(0, on(62)), (WHILE, on(62)), (WHILE + late, off(62)), (3 * WHILE, off(62))]);
         assert_eq!(dampings(&gestures), [(3 * WHILE, plucks(&gestures)[0].1)], "{late} samples late");
     }
-    // Each press has a release of its own: `performance_presses.rs`.
+    // Each press has a release of its own: `presses.rs`.
 }
 
 #[test]
