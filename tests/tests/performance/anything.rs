@@ -220,8 +220,8 @@ impl Limits {
             pluck: largest([3.0 * hands.pluck_force * strummed, 50.0]),
             // The hardest tap, however hard a pluck would be: 2.7 m/s more than the softest.
             throw: 2.8,
-            // At full pressure 2.5 times, and so many times that as a note has it for itself. What rests, grazes or slaps presses with 2 N and less on any
-            // string.
+            // At full pressure 2.5 times, and so many times that as a note has it for itself. What rests, grazes or slaps presses
+            // with 2 N and less on any string.
             press: largest([2.5 * pressed * fretting.force, 2.0]),
             // A finger, or the bar with its hand, is to move away with 0.5 m/s, or 0.3, in 1 ms, or 3, against the damping of a hand
             // that lets a string down (350 N s/m) or of one that is set to more.

@@ -13,9 +13,9 @@ const HEAVIER: f64 = 4.0;
 /// How often what is between too light and heavy enough is halved: to 2 %.
 const HALVINGS: u32 = 6;
 
-/// Puts a body under three scenes in ten, if it can bear the strings at all and is not too fast for their rate, and has three in ten of these heard by it. Three in
-/// ten are hardly heavier than they must be. (Drawn after everything else, so that a trial of a number is otherwise the one it
-/// was before there were any.)
+/// Puts a body under three scenes in ten, if it can bear the strings at all and is not too fast for their rate, and has three in
+/// ten of these heard by it. Three in ten are hardly heavier than they must be. (Drawn after everything else, so that a trial of a
+/// number is otherwise the one it was before there were any.)
 pub fn under(draw: &mut Draw, scene: &mut Table) {
     if !draw.chance(0.3) {
         return;
