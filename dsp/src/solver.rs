@@ -152,48 +152,17 @@ fn solve_few<const N: usize>(
     let mut few = Few::gather(rows, pull_factor);
     let mut numbers = [[0.0; N]; ARRAYS];
     let room = Room::new(numbers.as_flattened_mut(), N);
-    match iterate(rows, &mut few, room, demands, convergence) {
-        Outcome::Settled(gain) => gain,
-        // It is given copies: what another function has been shown must be in memory for it, and not in registers, all the way
-        // to where it hardly ever is called.
-        Outcome::Unsettled { usable } => {
-            end_few(rows, few.clone(), numbers, usable, demands.scale, convergence)
-        }
-    }
+    solve(rows, &mut few, room, demands, convergence)
 }
 
-/// What is left of an iteration of a few contacts that has come to no end.
-#[cold]
-#[inline(never)]
-fn end_few<const N: usize>(
-    rows: &mut [Active; N],
-    mut few: Few<N>,
-    mut numbers: [[f64; N]; ARRAYS],
-    usable: bool,
-    scale: EnergyScale,
-    convergence: &mut Convergence,
-) -> f64 {
-    let mut room = Room::new(numbers.as_flattened_mut(), N);
-    stop_early(rows, &mut few, &mut room, usable, scale, convergence)
-}
-
-/// How an iteration ended.
-enum Outcome {
-    /// With forces that give this energy, J, to the string.
-    Settled(f64),
-    /// With forces that may not be good enough.
-    Unsettled { usable: bool },
-}
-
-/// Iterates until the forces will do, and hands them on if they do.
 #[inline(always)]
-fn iterate(
+fn solve(
     rows: &mut [Active],
     answer: &mut impl Answer,
     mut room: Room,
     Demands { settings, scale }: Demands,
     convergence: &mut Convergence,
-) -> Outcome {
+) -> f64 {
     begin(rows, answer, &mut room);
     place(rows, answer, &mut room, 0.0);
     let work_tolerance = WORK_TOLERANCE.max(WORK_PER_METRE * settings.tolerance) * scale.present;
@@ -229,18 +198,12 @@ fn iterate(
     // Written so that what is not a number is refused too.
     let usable = gain <= scale.credit && (settled || bounded(rows, room.forces, settings.tolerance));
     if !(settled && usable) {
-        return Outcome::Unsettled { usable };
+        gain = stop_early(rows, answer, &mut room, usable, scale, convergence);
     }
-    hand_on(rows, room.forces);
-    Outcome::Settled(gain)
-}
-
-/// Gives each contact the force found for it.
-#[inline(always)]
-fn hand_on(rows: &mut [Active], forces: &[f64]) {
-    for (row, force) in rows.iter_mut().zip(forces) {
+    for (row, force) in rows.iter_mut().zip(&*room.forces) {
         row.force = row.base + *force;
     }
+    gain
 }
 
 /// Forces from which to start, were each law a straight line from the change of penetration that is expected on, at which

@@ -5,7 +5,6 @@ use super::elimination::springs_of_few;
 use crate::solver::Answer;
 
 /// The answer matrix of a few contacts, whole, in any order.
-#[derive(Clone)]
 pub(crate) struct Few<const N: usize> {
     entries: [[f64; N]; N],
 }
@@ -31,8 +30,7 @@ impl<const N: usize> Answer for Few<N> {
     #[inline(always)]
     fn product(&self, x: &[f64], out: &mut [f64]) {
         // By columns, which are the rows: the sums are those of the rows in order, side by side.
-        // (Nothing is added to by −0, which the compiler knows: to 0 it would be added.)
-        let mut sums = [-0.0; N];
+        let mut sums = [0.0; N];
         for (column, x) in self.entries.iter().zip(x) {
             for (sum, m) in sums.iter_mut().zip(column) {
                 *sum += m * x;

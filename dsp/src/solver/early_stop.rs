@@ -1,7 +1,7 @@
 //! What becomes of an iteration that was stopped before its end: forces that create no energy, as near to the
 //! solution as can be had for little.
 
-use super::{Answer, Convergence, EnergyScale, Room, created, hand_on, largest, newton_direction};
+use super::{Answer, Convergence, EnergyScale, Room, created, largest, newton_direction};
 use crate::active::Active;
 
 /// Attempts of the fallback; its stiffnesses double after the first few, so that long before the last the
@@ -39,24 +39,11 @@ pub(super) fn bounded(rows: &[Active], forces: &[f64], tolerance: f64) -> bool {
     mobility * (pulls - 0.5 * pushes) <= tolerance
 }
 
-/// Makes the best of an iteration that did not come to its end, whose forces are `usable` or not, and hands it on. Returns the
+/// Makes the best of an iteration that did not come to its end, whose forces are `usable` or not. Returns the
 /// energy they give to the string, J.
 #[cold]
 #[inline(never)]
 pub(super) fn stop_early(
-    rows: &mut [Active],
-    answer: &mut impl Answer,
-    room: &mut Room,
-    usable: bool,
-    scale: EnergyScale,
-    convergence: &mut Convergence,
-) -> f64 {
-    let gain = make_best(rows, answer, room, usable, scale, convergence);
-    hand_on(rows, room.forces);
-    gain
-}
-
-fn make_best(
     rows: &mut [Active],
     answer: &mut impl Answer,
     room: &mut Room,

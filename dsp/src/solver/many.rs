@@ -2,8 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::early_stop::stop_early;
-use super::{ARRAYS, Convergence, Demands, Outcome, Room, Solver, iterate, solve_few};
+use super::{ARRAYS, Convergence, Demands, Room, Solver, solve, solve_few};
 use crate::active::Active;
 use crate::instructions::Instructions;
 
@@ -41,13 +40,7 @@ impl WithSimd for Many<'_> {
                 solver.room.clear();
                 solver.room.resize(ARRAYS * count, 0.0);
                 let room = Room::new(&mut solver.room, count);
-                match iterate(rows, &mut solver.response, room, demands, convergence) {
-                    Outcome::Settled(gain) => gain,
-                    Outcome::Unsettled { usable } => {
-                        let mut room = Room::new(&mut solver.room, count);
-                        stop_early(rows, &mut solver.response, &mut room, usable, demands.scale, convergence)
-                    }
-                }
+                solve(rows, &mut solver.response, room, demands, convergence)
             }
         }
     }
