@@ -184,6 +184,7 @@ impl Limits {
     fn of(neck: &Neck, touching: &Touching, events: &[(u64, PlayerEvent)]) -> Self {
         let hands = touching.hands(&neck.setup.player, neck.strings[0].geometry.length);
         let fretting = &hands.fretting;
+        let tightest = largest(neck.strings.iter().map(|string| string.geometry.highest_ratio));
         // Where a note is asked to be so many times as hard for itself: the most that any is.
         let asked = |of: fn(Expression) -> Option<f32>| {
             let expressions = events.iter().filter_map(|&(_, event)| match event {
@@ -220,9 +221,10 @@ impl Limits {
             pluck: largest([3.0 * hands.pluck_force * strummed, 50.0]),
             // The hardest tap, however hard a pluck would be: 2.7 m/s more than the softest.
             throw: 2.8,
-            // At full pressure 2.5 times, and so many times that as a note has it for itself. What rests, grazes or slaps presses
-            // with 2 N and less on any string.
-            press: largest([2.5 * pressed * fretting.force, 2.0]),
+            // At full pressure 2.5 times, and so many times that as a note has it for itself; on a string that is pulled so many
+            // times more as that is tighter, if it would leave its fret otherwise. What rests, grazes or slaps presses with 2 N and
+            // less on any string.
+            press: largest([2.5 * pressed * fretting.force * tightest, 2.0]),
             // A finger, or the bar with its hand, is to move away with 0.5 m/s, or 0.3, in 1 ms, or 3, against the damping of a hand
             // that lets a string down (350 N s/m) or of one that is set to more.
             lift: largest([
