@@ -85,7 +85,7 @@ impl Field {
     /// Has the displacements beyond both ends continue those of the string oddly.
     #[inline(always)]
     pub(crate) fn close_ends(&mut self, ends: &Ends) {
-        for (ghost, point) in ends.0 {
+        for (ghost, point) in ends.ghosts {
             self[ghost] = -self[point];
         }
     }
@@ -106,9 +106,15 @@ impl DerefMut for Field {
     }
 }
 
-/// The ghosts beyond both ends, each with the point whose negative it is; that beside the bridge comes first.
+/// The ends of a string on its grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Ends([(usize, usize); 4]);
+pub(crate) struct Ends {
+    /// The ghosts beyond both ends, each with the point whose negative it is; that beside the bridge comes first.
+    ghosts: [(usize, usize); 4],
+    /// The row from which on all is that lies beyond the bridge, and what that is the negative of, but for what is in the rows
+    /// [beside the nut](BESIDE_NUT); and the last three, which the pieces beside them continue.
+    pub beside_bridge: usize,
+}
 
 impl Ends {
     /// Of a grid.
@@ -117,19 +123,15 @@ impl Ends {
         let (nut, bridge) = (BEFORE, BEFORE + grid.intervals);
         let mirror = |end: usize, away: usize| (cell(end - away), cell(end + away));
         let (near, far) = (mirror(bridge, 1), mirror(bridge, 2));
-        Ends([(near.1, near.0), (far.1, far.0), mirror(nut, 1), mirror(nut, 2)])
+        let row = (near.0 / LANES).min(far.0 / LANES).min(rows(grid.intervals) - 3);
+        Ends {
+            ghosts: [(near.1, near.0), (far.1, far.0), mirror(nut, 1), mirror(nut, 2)],
+            beside_bridge: row.max(BESIDE_NUT),
+        }
     }
 
     /// The last point that moves.
     pub fn last(&self) -> usize {
-        self.0[0].1
-    }
-
-    /// The row of so many from which on all is that lies beyond the bridge, and what that is the negative of, but for what is in
-    /// the rows [beside the nut](BESIDE_NUT); and the last three, which the pieces beside them continue.
-    #[inline(always)]
-    pub fn beside_bridge(&self, count: usize) -> usize {
-        let [near, far, ..] = self.0.map(|(_, point)| point / LANES);
-        near.min(far).min(count - 3).max(BESIDE_NUT)
+        self.ghosts[0].1
     }
 }

@@ -102,7 +102,7 @@ impl Finger {
             reading: self.reading,
             sign: -1.0,
             law: self.law,
-            lossy: model.lossy(self.resistance(penetration), own_mobility),
+            lossy: model.lossy(|depth| self.law.force(depth), self.touch.damping, penetration, own_mobility),
             before: Before::new(&self.law, penetration_before),
             rest: (free + motion_before) - slid - here.motion,
             own_mobility,
@@ -111,13 +111,6 @@ impl Finger {
         };
         active.evaluate(2.0 * (now.motion - motion_before));
         penetration_before > 0.0 || penetration > 0.0
-    }
-
-    /// βφ(η) of its pad at a penetration, m: how it resists being pressed in farther, N s/m.
-    #[inline(always)]
-    fn resistance(&self, penetration: f64) -> f64 {
-        let damping = self.touch.damping;
-        if damping == 0.0 || penetration <= 0.0 { 0.0 } else { damping * self.law.force(penetration) }
     }
 
     /// What a step overwrites of it.

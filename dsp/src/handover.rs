@@ -155,6 +155,7 @@ impl State {
         }
         self.close_shape(model);
         if same_grid {
+            // (Steps sum it in another order: the last digit of it goes on, too.)
             self.squares = old.squares;
         }
         self.no_finger_from = self.fingers.len();

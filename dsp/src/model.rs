@@ -216,11 +216,20 @@ impl Model {
         tension + (1.0 - taken) * string.linear_density * square
     }
 
-    /// P = βφ(ηⁿ)/(2k), N/m, of a contact of which βφ(ηⁿ) is `resistance`, N s/m: what its force gains for each metre by which it
-    /// is pressed in farther, as [steeply](STEEPEST) as doubles can tell at most.
+    /// P = βφ(ηⁿ)/(2k), N/m, of a contact of damping β at a penetration, m, where its `force` φ is in N: what its force gains for
+    /// each metre by which it is pressed in farther, as [steeply](STEEPEST) as doubles can tell at most.
     #[inline(always)]
-    pub(crate) fn lossy(&self, resistance: f64, own_mobility: f64) -> f64 {
-        let lossy = resistance * self.half_rate;
+    pub(crate) fn lossy(
+        &self,
+        force: impl Fn(f64) -> f64,
+        damping: f64,
+        penetration: f64,
+        own_mobility: f64,
+    ) -> f64 {
+        if damping == 0.0 || penetration <= 0.0 {
+            return 0.0;
+        }
+        let lossy = damping * force(penetration) * self.half_rate;
         let mobility = self.coasting.mobility + own_mobility;
         if lossy * mobility > STEEPEST { STEEPEST / mobility } else { lossy }
     }

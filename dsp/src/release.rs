@@ -55,9 +55,8 @@ impl State {
 }
 
 /// The motion d with which what is `thrown`, m per step, begins: a step from there has led to the motion `after`, of which so
-/// much is what `persists` of d that d⁺ = persists·d + e, and the mean of d and d⁺ is to be what it is thrown with. (The `q`
-/// below is e.)
+/// much is what `persists` of d that d⁺ = persists·d + e, and the mean of d and d⁺ is to be what it is thrown with.
 fn begun(thrown: f64, after: f64, persists: f64) -> f64 {
-    let q = after - persists * thrown;
-    (2.0 * thrown - q) / (1.0 + persists)
+    let e = after - persists * thrown;
+    (2.0 * thrown - e) / (1.0 + persists)
 }

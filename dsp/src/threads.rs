@@ -11,8 +11,9 @@ use crate::together;
 
 impl Instrument {
     /// The samples of [`Instrument::process_stems`], the strings shared out among so many threads. The longer the stretch, the
-    /// less the threads cost; some thousand samples are enough. Over a body one thread does it all. It allocates, begins threads and waits for them: it is not for
-    /// a thread of sound. While another instrument fades ([`Instrument::hand_over`]) one thread does it all.
+    /// less the threads cost; some thousand samples are enough. Over a body, and while another instrument fades
+    /// ([`Instrument::hand_over`]), one thread does it all. It allocates, begins threads and waits for them: it is not for a thread
+    /// of sound.
     ///
     /// # Panics
     /// When a stem is shorter than the two channels.

@@ -159,7 +159,7 @@ impl State {
         let contact = &model.contacts[index];
         let raised = self.heights_next[index] - self.heights_before[index];
         let motion = contact.reading.of(&self.motion);
-        let mut lossy = model.lossy(contact.resistance(overlap.now), 0.0);
+        let mut lossy = model.lossy(|depth| contact.own_force(depth), contact.damping, overlap.now, 0.0);
         if overlap.now > 0.0 && self.steps < self.calm[index] {
             lossy += contact.radiating(self.calm[index] - self.steps) * model.half_rate;
         }

@@ -105,7 +105,7 @@ fn help() -> String {
     for command in COMMANDS {
         text += &format!("  {} {}\n      {}\n", command.name, command.arguments, command.summary);
     }
-    text
+    text + "\nexamples:\n  cargo xtask figures --quick\n  cargo xtask measure features --quick\n"
 }
 
 /// Finds the command and runs it.

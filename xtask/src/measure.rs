@@ -69,7 +69,8 @@ fn help() -> String {
     for measurement in MEASUREMENTS {
         text += &format!("  {}\n      {}\n", measurement.name, measurement.summary);
     }
-    text + "\n`cargo xtask measure NAME --help` lists the arguments of one.\n"
+    text + "\n`cargo xtask measure NAME --help` lists the arguments of one.\n\nexamples:\n  cargo xtask measure \
+            speed\n  cargo xtask measure trade --help\n"
 }
 
 /// Finds the measurement named first and runs it with the rest.

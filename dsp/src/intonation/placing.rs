@@ -14,18 +14,15 @@ impl Bench<'_> {
     ) -> Result<(), Error> {
         let (mut rest, mut shift) = (None, 0.0);
         for fret in 0..frets.len() {
-            let target = open * libm::exp2((fret + 1) as f64 / 12.0);
-            let sharpness = |place: f64, frets: &mut [f64], rest: &mut Option<Vec<f64>>| {
+            let mut sharpness = |place: f64, frets: &mut [f64]| {
                 frets[fret] = place;
-                let found = self.stopped(string, frets, fret, target, rest.take())?;
-                *rest = Some(found.1);
-                Ok::<f64, Error>(found.0 / target - 1.0)
+                self.sharpness(string, open, frets, fret, &mut rest)
             };
             // The secant method, started where the fret before leads to, with the ideal string's law:
             // pitch goes with 1/(L − x). On a grid too coarse for the fret the best place is kept.
             let (low, high) = self.limits(frets, fret);
             let mut place = (frets[fret] + shift).clamp(low, high);
-            let mut off = sharpness(place, frets, &mut rest)?;
+            let mut off = sharpness(place, frets)?;
             let mut slope = 1.0 / (string.length - place);
             let mut best = (place, off);
             for _ in 0..MOST_STEPS {
@@ -33,7 +30,7 @@ impl Bench<'_> {
                 if off.abs() < PITCH_TOLERANCE || next == place {
                     break;
                 }
-                let next_off = sharpness(next, frets, &mut rest)?;
+                let next_off = sharpness(next, frets)?;
                 let secant = (next_off - off) / (next - place);
                 if secant > 0.0 {
                     slope = secant;
@@ -66,14 +63,11 @@ impl Bench<'_> {
         let spacing = self.model(string, frets)?.grid.spacing;
         let (mut rest, mut shift) = (None, 0.0);
         for fret in 0..frets.len() {
-            let target = open * libm::exp2((fret + 1) as f64 / 12.0);
             let (low, high) = self.limits(frets, fret);
             let middle = |cell: f64| ((cell + 0.5) * spacing).clamp(low, high);
             let mut sharpness = |place: f64, frets: &mut [f64]| {
                 frets[fret] = place;
-                let found = self.stopped(string, frets, fret, target, rest.take())?;
-                rest = Some(found.1);
-                Ok::<f64, Error>(found.0 / target - 1.0)
+                self.sharpness(string, open, frets, fret, &mut rest)
             };
             // Started where the one before leads to. Pitch rises towards the bridge: cell by cell there, or back, until it is passed.
             let mut cell = ((frets[fret] + shift) / spacing).floor();
@@ -99,6 +93,22 @@ impl Bench<'_> {
             rest = None;
         }
         Ok(())
+    }
+
+    /// How much too sharp the string sounds at a fret, as a part of its pitch there, where the open one has `open`, Hz. It goes on from
+    /// the shape at rest that was found last, and leaves that it has found.
+    fn sharpness(
+        &self,
+        string: &StringParameters,
+        open: f64,
+        frets: &[f64],
+        fret: usize,
+        rest: &mut Option<Vec<f64>>,
+    ) -> Result<f64, Error> {
+        let target = open * libm::exp2((fret + 1) as f64 / 12.0);
+        let (pitch, shape) = self.stopped(string, frets, fret, target, rest.take())?;
+        *rest = Some(shape);
+        Ok(pitch / target - 1.0)
     }
 
     /// How far a fret may move: less than to where its neighbours would be, and not past the one below.

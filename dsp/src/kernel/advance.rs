@@ -46,14 +46,13 @@ impl<const STRETCH: bool> WithSimd for LastPass<'_, '_, STRETCH> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Moved {
         let LastPass { pass: Advance { pull, from: (w, v, u), to: (d_next, u_next) }, ends } = self;
-        let count = rows(w).len();
+        let (count, last) = (rows(w).len(), ends.beside_bridge);
         let mut rows = Rows::<STRETCH> {
             pull,
             from: [w, v, u].map(|field| rows(field)),
             sizes: [0.0; LANES],
             squares: [0.0; LANES],
         };
-        let last = ends.beside_bridge(count);
         rows.advance(simd, 0..BESIDE_NUT, (d_next, u_next));
         rows.advance(simd, last..count, (d_next, u_next));
         u_next.close_ends(ends);

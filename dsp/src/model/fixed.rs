@@ -45,16 +45,6 @@ impl Contact {
         if self.radiation > 0.0 { self.law.own_force(penetration) } else { self.law.force(penetration) }
     }
 
-    /// βφ(η) at a penetration, m: how it resists being pressed in farther, N s/m.
-    #[inline(always)]
-    pub(crate) fn resistance(&self, penetration: f64) -> f64 {
-        if self.damping == 0.0 || penetration <= 0.0 {
-            0.0
-        } else {
-            self.damping * self.own_force(penetration)
-        }
-    }
-
     /// For how many steps a contact that has just been made sends off waves that are too short for the grid, less and less:
     /// they are about as long as it takes to cross two or three spacings.
     pub const RADIATING: u64 = 5;
