@@ -25,7 +25,7 @@ const PAGE: &str = "docs/speed.md";
     name = "cargo xtask measure speed",
     after_help = "Examples:\n  cargo xtask measure speed            times everything and prints the table (a few minutes)\n  \
                   cargo xtask measure speed --write    puts it into docs/speed.md\n  \
-                  cargo xtask measure speed --last     makes the table of the last run again\n  \
+                  cargo xtask measure speed --last     makes the table of the last round again\n  \
                   cargo xtask measure speed --songs    times only songs, by one thread and by several\n  \
                   cargo xtask measure speed --buzz     counts only the work of a chord that buzzes"
 )]
@@ -33,7 +33,7 @@ struct Arguments {
     /// Put the table into docs/speed.md.
     #[arg(long)]
     write: bool,
-    /// Do not run the benchmarks, take what the last run found. Songs and the chord that buzzes are measured anew.
+    /// Do not run the benchmarks, take what their last round found. Songs and the chord that buzzes are measured anew.
     #[arg(long)]
     last: bool,
     /// Only time songs by one thread and by as many as there are processors, and put only that row into docs/speed.md.
@@ -73,11 +73,18 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     let table = if arguments.songs || arguments.buzz {
         page::read(PAGE, &marks)?
     } else {
-        let started = (!arguments.last).then(SystemTime::now);
-        if started.is_some() {
-            benchmark()?;
+        let mut found = Timed::default();
+        if arguments.last {
+            found.add_round(&timed::folder(), None)?;
+        } else {
+            let started = SystemTime::now();
+            for round in 1..=ROUNDS {
+                eprintln!("benchmarks: {round} of {ROUNDS}");
+                benchmark()?;
+                found.add_round(&timed::folder(), Some(started))?;
+            }
         }
-        timed(&Timed::since(started))?
+        timed(&found)?
     };
     let mut rows = if buzz { self::buzz()? } else { Rows::new() };
     if songs {
@@ -91,10 +98,14 @@ pub fn run(arguments: Vec<String>) -> Result<()> {
     Ok(())
 }
 
-/// Runs the benchmarks.
+/// How often each benchmark is run, one after another of them all.
+const ROUNDS: usize = 5;
+
+/// Runs the benchmarks, each for as long as a round of several needs.
 fn benchmark() -> Result<()> {
     let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(["bench", "--package", "low-action-dsp"])
+        .args(["bench", "--package", "low-action-dsp", "--bench", "strings", "--"])
+        .args(["--warm-up-time", "0.5", "--measurement-time", "1.5", "--noplot"])
         .current_dir(root())
         .status()
         .context("cargo cannot be run")?;
