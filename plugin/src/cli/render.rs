@@ -1,11 +1,13 @@
 //! The `render` command: a song through the engine into WAV files, and into labels of what was played.
 
 mod files;
+mod heard;
 mod labels;
 mod options;
 mod rendering;
 mod timeline;
 mod tuning;
+mod warnings;
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -27,12 +29,13 @@ use crate::demo;
 use crate::engine::{Engine, EngineOptions};
 use crate::midi_file::{LARGEST_FILE, Selection, Song};
 use crate::params::InputChoice;
-use crate::performance::{Compromises, LONGEST_WAIT};
+use crate::performance::LONGEST_WAIT;
 use files::{Files, stem_paths};
 use labels::Source;
 pub use options::Tail;
 pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
-use rendering::{Cut, Rendered, Rendering};
+use rendering::{Rendered, Rendering};
+use warnings::level;
 
 /// Renders a song.
 pub(super) fn run(arguments: &RenderArgs) -> Outcome {
@@ -58,9 +61,8 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let song = read_song(arguments)?;
     let longest_tail = arguments.tail.longest(options.tail());
     check_length(arguments, &song, longest_tail).with_context(|| song_name(arguments))?;
-    for warning in &song.warnings {
-        warn(arguments, &warning.to_string());
-    }
+    let mut warnings: Vec<String> = song.warnings.iter().map(ToString::to_string).collect();
+    warnings.iter().for_each(|warning| warn(arguments, warning));
     let mut engine =
         Engine::new(&options).with_context(|| escaped(&arguments.instrument.to_string_lossy()))?;
     // (Of those that come with the program it is known, and what they are for.)
@@ -68,6 +70,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         && let Some(warning) = tuning::out_of_tune(&options.setup, engine.instrument(), options.quality)?
     {
         warn(arguments, &warning);
+        warnings.push(warning);
     }
     engine.set_input(input);
     let touching =
@@ -77,8 +80,16 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
 
     let source = Source { arguments, setup: &options.setup };
     let started = Instant::now();
-    let rendering =
-        Rendering { engine, touching, begins_anew: false, song: &song, source, files, longest_tail };
+    let rendering = Rendering {
+        engine,
+        touching,
+        begins_anew: false,
+        song: &song,
+        source,
+        files,
+        warnings,
+        longest_tail,
+    };
     let rendered = rendering.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
 }
@@ -200,95 +211,22 @@ fn check_paths(
 
 /// Tells what came of it.
 fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f64) -> Outcome {
-    let Rendered { mix, stems, compromises, lost_events, seconds, cut } = rendered;
-    let Compromises {
-        moved_by_octaves,
-        moved_strings,
-        arpeggiated,
-        left_out,
-        without_string,
-        doubled,
-        bent_short,
-        overtaken,
-    } = compromises;
-    let warn_of = |count: u64, what: &str| {
-        if count > 0 {
-            let notes = if count == 1 { "note was" } else { "notes were" };
-            warn(arguments, &format!("{count} {notes} {what}"));
-        }
-    };
-    warn_of(*moved_by_octaves, "moved by octaves: no string gives them as written");
-    warn_of(
-        *moved_strings,
-        "struck again on another string: others of their chord that began a moment later needed theirs",
-    );
-    warn_of(*arpeggiated, "played a moment late: more began at once than there were strings for");
-    warn_of(*left_out, "left out: more began at once than anybody could play");
-    warn_of(*overtaken, "left out: another took their string before the hand had got there");
-    warn_of(*without_string, "left out: no string gives them in any octave, or their channel has none");
-    warn_of(*doubled, "one with another: the same key of the same channel at the same moment");
-    warn_of(*bent_short, "bent less far than asked: string or finger goes no farther (max_bend)");
-    if *lost_events > 0 {
-        warn(arguments, &format!("{lost_events} events or gestures of theirs were lost: too many at once"));
-    }
-    if *seconds == 0.0 {
-        warn(arguments, "the sound has no samples: the song ends as it begins (--tail SECONDS goes on)");
-    }
-    if let Some(Cut { after, level }) = cut {
-        let below = -20.0 * level.log10();
-        let advice = "it rings on, and --tail SECONDS waits for it";
-        warn(
-            arguments,
-            &format!("the sound is cut off after {after:.0} s, {below:.0} dB below its peak: {advice}"),
-        );
-    }
-    if arguments.bit_depth != BitDepth::Float32 {
-        for (name, findings) in [("sound", mix), ("strings' own sound", stems)] {
-            if findings.peak > 1.0 {
-                let peak = level(findings.peak);
-                let advice = "use --bit-depth 32f or a set-up with less gain";
-                warn(arguments, &format!("the {name} peaks at {peak} dBFS and is clipped: {advice}"));
-            }
-        }
-    }
+    let Rendered { heard, warnings } = rendered;
+    warnings.iter().for_each(|warning| warn(arguments, warning));
     let name = if is_dash(output) { "standard output".to_owned() } else { shown(output) };
-    let not_finite = mix.not_finite + stems.not_finite;
+    let not_finite = heard.not_finite();
     if not_finite > 0 {
         let text = format!("{not_finite} samples of {name} are not finite numbers; the file is kept");
         return Err(Failure::Check(text));
     }
-    let clipped = mix.peak > 1.0 && arguments.bit_depth != BitDepth::Float32;
-    let peak = match mix.peak {
+    let clipped = heard.mix.peak > 1.0 && arguments.bit_depth != BitDepth::Float32;
+    let peak = match heard.mix.peak {
         0.0 => "silent".into(),
         _ if clipped => format!("peak {} dBFS, clipped", level(1.0)),
         peak => format!("peak {} dBFS", level(peak)),
     };
+    let seconds = heard.samples as f64 / f64::from(arguments.sample_rate);
     let speed = seconds / elapsed.max(1e-9);
     say(&name, &format!("{seconds:.2} s, {peak}, {speed:.1} times faster than real time"));
     Ok(())
-}
-
-/// A size as a level in dB, 1 is 0. Above that it is rounded up: what is clipped is not at 0.
-fn level(size: f32) -> String {
-    let tenths = 200.0 * f64::from(size).log10();
-    if size > 1.0 { format!("{:+.1}", tenths.ceil() / 10.0) } else { format!("{:.1}", tenths / 10.0) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_above_full_scale_is_shown_above_it() {
-        for (size, expected) in [
-            (1.0, "0.0"),
-            (1.000_001, "+0.1"),
-            (1.1, "+0.9"),
-            (1.11, "+1.0"),
-            (0.5, "-6.0"),
-            (1e-6, "-120.0"),
-        ] {
-            assert_eq!(level(size), expected, "{size}");
-        }
-    }
 }

@@ -130,7 +130,8 @@ impl Outputs {
     fn finish(self) -> Result<Option<Findings>> {
         let trace = self.trace.map(Trace::complete).transpose()?;
         let figure = self.figure.map(Picture::complete).transpose()?;
-        let (wav, sound) = self.wav.map(WavFile::complete).transpose()?.unzip();
+        let sound = self.wav.as_ref().map(WavFile::findings);
+        let wav = self.wav.map(WavFile::complete).transpose()?;
         publish_all([wav, trace, figure].into_iter().flatten().collect())?;
         Ok(sound)
     }

@@ -80,6 +80,14 @@ pub(super) struct Findings {
     pub not_finite: u64,
 }
 
+impl Findings {
+    /// Another sample is there.
+    pub(super) fn look(&mut self, sample: f32) {
+        self.peak = self.peak.max(sample.abs());
+        self.not_finite += u64::from(!sample.is_finite());
+    }
+}
+
 /// A WAV file being written.
 pub(super) struct WavFile {
     path: PathBuf,
@@ -115,8 +123,7 @@ impl WavFile {
             // What counts its bytes would begin again at 0.
             let left = self.left.checked_sub(1);
             self.left = left.with_context(|| format!("cannot write {}: {FULL}", shown(&self.path)))?;
-            self.findings.peak = self.findings.peak.max(sample.abs());
-            self.findings.not_finite += u64::from(!sample.is_finite());
+            self.findings.look(sample);
             let written = match self.depth {
                 BitDepth::Int16 => self.writer.write_sample(whole(sample, 16)),
                 BitDepth::Int24 => self.writer.write_sample(whole(sample, 24)),
@@ -127,13 +134,18 @@ impl WavFile {
         Ok(())
     }
 
+    /// What has been written so far.
+    pub(super) fn findings(&self) -> Findings {
+        self.findings
+    }
+
     /// Completes the file, which then waits to be published.
-    pub(super) fn complete(self) -> Result<(Draft, Findings)> {
-        let Self { path, draft, writer, findings, .. } = self;
+    pub(super) fn complete(self) -> Result<Draft> {
+        let Self { path, draft, writer, .. } = self;
         let finished = writer.finalize().map_err(plain);
         let mended = finished.and_then(|()| Ok(header::mend(&mut draft.handle()?)?));
         mended.with_context(|| format!("cannot write {}", shown(&path)))?;
-        Ok((draft, findings))
+        Ok(draft)
     }
 
     fn refused(&self, error: hound::Error) -> anyhow::Error {

@@ -266,7 +266,7 @@ fn every_key_is_documented() {
     let documented = |word: &str| section.contains(&format!("`{word}`"));
     for (key, value) in labels.as_object().unwrap() {
         assert!(documented(key), "{key}");
-        for record in value.as_array().into_iter().flatten() {
+        for record in value.as_array().into_iter().flatten().filter(|record| !record.is_string()) {
             record.as_object().unwrap().keys().for_each(|key| assert!(documented(key), "{key}"));
         }
     }

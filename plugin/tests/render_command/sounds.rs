@@ -301,7 +301,8 @@ fn clipping_is_said_and_saturates() {
     let setup = include_str!("../../../dsp/instruments/electric.toml");
     let gain = setup.lines().find(|line| line.starts_with("gain")).unwrap();
     fs::write(room.path("loud.toml"), setup.replace(gain, "gain = 1000.0")).unwrap();
-    let arguments = ["song.mid", "-o", "loud.wav", "--instrument", "loud.toml"];
+    let arguments =
+        ["song.mid", "-o", "loud.wav", "-i", "loud.toml", "--stems", "stems", "--labels", "x.json"];
     let said = room.renders(&arguments);
     assert!(said.contains("warning: song.mid: the sound peaks at +") && said.contains("clipped"), "{said}");
     assert_eq!(peak(&room.path("loud.wav")), 1.0);
@@ -309,10 +310,33 @@ fn clipping_is_said_and_saturates() {
     assert!(said.contains(" s, peak 0.0 dBFS, clipped, "), "{said}");
     let above =
         said.split_once("peaks at ").and_then(|(_, rest)| rest.split_once(" dBFS")).unwrap().0.to_owned();
+    // Which strings' files are clipped is named: of those that are played. Labels have the same lines.
+    let names = said.split_once(" is clipped in ").and_then(|(_, rest)| rest.split_once(": use")).unwrap().0;
+    assert_eq!(names, "2-B3.wav, 4-D3.wav", "{said}");
+    let labels = read_labels(&room);
+    let warnings: Vec<&str> =
+        said.lines().filter_map(|line| line.strip_prefix("warning: song.mid: ")).collect();
+    assert_eq!((labels["warnings"].as_array().unwrap().len(), warnings.len()), (2, 2), "{said}");
+    assert_eq!(labels["warnings"], serde_json::json!(warnings));
+    let clipped = labels["peak"].as_f64().unwrap();
+
     let said = room.renders(&[&arguments[..], &["--bit-depth", "32f"]].concat());
     assert!(!said.contains("warning"), "{said}");
     assert!(said.contains(&format!(" s, peak {above} dBFS, ")), "{said} {above}");
     assert!(peak(&room.path("loud.wav")) > 1.0);
+    // What sounds is the same, whatever the file has room for.
+    let labels = read_labels(&room);
+    assert_eq!(labels["warnings"], serde_json::json!([]));
+    assert_eq!((labels["peak"].as_f64(), clipped), (Some(clipped), peak(&room.path("loud.wav"))));
+    for string in labels["strings"].as_array().unwrap() {
+        let stem = format!("stems/{}-{}.wav", string["string"], string["name"].as_str().unwrap());
+        assert_eq!(string["peak"].as_f64(), Some(peak(&room.path(&stem))), "{stem}");
+    }
+}
+
+/// The labels `x.json`.
+fn read_labels(room: &Room) -> serde_json::Value {
+    serde_json::from_slice(&fs::read(room.path("x.json")).unwrap()).unwrap()
 }
 
 #[test]

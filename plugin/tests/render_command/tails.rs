@@ -98,9 +98,24 @@ fn a_tail_that_is_cut_off_is_told_of() {
     let told: f32 = told.and_then(|told| told.split(' ').next()?.parse().ok()).expect(&said);
     let below = -20.0 * last.log10();
     assert!((10.0..20.0).contains(&told) && (told - below).abs() < 1.0, "{below} dB: {said}");
-    // Who asks for so much or none gets just that.
-    for tail in ["0.5", "none"] {
-        let said = room.renders(&[&["held.mid", "-i", "endless.toml", "--tail", tail], &FAST[..]].concat());
+    // Labels say how far it has come, too.
+    let labels = |instrument: &str, tail: &str| -> (String, Option<f64>) {
+        let options = ["held.mid", "-i", instrument, "--tail", tail, "--labels", "held.json"];
+        let said = room.renders(&[&options, &FAST[..]].concat());
+        let labels = fs::read(room.path("held.json")).unwrap();
+        let labels: serde_json::Value = serde_json::from_slice(&labels).unwrap();
+        let warned: Vec<&str> = said.lines().filter(|line| line.starts_with("warning: ")).collect();
+        assert_eq!(labels["warnings"].as_array().unwrap().len(), warned.len(), "{said}");
+        (said, labels["cut_off"].as_f64())
+    };
+    let (said, cut) = labels("endless.toml", "auto");
+    assert!(said.contains("cut off"), "{said}");
+    assert!((cut.unwrap() - f64::from(below)).abs() < 1.0, "{cut:?} {below} dB");
+    // Who asks for so much or none gets just that, and is told of it in labels alone.
+    for tail in ["0.5", "2"] {
+        let (said, cut) = labels("endless.toml", tail);
         assert!(!said.contains("cut off"), "{said}");
+        assert!((0.0..10.0).contains(&cut.unwrap()), "{tail}: {cut:?}");
     }
+    assert_eq!(labels("flatwound-jazz", "auto").1, None);
 }

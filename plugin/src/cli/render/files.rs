@@ -12,7 +12,7 @@ use crate::cli::RenderArgs;
 use crate::cli::names::shown;
 use crate::cli::output::{is_there, publish_all};
 use crate::cli::unfinished::NewFolders;
-use crate::cli::wav::{Findings, WavFile};
+use crate::cli::wav::WavFile;
 
 /// The files of one rendering.
 pub(super) struct Files {
@@ -43,25 +43,20 @@ impl Files {
     }
 
     /// Completes all files, then lets them appear: a disk that is full for one leaves none. The stereo sound comes last, so
-    /// that who finds it has the others, too, even if the program is killed meanwhile and tidies nothing up. Returns what was found
-    /// in the stereo file and in the strings' own.
-    pub(super) fn finish(self, labelled: Labelled) -> Result<[Findings; 2]> {
-        let (sound, mix) = self.mix.complete()?;
+    /// that who finds it has the others, too, even if the program is killed meanwhile and tidies nothing up.
+    pub(super) fn finish(self, labelled: Labelled) -> Result<()> {
+        let sound = self.mix.complete()?;
         let mut drafts = Vec::new();
         if let Some(labels) = self.labels {
             drafts.push(labels.complete(labelled)?);
         }
-        let mut stems = Findings::default();
         for file in self.stems {
-            let (draft, findings) = file.complete()?;
-            stems.peak = stems.peak.max(findings.peak);
-            stems.not_finite += findings.not_finite;
-            drafts.push(draft);
+            drafts.push(file.complete()?);
         }
         drafts.push(sound);
         publish_all(drafts)?;
         drop(self.folder);
-        Ok([mix, stems])
+        Ok(())
     }
 }
 
@@ -109,7 +104,7 @@ const LONGEST_NAME: usize = 50;
 
 /// File name of a string's own sound: its number from 1 and its name, without what file systems
 /// mind.
-fn stem_name(index: usize, string: &str) -> String {
+pub(super) fn stem_name(index: usize, string: &str) -> String {
     let name: String = string
         .chars()
         .take(LONGEST_NAME)

@@ -16,7 +16,9 @@ use low_action_dsp::Instrument;
 use serde::Serialize;
 use serde_json::Serializer;
 
+use super::heard::Heard;
 use crate::cli::names::shown;
+use crate::cli::one_line;
 use crate::cli::output::Draft;
 use crate::engine::Record;
 use crate::performance::Compromises;
@@ -31,9 +33,9 @@ pub(super) struct Labelled<'a> {
     pub source: &'a Source<'a>,
     pub instrument: &'a Instrument,
     pub record: Record,
-    pub compromises: Compromises,
-    /// Samples of the sound, each of both channels.
-    pub samples: u64,
+    pub heard: &'a Heard,
+    /// What has been warned of.
+    pub warnings: &'a [String],
 }
 
 /// A file of labels. It is opened at the beginning, so that a place where nothing can be written is found out before anything
@@ -51,7 +53,7 @@ impl LabelFile {
 
     /// Writes it, to be published.
     pub(super) fn complete(self, labelled: Labelled) -> Result<Draft> {
-        let strings = labelled.source.strings(labelled.instrument)?;
+        let strings = labelled.source.strings(labelled.instrument, &labelled.heard.strings)?;
         let written = self.draft.handle().and_then(|file| labelled.write(strings, file));
         written.with_context(|| format!("cannot write {}", shown(&self.path)))?;
         Ok(self.draft)
@@ -66,16 +68,26 @@ impl Labelled<'_> {
         self.record.gestures.sort_by_key(|gesture| (gesture.time, gesture.string));
         let gestures = gestures(&self.record.gestures, self.clock());
 
-        let about = self.source.about(self.samples);
-        let compromises = self.compromises;
-        let document = Document { about, compromises, strings, notes, bends, gestures };
+        let Heard { mix, compromises, lost_events, samples, cut, .. } = *self.heard;
+        let document = Document {
+            about: self.source.about(samples),
+            peak: mix.peak.into(),
+            cut_off: cut.map(|cut| cut.below_peak()),
+            lost_events,
+            warnings: self.warnings.iter().map(|warning| one_line(warning)).collect(),
+            compromises,
+            strings,
+            notes,
+            bends,
+            gestures,
+        };
         let mut out = BufWriter::new(file);
         document.serialize(&mut Serializer::with_formatter(&mut out, Lines::default()))?;
         out.flush()
     }
 
     fn clock(&self) -> Clock {
-        Clock { sample_rate: f64::from(self.source.arguments.sample_rate), samples: self.samples }
+        Clock { sample_rate: f64::from(self.source.arguments.sample_rate), samples: self.heard.samples }
     }
 }
 
@@ -84,6 +96,13 @@ impl Labelled<'_> {
 struct Document<'a> {
     #[serde(flatten)]
     about: About<'a>,
+    /// Largest size of a sample, 1 is full scale.
+    peak: f64,
+    /// How far the sound was below its peak where it ends before it was quiet, dB.
+    cut_off: Option<f64>,
+    lost_events: u64,
+    /// As they are said.
+    warnings: Vec<String>,
     compromises: Compromises,
     strings: Vec<LabelledString>,
     notes: Vec<LabelledNote>,

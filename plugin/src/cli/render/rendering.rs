@@ -5,16 +5,18 @@ use std::iter::Peekable;
 use anyhow::Result;
 
 use super::files::Files;
+use super::heard::{Cut, Heard};
 use super::labels::{Labelled, Source};
 use super::options::Tail;
 use super::song_name;
 use super::timeline::timeline;
+use super::warnings;
 use crate::cli::progress::Progress;
 use crate::cli::wav::Findings;
 use crate::controls::Touching;
 use crate::engine::{Engine, INAUDIBLE, QUIET};
 use crate::midi_file::Song;
-use crate::performance::{Compromises, PlayerEvent};
+use crate::performance::PlayerEvent;
 
 /// Samples computed at a time: enough for threads to be worth their beginning.
 const BLOCK: usize = 8192;
@@ -25,24 +27,9 @@ const SHORTEST_TAIL: f64 = 0.1;
 
 /// What came of it.
 pub(super) struct Rendered {
-    /// Of the stereo file.
-    pub mix: Findings,
-    /// Of the strings' own files.
-    pub stems: Findings,
-    pub compromises: Compromises,
-    pub lost_events: u64,
-    pub seconds: f64,
-    /// Where the usual tail ended before it was quiet.
-    pub cut: Option<Cut>,
-}
-
-/// The end of a sound that goes on.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Cut {
-    /// How long after the song, s.
-    pub after: f64,
-    /// How loud it was then, as a part of the song's peak.
-    pub level: f64,
+    pub heard: Heard,
+    /// What there is to warn of now.
+    pub warnings: Vec<String>,
 }
 
 /// A song on its way through the engine.
@@ -55,6 +42,8 @@ pub(super) struct Rendering<'a> {
     pub song: &'a Song,
     pub source: Source<'a>,
     pub files: Files,
+    /// What has been warned of so far.
+    pub warnings: Vec<String>,
     /// The most that a tail can last, s.
     pub longest_tail: f64,
 }
@@ -62,7 +51,8 @@ pub(super) struct Rendering<'a> {
 impl Rendering<'_> {
     /// Plays it to its end and its tail, and lets the files appear.
     pub(super) fn play(mut self) -> Result<Rendered> {
-        if self.files.labels.is_some() {
+        let labelled = self.files.labels.is_some();
+        if labelled {
             self.engine.record();
         }
         let rate = self.source.arguments.sample_rate;
@@ -72,7 +62,9 @@ impl Rendering<'_> {
         let longest = samples(self.longest_tail);
         // (How long a tail by itself is nobody knows before.)
         let mut progress = Progress::new(song_name(self.source.arguments), last + longest);
-        let mut buffers = Buffers::new(self.files.stems.len(), Engine::LATENCY as usize);
+        // (Labels know of each string's own sound, too, whether it is written or not.)
+        let apart = if labelled { self.engine.string_count() } else { self.files.stems.len() };
+        let mut buffers = Buffers::new(apart, Engine::LATENCY as usize);
         let mut peak = 0.0_f64;
         let mut events = timeline(self.song, rate).into_iter().peekable();
         loop {
@@ -102,14 +94,14 @@ impl Rendering<'_> {
             }
             if left == 0 {
                 let cut = Cut { after: self.longest_tail, level: self.engine.level() / peak };
-                break (tail == Tail::Auto).then_some(cut);
+                break (!quiet).then_some(cut);
             }
             self.block(&mut buffers, left.min(LOOK as u64) as usize)?;
         };
         // What happened last is still to be heard.
         self.block(&mut buffers, Engine::LATENCY as usize)?;
         progress.end();
-        self.finish(cut)
+        self.finish(cut, buffers.findings)
     }
 
     /// Gives the engine the events of the next `frames` samples. Returns how many samples those are that it has all events of:
@@ -149,7 +141,7 @@ impl Rendering<'_> {
     /// Computes so many samples and writes them, but for the first, which hold what was before the song. Returns the largest
     /// size of them all, 1 is full scale.
     fn block(&mut self, buffers: &mut Buffers, frames: usize) -> Result<f64> {
-        let Buffers { left, right, stems, early } = buffers;
+        let Buffers { left, right, stems, findings, early } = buffers;
         let (left, right) = (&mut left[..frames], &mut right[..frames]);
         if stems.is_empty() {
             self.engine.process(left, right);
@@ -161,27 +153,31 @@ impl Rendering<'_> {
         *early -= skipped;
         let pairs = left[skipped..].iter().zip(&right[skipped..]);
         self.files.mix.write(pairs.flat_map(|(&left, &right)| [left, right]))?;
+        for (findings, stem) in findings.iter_mut().zip(&*stems) {
+            stem[skipped..frames].iter().for_each(|&sample| findings.look(sample));
+        }
         for (file, stem) in self.files.stems.iter_mut().zip(stems) {
             file.write(stem[skipped..frames].iter().copied())?;
         }
         Ok(left.iter().chain(&*right).fold(0.0, |most, &sample| most.max(f64::from(sample.abs()))))
     }
 
-    fn finish(mut self, cut: Option<Cut>) -> Result<Rendered> {
-        let samples = self.engine.now() - u64::from(Engine::LATENCY);
-        let record = self.engine.take_record();
-        let compromises = self.engine.compromises();
-        let instrument = self.engine.instrument();
-        let labelled = Labelled { source: &self.source, instrument, record, compromises, samples };
-        let [mix, stems] = self.files.finish(labelled)?;
-        Ok(Rendered {
-            mix,
-            stems,
-            compromises,
+    fn finish(mut self, cut: Option<Cut>, strings: Vec<Findings>) -> Result<Rendered> {
+        let heard = Heard {
+            mix: self.files.mix.findings(),
+            strings,
+            compromises: self.engine.compromises(),
             lost_events: self.engine.lost_events(),
-            seconds: samples as f64 / f64::from(self.source.arguments.sample_rate),
+            samples: self.engine.now() - u64::from(Engine::LATENCY),
             cut,
-        })
+        };
+        let told = warnings::afterwards(&self.source, &heard);
+        self.warnings.extend_from_slice(&told);
+        let record = self.engine.take_record();
+        let instrument = self.engine.instrument();
+        let warnings = &self.warnings;
+        self.files.finish(Labelled { source: &self.source, instrument, record, heard: &heard, warnings })?;
+        Ok(Rendered { heard, warnings: told })
     }
 }
 
@@ -190,13 +186,16 @@ struct Buffers {
     left: Vec<f32>,
     right: Vec<f32>,
     stems: Vec<Vec<f32>>,
+    /// Of each of these.
+    findings: Vec<Findings>,
     /// Samples still to come before the song's first.
     early: usize,
 }
 
 impl Buffers {
     fn new(stems: usize, early: usize) -> Self {
+        let findings = vec![Findings::default(); stems];
         let stems = vec![vec![0.0; BLOCK]; stems];
-        Self { left: vec![0.0; BLOCK], right: vec![0.0; BLOCK], stems, early }
+        Self { left: vec![0.0; BLOCK], right: vec![0.0; BLOCK], stems, findings, early }
     }
 }

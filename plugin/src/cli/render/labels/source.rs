@@ -9,9 +9,11 @@ use serde::Serialize;
 
 use crate::cli::RenderArgs;
 use crate::cli::render::tuning::stopped;
+use crate::cli::wav::Findings;
 use crate::params::{InputChoice, LegatoChoice, StringOrder};
 
 /// What a sound is made from.
+#[derive(Clone, Copy)]
 pub(in crate::cli::render) struct Source<'a> {
     pub arguments: &'a RenderArgs,
     pub setup: &'a Setup,
@@ -71,6 +73,8 @@ pub(super) struct LabelledString {
     /// m from the nut, fret 1 first; and what sounds where a finger stops them, Hz.
     pub frets: Vec<f64>,
     pub fret_frequencies: Vec<f64>,
+    /// Largest size of a sample of its own sound, 1 is full scale.
+    pub peak: f64,
 }
 
 impl Source<'_> {
@@ -108,7 +112,11 @@ impl Source<'_> {
     }
 
     /// The strings of the instrument as it sounds.
-    pub(super) fn strings(&self, instrument: &Instrument) -> Result<Vec<LabelledString>, Error> {
+    pub(super) fn strings(
+        &self,
+        instrument: &Instrument,
+        heard: &[Findings],
+    ) -> Result<Vec<LabelledString>, Error> {
         let describe = |(index, string): (usize, &SetupString)| {
             let pitch = string.pitch + self.setup.tuning;
             let (placed, stopped) = stopped(self.setup, instrument, self.arguments.quality, index)?;
@@ -121,6 +129,7 @@ impl Source<'_> {
                 tension: placed.string.tension,
                 frets: placed.frets,
                 fret_frequencies: stopped,
+                peak: heard.get(index).map_or(0.0, |findings| findings.peak.into()),
             })
         };
         self.setup.string.iter().enumerate().map(describe).collect()
