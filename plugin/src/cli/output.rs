@@ -86,8 +86,7 @@ impl Draft {
     }
 }
 
-/// Whether a result is at its place already: an ordinary file, since what is written directly takes any number of results. As
-/// they appear whole, it is no half of one.
+/// Whether a result is at its place already: an ordinary file, since what is written directly takes any number of results.
 pub fn is_there(path: &Path) -> bool {
     matches!(Target::find(path), Ok(Target::File(place)) if place.is_file())
 }
@@ -107,6 +106,8 @@ pub fn publish_all(drafts: Vec<Draft>) -> Result<()> {
         match way {
             Way::Copied(stream) => copies.push((file, stream)),
             Way::Renamed(place, beside, entry) => {
+                // On the disk first: after a power failure there must not be an empty file under the name.
+                file.sync_data().with_context(|| format!("cannot write {}", shown(&place)))?;
                 finished.push(Finished { file, beside, place });
                 entries.push(entry);
             }

@@ -5,7 +5,7 @@ mod room;
 
 use std::fmt;
 use std::fs::File;
-use std::io::BufWriter;
+use std::io::{self, BufWriter, Read};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -21,6 +21,18 @@ const LARGEST_FILE: u64 = u32::MAX as u64 - 1024;
 
 /// Why no more is written to one that holds as much.
 const FULL: &str = "a WAV file holds 4 GiB and no more";
+
+/// Whether a file is as long as it says. It may have been copied, and the copy broken off.
+pub(super) fn is_whole(path: &Path) -> bool {
+    let says = || -> io::Result<bool> {
+        let mut file = File::open(path)?;
+        let mut begins = [0; 8];
+        file.read_exact(&mut begins)?;
+        let size = u32::from_le_bytes([begins[4], begins[5], begins[6], begins[7]]);
+        Ok(begins.starts_with(b"RIFF") && u64::from(size) + 8 == file.metadata()?.len())
+    };
+    says().unwrap_or(false)
+}
 
 /// How samples are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

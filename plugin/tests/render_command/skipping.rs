@@ -27,14 +27,15 @@ fn a_song_is_rendered_again_as_long_as_any_of_its_files_is_missing() {
     let skipped = "song.wav: skipped: all that is asked for is there already\n";
     for missing in ["song.wav", "song.json", "stems/3-G3.wav"] {
         // Nothing is written, and what is there need not be what would be written.
-        fs::write(room.path("song.json"), "old").unwrap();
+        let old = fs::read_to_string(room.path("song.json")).unwrap().replace("\"notes\"", "\"old\"");
+        fs::write(room.path("song.json"), &old).unwrap();
         assert_eq!(room.renders(all), skipped);
-        assert_eq!(fs::read_to_string(room.path("song.json")).unwrap(), "old");
+        assert_eq!(fs::read_to_string(room.path("song.json")).unwrap(), old);
         fs::remove_file(room.path(missing)).unwrap();
         let said = room.renders(all);
         assert!(said.contains("times faster than real time"), "{missing}: {said}");
         assert!(
-            room.path(missing).exists() && fs::read(room.path("song.json")).unwrap() != b"old",
+            room.path(missing).exists() && fs::read_to_string(room.path("song.json")).unwrap() != old,
             "{missing}"
         );
     }
@@ -53,4 +54,22 @@ fn what_is_no_file_is_never_there() {
     assert!(output.status.success() && output.stdout.starts_with(b"RIFF"));
     // Nor may the sound be what it is made from, though that is there.
     assert!(room.refuses(2, &[&brief[..], &["song.mid"]].concat()).contains("name the same file"));
+}
+
+#[test]
+fn what_is_not_whole_is_not_there() {
+    let room = Room::new();
+    room.renders(&ALL);
+    for name in ["song.wav", "song.json", "stems/3-G3.wav"] {
+        let whole = fs::read(room.path(name)).unwrap();
+        for length in [0, 7, whole.len() / 2, whole.len() - 1] {
+            fs::write(room.path(name), &whole[..length]).unwrap();
+            let said = room.renders(&ALL);
+            assert!(said.contains("times faster than real time"), "{length} bytes of {name}: {said}");
+            assert!(fs::read(room.path(name)).unwrap() == whole, "{length} bytes of {name}");
+        }
+        fs::write(room.path(name), [&whole[..], b" "].concat()).unwrap();
+        assert!(room.renders(&ALL).contains("times faster than real time"), "more than {name}");
+    }
+    assert!(room.renders(&ALL).contains("skipped"));
 }

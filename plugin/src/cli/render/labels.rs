@@ -8,7 +8,7 @@ mod notes;
 mod source;
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -58,6 +58,18 @@ impl LabelFile {
         written.with_context(|| format!("cannot write {}", shown(&self.path)))?;
         Ok(self.draft)
     }
+}
+
+/// Whether a file of labels has its end.
+pub(super) fn are_whole(path: &Path) -> bool {
+    let ends = || -> io::Result<bool> {
+        let mut file = File::open(path)?;
+        let mut last = [0; lines::END.len()];
+        file.seek(SeekFrom::End(-(last.len() as i64)))?;
+        file.read_exact(&mut last)?;
+        Ok(last == lines::END)
+    };
+    ends().unwrap_or(false)
 }
 
 impl Labelled<'_> {

@@ -4,6 +4,9 @@ use std::io::{self, Write};
 
 use serde_json::ser::Formatter;
 
+/// The end of a whole, which comes nowhere else.
+pub(super) const END: [u8; 3] = *b"\n}\n";
+
 /// How deep in objects and lists the next thing is.
 #[derive(Debug, Default)]
 pub(super) struct Lines {
@@ -18,7 +21,7 @@ impl Formatter for Lines {
 
     fn end_object<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
         self.depth -= 1;
-        out.write_all(if self.depth == 0 { b"\n}\n" } else { b"}" })
+        out.write_all(if self.depth == 0 { &END } else { b"}" })
     }
 
     fn begin_object_key<W: ?Sized + Write>(&mut self, out: &mut W, first: bool) -> io::Result<()> {
