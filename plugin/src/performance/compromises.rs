@@ -12,7 +12,7 @@ pub struct Compromises {
     /// Notes that came a moment late because strings did not suffice for all of their instant.
     pub arpeggiated: u64,
     /// Notes left out because more than 128 began at one instant, or waited for strings, or because all strings were held by others
-    /// when they came late and their keys were up already, or because everything was to be silent before they came.
+    /// when they came late and their keys were up already, or because everything was to be silent before they came or were struck.
     pub left_out: u64,
     /// Notes left out because another took their string before a strum, or the finger of a tap, had got there.
     pub overtaken: u64,

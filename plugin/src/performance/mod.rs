@@ -315,6 +315,7 @@ impl Performance {
             string.advance(until, out);
             self.compromises.bent_short += string.take_bent_short();
             self.compromises.overtaken += string.take_overtaken();
+            self.compromises.left_out += string.take_called_off();
         }
         self.now = until;
     }

@@ -58,6 +58,10 @@ pub(crate) struct StringPlayer {
     bent_short: u64,
     /// Notes whose string another took before it was struck, since that was last asked for.
     overtaken: u64,
+    /// Whether its last note has yet to be struck, or whatever else makes it sound.
+    unheard: bool,
+    /// Notes that were silenced before they were struck, since that was last asked for.
+    called_off: u64,
     /// Whether a note has come back whose key was down under another, since that was last asked for.
     gone_back: bool,
 }
@@ -84,6 +88,8 @@ impl StringPlayer {
             touched: None,
             bent_short: 0,
             overtaken: 0,
+            unheard: false,
+            called_off: 0,
             gone_back: false,
         }
     }
@@ -103,6 +109,8 @@ impl StringPlayer {
         self.touched = None;
         self.bent_short = 0;
         self.overtaken = 0;
+        self.unheard = false;
+        self.called_off = 0;
         self.gone_back = false;
     }
 
@@ -170,7 +178,7 @@ impl StringPlayer {
         }
         self.plucked_at = old.plucked_at;
         (self.under, self.deeds, self.tremolo) = (old.under, old.deeds, old.tremolo);
-        (self.touched, self.stilled) = (old.touched, old.stilled);
+        (self.touched, self.stilled, self.unheard) = (old.touched, old.stilled, old.unheard);
     }
 
     /// The hands act differently on the note that sounds, and on those to come.
@@ -223,6 +231,11 @@ impl StringPlayer {
     /// Notes whose string another took before it was struck, since this was last called.
     pub(crate) fn take_overtaken(&mut self) -> u64 {
         std::mem::take(&mut self.overtaken)
+    }
+
+    /// Notes that were silenced before they were struck, since this was last called.
+    pub(crate) fn take_called_off(&mut self) -> u64 {
+        std::mem::take(&mut self.called_off)
     }
 
     /// Does what has fallen due before `until`, in order of time.

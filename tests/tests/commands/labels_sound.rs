@@ -311,4 +311,5 @@ fn what_is_called_off_has_no_label() {
         );
     }
     assert_eq!(played.notes().len(), 3, "0, 80 and 160 ms");
+    assert_eq!(played.labels["compromises"]["left_out"], 3);
 }

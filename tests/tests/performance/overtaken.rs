@@ -58,6 +58,26 @@ fn strings_that_a_strum_has_not_reached_are_left_to_the_next() {
     assert_eq!(strummed_again(7_300), (3 + 6, [3, 0]));
 }
 
+/// All sound off on the channel, or all notes at their end at once: what the hand has not reached is left out, whether its key is
+/// down or up.
+#[test]
+fn strings_that_are_silenced_before_the_hand_has_reached_them_are_left_out() {
+    for end in [cc(120, 0), PlayerEvent::AllNotesOff] {
+        for keys in [&[][..], &CHORD] {
+            for (after, reached) in [(100, 1), (4_000, 2), (11_600, 4), (24_000, 6)] {
+                let chord = CHORD.map(|key| (0, on(key, 90)));
+                let up: Vec<_> = keys.iter().map(|&key| (50, off(key))).collect();
+                let song = [&[(0, cc(21, 127))], &chord[..], &up, &[(after, end)]].concat();
+                assert_eq!(fate(&song), (reached, [0, 6 - reached]), "{end:?} after {after}");
+            }
+        }
+    }
+    // A tremolo has been heard, though its next stroke is on the way.
+    for after in 2_000..2_600 {
+        assert_eq!(fate(&[(0, cc(25, 127)), (0, on(57, 90)), (after, cc(120, 0))]).1, [0, 0], "{after}");
+    }
+}
+
 #[test]
 fn a_note_that_takes_over_a_string_before_a_strum_is_the_one_it_strikes() {
     let [low, high] = [(0, on(64, 90)), (0, on(40, 90))];

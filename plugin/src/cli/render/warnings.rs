@@ -48,7 +48,10 @@ fn of_notes(compromises: &Compromises) -> Vec<String> {
             "struck again on another string: others of their chord that began a moment later needed theirs",
         ),
         (arpeggiated, "played a moment late: more began at once than there were strings for"),
-        (left_out, "left out: more began at once than anybody could play"),
+        (
+            left_out,
+            "left out: more began at once than anybody could play, or all was to be silent before they were struck",
+        ),
         (overtaken, "left out: another took their string before the hand had got there"),
         (without_string, "left out: no string gives them in any octave, or their channel has none"),
         (doubled, "one with another: the same key of the same channel at the same moment"),

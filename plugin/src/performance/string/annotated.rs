@@ -34,7 +34,13 @@ impl StringPlayer {
     }
 
     /// Tells that the string sounds, so many seconds from now, and what does it.
-    pub(super) fn tells_sound(&self, delay: f64, excitation: Excitation, at: &mut Moment<impl GestureSink>) {
+    pub(super) fn tells_sound(
+        &mut self,
+        delay: f64,
+        excitation: Excitation,
+        at: &mut Moment<impl GestureSink>,
+    ) {
+        self.unheard = false;
         at.tells_later(delay, Annotation::Sounds(excitation));
     }
 }

@@ -137,6 +137,7 @@ impl StringPlayer {
         self.fingers.expect_beside(0.0);
         self.fingers.expect_palm(palm);
         self.plucked_at = Some(time);
+        self.unheard = true;
         self.touched = None;
         self.set_tremolo(tremolo)
     }

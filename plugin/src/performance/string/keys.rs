@@ -131,10 +131,13 @@ impl StringPlayer {
 
     /// Ends the string's note, whoever holds it; `None` means any channel's.
     pub(crate) fn silence(&mut self, time: u64, channel: Option<u8>) {
+        // (A tremolo that sounds awaits its next stroke, too.)
+        let awaited = self.unheard && self.deeds.await_sound();
         let touched = self.touched.is_some() && channel.is_none();
         if touched || self.note.is_some_and(|note| channel.is_none_or(|channel| note.channel == channel)) {
             // A stroke that is still on its way does not come, and nobody waits to hear it.
             self.deeds.forget_strokes();
+            self.called_off += u64::from(awaited);
             let heard = time.saturating_sub(self.samples(SHORTEST_NOTE));
             if let Some(note) = self.note.as_mut().filter(|note| note.since > time) {
                 note.since = heard;
@@ -146,6 +149,7 @@ impl StringPlayer {
             && (channel.is_none() || channel == self.bend.channel())
         {
             // So it is where the key has gone up before.
+            self.called_off += u64::from(awaited);
             self.deeds.forget_strokes();
             self.ending = Some((time, Ending::Damp));
         }
