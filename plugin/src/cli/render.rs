@@ -43,6 +43,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     refuse_settings(arguments)?;
     let (mut setup, setup_file) = instrument::load(&arguments.instrument)?;
     arguments.taken.work_on(&mut setup);
+    arguments.taken.fits(&setup, &arguments.instrument)?;
     let options = EngineOptions {
         quality: arguments.quality,
         variation: arguments.variation,

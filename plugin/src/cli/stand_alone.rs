@@ -34,6 +34,7 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
         }
     };
     arguments.taken.work_on(&mut setup);
+    arguments.taken.fits(&setup, &arguments.instrument)?;
     let devices = Devices {
         backend: arguments.backend.clone(),
         output: arguments.output_device.clone(),

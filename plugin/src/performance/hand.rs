@@ -33,7 +33,12 @@ const SPAN: usize = 4;
 /// Frets that a capo leaves at least: on strings a fourth apart every note has a place then, in some octave.
 const OVER_CAPO: usize = 5;
 /// The highest fret that any instrument has a capo on.
-pub const HIGHEST_CAPO: usize = Neck::MOST_FRETS - OVER_CAPO;
+pub const HIGHEST_CAPO: usize = highest_capo(Neck::MOST_FRETS);
+/// The highest fret that one with so many has a capo on, 0 for none.
+pub const fn highest_capo(frets: usize) -> usize {
+    frets.saturating_sub(OVER_CAPO)
+}
+
 /// Most notes considered at one instant, one for each key; of more, the last to arrive are left out.
 pub(crate) const LARGEST_CHORD: usize = 128;
 
@@ -176,7 +181,7 @@ impl Hand {
     /// nowhere.
     pub(crate) fn set_capo(&mut self, fret: usize) {
         self.asked_capo = fret;
-        let highest = if self.takes_capo { self.highest_fret.saturating_sub(OVER_CAPO) } else { 0 };
+        let highest = if self.takes_capo { highest_capo(self.highest_fret) } else { 0 };
         self.capo = fret.min(highest);
         self.position = self.position.max(self.capo + 1).min(self.highest_fret.max(1));
     }

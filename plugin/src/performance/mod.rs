@@ -45,7 +45,7 @@ use chord::{JustBegun, Late, Unplaced};
 pub use compromises::Compromises;
 pub use control::InputMode;
 pub use event::{Expression, PlayerEvent, StringDeed};
-pub use hand::HIGHEST_CAPO;
+pub use hand::{HIGHEST_CAPO, highest_capo};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
 pub use moment::GestureSink;
 pub(crate) use moment::Moment;

@@ -64,6 +64,26 @@ fn wrong_usage_is_code_2() {
             "'32' for '--capo <FRET>': must be a whole number from 1 to 31",
         ),
         (
+            &["render", "song.mid", "--capo", "18"],
+            "--capo 18 is refused: must be 1 to 17 on electric, so that five frets are left",
+        ),
+        (
+            &["render", "song.mid", "--capo", "1", "-i", "lap-steel"],
+            "no capo on lap-steel: its strings are too",
+        ),
+        (
+            &["render", "song.mid", "--capo", "1", "-i", "tanpura"],
+            "no capo on tanpura: it leaves no five frets",
+        ),
+        (
+            &["render", "song.mid", "--hand-position", "20", "-i", "classical"],
+            "--hand-position 20 is refused: must be 1 to 19 on classical",
+        ),
+        (
+            &["render", "song.mid", "--hand-position", "1", "-i", "tanpura"],
+            "--hand-position 1 is refused: tanpura has no frets",
+        ),
+        (
             &["render", "song.mid", "--input", "mpe", "--bend-range", "12"],
             "--bend-range is not for --input mpe: there wheels reach 48 semitones",
         ),
@@ -111,6 +131,8 @@ fn wrong_usage_is_code_2() {
         let said = room.refuses(2, arguments);
         assert!(said.contains(expected), "{arguments:?}: {said}");
     }
+    // What is not refused is where labels say.
+    room.renders(&["song.mid", "-q", "draft", "--tail", "none", "--capo", "17", "--hand-position", "22"]);
 }
 
 #[test]

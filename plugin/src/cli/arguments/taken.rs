@@ -1,16 +1,19 @@
 //! How notes and controllers are taken: what a song and what a keyboard or guitar can be told of alike.
 
+use std::ffi::OsStr;
+
 use clap::Args;
 use low_action_dsp::Setup;
 use low_action_dsp::neck::Neck;
 use nice_plug::prelude::Enum;
 
 use super::whole;
-use crate::cli::{Failure, render};
+use crate::cli::names::escaped;
+use crate::cli::{Failure, Outcome, render};
 use crate::controls::Touching;
 use crate::engine::EngineOptions;
 use crate::params::{InputChoice, LegatoChoice, Setting, StringOrder, settings};
-use crate::performance::{HIGHEST_CAPO, InputMode};
+use crate::performance::{HIGHEST_CAPO, InputMode, highest_capo};
 use crate::plugin::order::{self, Order};
 
 /// Options of `render` and of the stand-alone instrument.
@@ -35,12 +38,12 @@ pub struct TakenArgs {
     /// Pass over what the song or keyboard says of the bend range (registered parameter 0).
     #[arg(long)]
     pub ignore_rpn: bool,
-    /// The fret about which the left hand plays what several strings could give, 1 to 36, unless the song or keyboard says so
-    /// itself (CC 28) [default: it moves as little as it can].
+    /// The fret about which the left hand plays what several strings could give, 1 to the instrument's last, unless the song or
+    /// keyboard says so itself (CC 28) [default: it moves as little as it can].
     #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=Neck::MOST_FRETS as u64), allow_hyphen_values = true)]
     pub hand_position: Option<u8>,
-    /// The fret of a capo, 1 to 31, unless the song or keyboard says so itself (CC 26); no farther up than leaves five frets
-    /// [default: none].
+    /// The fret of a capo, 1 to the last that leaves five of the instrument's (17 on electric), unless the song or keyboard says
+    /// so itself (CC 26) [default: none].
     #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=HIGHEST_CAPO as u64), allow_hyphen_values = true)]
     pub capo: Option<u8>,
     /// When overlapping notes on one string are connected by hammers, pulls and slides: pedal (while CC 68 or 65 is down) or always.
@@ -103,6 +106,34 @@ impl TakenArgs {
             None => {
                 Ok(input.mode(first_channel.unwrap_or(1), string_order.unwrap_or(StringOrder::FirstFirst)))
             }
+        }
+    }
+
+    /// Refuses frets that an instrument of that name has not.
+    pub(in crate::cli) fn fits(&self, setup: &Setup, name: &OsStr) -> Outcome {
+        let (name, frets) = (escaped(&name.to_string_lossy()), setup.neck.frets as usize);
+        let refused = |option: &str, fret: u8, reason: String| {
+            Err(Failure::Usage(format!("{option} {fret} is refused: {reason}")))
+        };
+        if let Some(fret) = self.hand_position.filter(|&fret| usize::from(fret) > frets) {
+            let reason = match frets {
+                0 => format!("{name} has no frets"),
+                _ => format!("must be 1 to {frets} on {name}"),
+            };
+            return refused("--hand-position", fret, reason);
+        }
+        let highest = if setup.wants_bar() { 0 } else { highest_capo(frets) };
+        match self.capo.filter(|&fret| usize::from(fret) > highest) {
+            Some(fret) if highest > 0 => refused(
+                "--capo",
+                fret,
+                format!("must be 1 to {highest} on {name}, so that five frets are left"),
+            ),
+            Some(fret) if setup.wants_bar() => {
+                refused("--capo", fret, format!("no capo on {name}: its strings are too high over the frets"))
+            }
+            Some(fret) => refused("--capo", fret, format!("no capo on {name}: it leaves no five frets")),
+            None => Ok(()),
         }
     }
 
