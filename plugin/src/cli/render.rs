@@ -8,9 +8,8 @@ mod rendering;
 mod timeline;
 mod tuning;
 mod warnings;
+mod written;
 
-use std::fs::File;
-use std::io::{self, Read};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -25,10 +24,8 @@ use super::paths::{is_dash, keep_apart};
 pub use super::wav::BitDepth;
 use super::{Failure, Outcome, RenderArgs, instrument, say};
 use crate::controls::Touching;
-use crate::demo;
 use crate::engine::{Engine, EngineOptions};
-use crate::midi_file::{LARGEST_FILE, Selection, Song};
-use crate::params::InputChoice;
+use crate::midi_file::Song;
 use crate::performance::LONGEST_WAIT;
 use files::{Files, stem_paths};
 use labels::Source;
@@ -36,6 +33,7 @@ pub use options::Tail;
 pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
 use rendering::{Rendered, Rendering};
 use warnings::level;
+use written::Written;
 
 /// Renders a song.
 pub(super) fn run(arguments: &RenderArgs) -> Outcome {
@@ -59,7 +57,8 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         say(&shown(&output), "skipped: all that is asked for is there already");
         return Ok(());
     }
-    let song = read_song(arguments)?;
+    let written = Written::read(arguments)?;
+    let song = written.song(arguments)?;
     let longest_tail = arguments.tail.longest(options.tail());
     check_length(arguments, &song, longest_tail).with_context(|| song_name(arguments))?;
     let mut warnings: Vec<String> = song.warnings.iter().map(ToString::to_string).collect();
@@ -79,7 +78,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     engine.touch(&touching);
     let files = Files::begin(arguments, &output, &names)?;
 
-    let source = Source { arguments, setup: &options.setup };
+    let source = Source { arguments, setup: &options.setup, written: &written };
     let started = Instant::now();
     let rendering = Rendering {
         engine,
@@ -124,29 +123,6 @@ fn song_name(arguments: &RenderArgs) -> String {
 /// Warns of something about the song, by its name: several may be rendered at once.
 fn warn(arguments: &RenderArgs, text: &str) {
     say("warning", &format!("{}: {text}", song_name(arguments)));
-}
-
-/// Reads the song from wherever it is.
-fn read_song(arguments: &RenderArgs) -> Result<Song> {
-    let selection = Selection {
-        track: arguments.track.map(usize::from),
-        channel: arguments.channel,
-        tenth: matches!(arguments.taken.input, InputChoice::Strings | InputChoice::Mpe),
-        truncated: arguments.allow_truncated,
-    };
-    let Some(path) = &arguments.song else {
-        return Song::from_midi(demo::MIDI, selection).with_context(|| song_name(arguments));
-    };
-    // One byte more than is accepted, so that an endless source ends and is refused.
-    let limit = LARGEST_FILE as u64 + 1;
-    let mut bytes = Vec::new();
-    let read = if is_dash(path) {
-        io::stdin().lock().take(limit).read_to_end(&mut bytes)
-    } else {
-        File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
-    };
-    read.with_context(|| format!("cannot read {}", song_name(arguments)))?;
-    Song::from_midi(&bytes, selection).with_context(|| song_name(arguments))
 }
 
 /// Refuses music that would take hours, or more than a WAV file holds.

@@ -73,6 +73,8 @@ fn they_say_what_they_are_of() {
     for (key, expected) in [
         ("program", Value::from(concat!("low-action ", env!("CARGO_PKG_VERSION")))),
         ("song", "song.mid".into()),
+        ("song_bytes", song().len().into()),
+        ("song_crc32", crc32(&song()).into()),
         ("instrument", "own.toml".into()),
         ("quality", "draft".into()),
         ("sample_rate", 44_100.into()),
@@ -111,6 +113,14 @@ fn they_say_what_they_are_of() {
     assert_eq!(labels["notes"][0]["end_by"], "file");
     assert_eq!(labels["notes"][0]["end_sample"], 11_025);
     assert!(text.lines().any(|line| line.starts_with("{\"string\":6,")), "a record has a line of its own");
+}
+
+/// The CRC-32 of ZIP files, bit by bit.
+fn crc32(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, byte: &u8| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| (crc >> 1) ^ (0xEDB8_8320 * (crc & 1)))
+    };
+    !bytes.iter().fold(!0, step)
 }
 
 #[test]

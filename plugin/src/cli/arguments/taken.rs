@@ -111,7 +111,7 @@ impl TakenArgs {
 
     /// Refuses frets that an instrument of that name has not.
     pub(in crate::cli) fn fits(&self, setup: &Setup, name: &OsStr) -> Outcome {
-        let (name, frets) = (escaped(&name.to_string_lossy()), setup.neck.frets as usize);
+        let (name, frets) = (escaped(&name.to_string_lossy()), setup.neck.frets);
         let refused = |option: &str, fret: u8, reason: String| {
             Err(Failure::Usage(format!("{option} {fret} is refused: {reason}")))
         };

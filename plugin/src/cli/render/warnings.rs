@@ -64,7 +64,7 @@ fn of_notes(compromises: &Compromises) -> Vec<String> {
 
 /// Files that hold less than what sounds.
 fn clipped(source: &Source, heard: &Heard) -> Vec<String> {
-    let Source { arguments, setup } = source;
+    let Source { arguments, setup, .. } = source;
     if arguments.bit_depth == BitDepth::Float32 {
         return Vec::new();
     }

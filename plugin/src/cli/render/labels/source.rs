@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::cli::RenderArgs;
 use crate::cli::render::tuning::stopped;
+use crate::cli::render::written::Written;
 use crate::cli::wav::Findings;
 use crate::params::{InputChoice, LegatoChoice, StringOrder};
 
@@ -17,6 +18,7 @@ use crate::params::{InputChoice, LegatoChoice, StringOrder};
 pub(in crate::cli::render) struct Source<'a> {
     pub arguments: &'a RenderArgs,
     pub setup: &'a Setup,
+    pub written: &'a Written,
 }
 
 /// All that is said of a sound as a whole: with the song, enough to make it again.
@@ -26,6 +28,9 @@ pub(super) struct About<'a> {
     program: &'static str,
     /// As asked for; none for the built-in demo.
     song: Option<String>,
+    song_bytes: usize,
+    /// As of a ZIP file.
+    song_crc32: u32,
     instrument: String,
     quality: &'static str,
     /// Hz.
@@ -80,11 +85,13 @@ pub(super) struct LabelledString {
 impl Source<'_> {
     /// What is to be said of a sound of so many samples.
     pub(super) fn about(&self, samples: u64) -> About<'_> {
-        let Self { arguments, setup } = *self;
+        let Self { arguments, setup, written } = *self;
         let taken = &arguments.taken;
         About {
             program: concat!("low-action ", env!("CARGO_PKG_VERSION")),
             song: arguments.song.as_ref().map(|song| song.to_string_lossy().into_owned()),
+            song_bytes: written.bytes(),
+            song_crc32: written.crc32(),
             instrument: arguments.instrument.to_string_lossy().into_owned(),
             quality: arguments.quality.name(),
             sample_rate: arguments.sample_rate,

@@ -1,0 +1,54 @@
+//! The song as it is written: its bytes, from wherever they are.
+
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::{self, Read};
+
+use anyhow::{Context, Result};
+
+use super::song_name;
+use crate::cli::RenderArgs;
+use crate::cli::paths::is_dash;
+use crate::demo;
+use crate::midi_file::{LARGEST_FILE, Selection, Song};
+use crate::params::InputChoice;
+
+/// The bytes of a song.
+pub(super) struct Written(Cow<'static, [u8]>);
+
+impl Written {
+    /// Reads them all, but of more than are accepted one more, so that an endless source ends and is refused.
+    pub(super) fn read(arguments: &RenderArgs) -> Result<Self> {
+        let Some(path) = &arguments.song else { return Ok(Self(demo::MIDI.into())) };
+        let limit = LARGEST_FILE as u64 + 1;
+        let mut bytes = Vec::new();
+        let read = if is_dash(path) {
+            io::stdin().lock().take(limit).read_to_end(&mut bytes)
+        } else {
+            File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
+        };
+        read.with_context(|| format!("cannot read {}", song_name(arguments)))?;
+        Ok(Self(bytes.into()))
+    }
+
+    /// The music in them.
+    pub(super) fn song(&self, arguments: &RenderArgs) -> Result<Song> {
+        let selection = Selection {
+            track: arguments.track.map(usize::from),
+            channel: arguments.channel,
+            tenth: matches!(arguments.taken.input, InputChoice::Strings | InputChoice::Mpe),
+            truncated: arguments.allow_truncated,
+        };
+        Song::from_midi(&self.0, selection).with_context(|| song_name(arguments))
+    }
+
+    /// How many there are.
+    pub(super) fn bytes(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Their checksum, by which another song is told from this one: the CRC-32 of ZIP files.
+    pub(super) fn crc32(&self) -> u32 {
+        crc32fast::hash(&self.0)
+    }
+}
