@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::TypedValueParser;
 
-use super::render::{self, BitDepth, Tail};
+use super::render::{self, BitDepth, Seed, Tail};
 use crate::engine::{EngineOptions, Quality};
 pub use taken::TakenArgs;
 
@@ -104,9 +104,10 @@ pub struct RenderArgs {
     /// sounds still depends on how the string moves when it is plucked) to 1.
     #[arg(long, value_name = "AMOUNT", default_value_t = EngineOptions::VARIATION, value_parser = render::parse_variation, allow_hyphen_values = true)]
     pub variation: f64,
-    /// Which sequence of those differences, 0 to 18446744073709551615.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>(0..=u64::MAX), allow_hyphen_values = true)]
-    pub seed: u64,
+    /// Which sequence of those differences, 0 to 18446744073709551615, or one that the song's bytes choose (song): in a data set no
+    /// song is to have those of another.
+    #[arg(long, value_name = "N|song", default_value_t = Seed::Number(0), allow_hyphen_values = true)]
+    pub seed: Seed,
 }
 
 /// Arguments of `low-action scene`.

@@ -33,7 +33,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
 pub use arguments::{InstrumentsArgs, RenderArgs, SceneArgs, StandAloneArgs, TakenArgs};
-pub use render::{BitDepth, Tail};
+pub use render::{BitDepth, Seed, Tail};
 
 /// A fretted string instrument whose strings really hit the frets.
 #[derive(Debug, Parser)]

@@ -29,7 +29,7 @@ use crate::midi_file::Song;
 use crate::performance::LONGEST_WAIT;
 use files::{Files, stem_paths};
 use labels::Source;
-pub use options::Tail;
+pub use options::{Seed, Tail};
 pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
 use rendering::{Rendered, Rendering};
 use warnings::level;
@@ -42,10 +42,9 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let (mut setup, setup_file) = instrument::load(&arguments.instrument)?;
     arguments.taken.work_on(&mut setup);
     arguments.taken.fits(&setup, &arguments.instrument)?;
-    let options = EngineOptions {
+    let mut options = EngineOptions {
         quality: arguments.quality,
         variation: arguments.variation,
-        seed: arguments.seed,
         bend_range: arguments.taken.bend_range.unwrap_or(EngineOptions::BEND_RANGE),
         threads: threads(arguments),
         ..EngineOptions::new(setup, f64::from(arguments.sample_rate))
@@ -58,6 +57,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         return Ok(());
     }
     let written = Written::read(arguments)?;
+    options.seed = written.seed(arguments.seed);
     let song = written.song(arguments)?;
     let longest_tail = arguments.tail.longest(options.tail());
     check_length(arguments, &song, longest_tail).with_context(|| song_name(arguments))?;

@@ -40,6 +40,24 @@ fn the_sound_is_the_same_with_labels_and_they_are_the_same_on_every_run() {
 }
 
 #[test]
+fn each_song_may_have_differences_of_its_own() {
+    let room = Room::new();
+    // The same notes, and a text that nobody plays.
+    fs::write(room.path("other.mid"), [&song()[..], &b"XTRA\0\0\0\x01."[..]].concat()).unwrap();
+    let labels = |song: &str, seed: &str| {
+        room.renders(&[song, "-q", "draft", "--tail", "none", "--seed", seed, "--labels", "x.json"]);
+        read(&room, "x.json").1
+    };
+    let [one, other] = ["song.mid", "other.mid"].map(|name| labels(name, "song"));
+    assert_eq!(one["seed"], crc32(&song()));
+    assert!(one["seed"] != other["seed"] && one["gestures"] != other["gestures"]);
+    assert_eq!(labels("song.mid", "0")["gestures"], labels("other.mid", "0")["gestures"]);
+    // What labels say makes it again.
+    let again = labels("song.mid", &one["seed"].to_string());
+    assert!(again == one && labels("song.mid", "song") == one);
+}
+
+#[test]
 fn they_say_what_they_are_of() {
     let room = Room::new();
     let own = "name = \"own\"\nbased_on = \"electric\"\ntuning = -1.0\n";

@@ -100,11 +100,11 @@ fn wrong_usage_is_code_2() {
         (&["render", "song.mid", "more.mid"], "more.mid"),
         (
             &["render", "song.mid", "--seed", "-1"],
-            "'-1' for '--seed <N>': must be a whole number from 0 to 184467",
+            "'-1' for '--seed <N|song>': must be a whole number from 0 to 184467",
         ),
         (
             &["render", "song.mid", "--seed", "1.5"],
-            "must be a whole number from 0 to 18446744073709551615 (see",
+            "must be a whole number from 0 to 18446744073709551615, or song (see",
         ),
         // What begins with a dash and is no option, either.
         (
@@ -113,7 +113,10 @@ fn wrong_usage_is_code_2() {
         ),
         (&["render", "song.mid", "--tail", "-.5"], "'-.5' for '--tail <auto|SECONDS|none>': must be auto"),
         (&["render", "song.mid", "--tail", "-inf"], "'-inf' for '--tail <auto|SECONDS|none>': must be auto"),
-        (&["render", "song.mid", "--seed", "-x"], "'-x' for '--seed <N>': must be a whole number from 0"),
+        (
+            &["render", "song.mid", "--seed", "-x"],
+            "'-x' for '--seed <N|song>': must be a whole number from 0",
+        ),
         (&["render", "song.mid", "--max-length", "-1e3"], "'-1e3' for '--max-length <MIN>': must be above 0"),
         (&["render", "--bogus"], "'--bogus' found (see low-action render --help)"),
         (
@@ -254,7 +257,7 @@ fn names_of_files_may_be_any_bytes_and_what_else_is_no_text_is_named() {
     assert!(output.status.success(), "{output:?}");
     for (option, value, expected) in [
         ("--quality", "", "'a\u{fffd}' for '--quality <QUALITY>'"),
-        ("--seed", "", "'a\u{fffd}' for '--seed <N>'"),
+        ("--seed", "", "'a\u{fffd}' for '--seed <N|song>'"),
         ("-q", "", "'a\u{fffd}' for '--quality <QUALITY>'"),
         ("-i", "-q", "'a\u{fffd}' for '--quality <QUALITY>'"),
         ("--allow-truncated", "--track=", "'a\u{fffd}' for '--track <N>'"),

@@ -57,6 +57,38 @@ impl FromStr for Tail {
     }
 }
 
+/// Which sequence of small differences between plucks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seed {
+    /// The one of this number.
+    Number(u64),
+    /// One of the song's own, by its bytes.
+    Song,
+}
+
+impl FromStr for Seed {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "song" => Ok(Self::Song),
+            _ => {
+                let number = text.parse().map(Self::Number);
+                number.map_err(|_| format!("must be a whole number from 0 to {}, or song", u64::MAX))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Seed {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => number.fmt(out),
+            Self::Song => out.write_str("song"),
+        }
+    }
+}
+
 /// Reads `--sample-rate`.
 pub(in crate::cli) fn parse_rate(text: &str) -> Result<u32, String> {
     match text.parse::<u32>() {

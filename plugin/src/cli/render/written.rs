@@ -6,7 +6,7 @@ use std::io::{self, Read};
 
 use anyhow::{Context, Result};
 
-use super::song_name;
+use super::{Seed, song_name};
 use crate::cli::RenderArgs;
 use crate::cli::paths::is_dash;
 use crate::demo;
@@ -40,6 +40,14 @@ impl Written {
             truncated: arguments.allow_truncated,
         };
         Song::from_midi(&self.0, selection).with_context(|| song_name(arguments))
+    }
+
+    /// The number of the sequence of differences that is asked for.
+    pub(super) fn seed(&self, asked: Seed) -> u64 {
+        match asked {
+            Seed::Number(number) => number,
+            Seed::Song => self.crc32().into(),
+        }
     }
 
     /// How many there are.

@@ -98,7 +98,7 @@ impl Source<'_> {
             samples,
             duration: samples as f64 / f64::from(arguments.sample_rate),
             variation: arguments.variation,
-            seed: arguments.seed,
+            seed: written.seed(arguments.seed),
             track: arguments.track,
             channel: arguments.channel,
             input: id(taken.input, InputChoice::ids()),
