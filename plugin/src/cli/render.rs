@@ -52,12 +52,20 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
     let output = output_path(arguments)?;
     check_paths(arguments, setup_file.as_deref(), &output, &names)?;
-    if arguments.skip_existing && files::are_there(arguments, &output, &names) {
-        say(&shown(&output), "skipped: all that is asked for is there already");
-        return Ok(());
+    let is_there = arguments.skip_existing && files::are_there(arguments, &output, &names);
+    if is_there && arguments.labels.is_none() {
+        return skip(&output);
     }
     let written = Written::read(arguments)?;
     options.seed = written.seed(arguments.seed);
+    let source = Source { arguments, setup: &options.setup, written: &written };
+    // (Files without labels may be of anything.)
+    if let Some(labels) = arguments.labels.as_deref().filter(|_| is_there) {
+        match labels::difference(labels, &source) {
+            None => return skip(&output),
+            Some(difference) => say(&shown(&output), &format!("rendered again: {difference}")),
+        }
+    }
     let song = written.song(arguments)?;
     let longest_tail = arguments.tail.longest(options.tail());
     check_length(arguments, &song, longest_tail).with_context(|| song_name(arguments))?;
@@ -78,7 +86,6 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     engine.touch(&touching);
     let files = Files::begin(arguments, &output, &names)?;
 
-    let source = Source { arguments, setup: &options.setup, written: &written };
     let started = Instant::now();
     let rendering = Rendering {
         engine,
@@ -92,6 +99,12 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     };
     let rendered = rendering.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
+}
+
+/// Leaves what is there.
+fn skip(output: &Path) -> Outcome {
+    say(&shown(output), "skipped: all that is asked for is there already");
+    Ok(())
 }
 
 /// How many threads share the strings: as many as asked for, or as this machine runs at once.

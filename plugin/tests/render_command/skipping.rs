@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::room::Room;
+use crate::room::{Room, midi};
 
 /// The shortest rendering of all that there can be of a song.
 const ALL: [&str; 10] = [
@@ -42,6 +42,44 @@ fn a_song_is_rendered_again_as_long_as_any_of_its_files_is_missing() {
     // Fewer of them may be asked for; without it everything is rendered.
     assert_eq!(room.renders(&["song.mid", "--skip-existing"]), skipped);
     assert!(room.renders(&all[..9]).contains("times faster"));
+}
+
+#[test]
+fn what_labels_say_is_of_something_else_is_rendered_again() {
+    let room = Room::new();
+    room.renders(&ALL);
+    fs::rename(room.path("song.mid"), room.path("moved.mid")).unwrap();
+    let all = |options: &[&str]| -> String {
+        room.renders(&[&["moved.mid", "-o", "song.wav"], &ALL[1..], options].concat())
+    };
+    let sound = || fs::read(room.path("song.wav")).unwrap();
+    let mut before = sound();
+    let mut again = |options: &[&str], expected: &str| {
+        let said = all(options);
+        let expected = format!("song.wav: rendered again: {expected}\n");
+        assert!(said.starts_with(&expected) && said.contains("times faster"), "{options:?}: {said}");
+        assert!(sound() != before, "{options:?}");
+        before = sound();
+        let said = all(options);
+        assert!(said.contains("skipped") && said.lines().count() == 1, "{options:?}: {said}");
+    };
+    again(&["--seed", "1"], "seed was 0 and is 1");
+    again(
+        &["--seed", "1", "-i", "flatwound-jazz"],
+        "instrument was \"electric\" and is \"flatwound-jazz\", and 1 more",
+    );
+    again(&["-i", "flatwound-jazz", "--set", "action=120"], "seed was 1 and is 0, and 2 more");
+    fs::write(room.path("moved.mid"), midi(&[(0, &[0x90, 45, 90]), (48, &[0x80, 45, 0])])).unwrap();
+    let said = all(&["-i", "flatwound-jazz", "--set", "action=120"]);
+    assert!(said.starts_with("song.wav: rendered again: song_bytes was "), "{said}");
+    // Another version of the program may play otherwise.
+    let labels = fs::read_to_string(room.path("song.json")).unwrap();
+    let program = concat!("low-action ", env!("CARGO_PKG_VERSION"));
+    fs::write(room.path("song.json"), labels.replace(program, "low-action 0.0.1")).unwrap();
+    let said = all(&["-i", "flatwound-jazz", "--set", "action=120"]);
+    assert!(said.starts_with("song.wav: rendered again: program was \"low-action 0.0.1\" and is "), "{said}");
+    // Without labels nobody knows.
+    assert!(room.renders(&["moved.mid", "-o", "song.wav", "--skip-existing"]).contains("skipped"));
 }
 
 #[test]

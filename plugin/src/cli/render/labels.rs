@@ -3,6 +3,7 @@
 //! The player tells it as it plays ([`Record`]); here it is put into words and numbers. None is guessed from the sound.
 
 mod gestures;
+mod header;
 mod lines;
 mod notes;
 mod source;
@@ -58,6 +59,11 @@ impl LabelFile {
         written.with_context(|| format!("cannot write {}", shown(&self.path)))?;
         Ok(self.draft)
     }
+}
+
+/// How labels that are there differ from those that would be made from a source, in words; nothing if they are of the same.
+pub(super) fn difference(path: &Path, source: &Source) -> Option<String> {
+    header::difference(path, &source.about(0))
 }
 
 /// Whether a file of labels has its end.
