@@ -420,6 +420,21 @@ fn a_reader_who_has_seen_enough_of_the_help_is_no_failure() {
 }
 
 #[test]
+fn what_the_help_shows_can_be_typed() {
+    let room = Room::new();
+    for arguments in
+        [&["--help"][..], &["render", "--help"], &["scene", "--help"], &["instruments", "--help"]]
+    {
+        let help = String::from_utf8(room.run(arguments).stdout).unwrap();
+        assert!(help.lines().all(|line| !line.contains("\\\"")), "{arguments:?}: {help}");
+    }
+    // As it is shown, quotes and all.
+    let help = String::from_utf8(room.run(&["render", "--help"]).stdout).unwrap();
+    assert!(help.contains("pluck_force=\"80 %\""), "{help}");
+    room.renders(&["song.mid", "-q", "draft", "--tail", "none", "--set", "pluck_force=80 %"]);
+}
+
+#[test]
 fn the_help_says_how_far_wheels_reach() {
     let help = String::from_utf8(Room::new().run(&["render", "--help"]).stdout).unwrap();
     let (_, help) = help.split_once("--bend-range").unwrap();

@@ -53,7 +53,7 @@ pub struct TakenArgs {
     #[arg(long)]
     pub ignore_hand_controllers: bool,
     /// Set another parameter of the plugins, of those of hands, set-up, strings and control, to what they show: velocity_curve=2,
-    /// keyswitches=36, pluck_force=\"80 %\"; any number of times.
+    /// keyswitches=36, pluck_force="80 %"; any number of times.
     #[arg(long, value_name = "ID=VALUE", value_parser = parse_setting, allow_hyphen_values = true)]
     pub set: Vec<Setting>,
 }
