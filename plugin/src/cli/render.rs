@@ -22,6 +22,7 @@ use super::descriptors::descriptor;
 use super::names::{escaped, shown};
 use super::paths::{is_dash, keep_apart};
 pub use super::wav::BitDepth;
+use super::wav::refuse_others;
 use super::{Failure, Outcome, RenderArgs, instrument, say};
 use crate::controls::Touching;
 use crate::engine::{Engine, EngineOptions};
@@ -51,6 +52,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     };
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
     let output = output_path(arguments)?;
+    refuse_others("-o", &output)?;
     check_paths(arguments, setup_file.as_deref(), &output, &names)?;
     let is_there = arguments.skip_existing && files::are_there(arguments, &output, &names);
     if is_there && arguments.labels.is_none() {

@@ -24,7 +24,7 @@ use super::output::{Draft, publish_all};
 use super::paths::{is_dash, keep_apart};
 use super::progress::Progress;
 use super::trace::Trace;
-use super::wav::{BitDepth, Findings, WavFile};
+use super::wav::{BitDepth, Findings, WavFile, refuse_others};
 use super::{Failure, Outcome, SceneArgs, say};
 use summary::Summary;
 
@@ -99,8 +99,9 @@ fn read(path: &Path) -> Result<(String, Scene)> {
     Ok((text, scene))
 }
 
-/// Refuses to write two results, or a result and the scene, to one file.
+/// Refuses a sound that is called something else, and to write two results, or a result and the scene, to one file.
 fn check_paths(arguments: &SceneArgs) -> Outcome {
+    arguments.wav.as_deref().map_or(Ok(()), |path| refuse_others("--wav", path))?;
     let written = [("--wav", &arguments.wav), ("--trace", &arguments.trace), ("--figure", &arguments.figure)];
     let written = written.into_iter().filter_map(|(name, path)| Some((name.to_owned(), path.clone()?)));
     keep_apart(&[("the scene".into(), arguments.file.clone())], &written.collect::<Vec<_>>())

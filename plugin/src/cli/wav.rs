@@ -14,6 +14,7 @@ use hound::{SampleFormat, WavSpec, WavWriter};
 
 use super::names::shown;
 use super::output::Draft;
+use super::{Failure, Outcome};
 use room::WithRoom;
 
 /// Bytes a WAV file can hold: sizes are 32-bit, and the header takes some.
@@ -21,6 +22,22 @@ const LARGEST_FILE: u64 = u32::MAX as u64 - 1024;
 
 /// Why no more is written to one that holds as much.
 const FULL: &str = "a WAV file holds 4 GiB and no more";
+
+/// Endings of names that promise sound in another form, which players and readers go by.
+const OTHERS: [&str; 11] = ["aac", "aif", "aifc", "aiff", "au", "caf", "flac", "m4a", "mp3", "ogg", "opus"];
+
+/// Refuses a name, given by an option, that promises another form of sound.
+pub(super) fn refuse_others(option: &str, path: &Path) -> Outcome {
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    if OTHERS.iter().all(|other| ending != *other) {
+        return Ok(());
+    }
+    let path = shown(path);
+    Err(Failure::Usage(format!(
+        "{option} {path} is refused: low-action writes WAV, so it must not end in .{}",
+        ending.display()
+    )))
+}
 
 /// Whether a file is as long as it says. It may have been copied, and the copy broken off.
 pub(super) fn is_whole(path: &Path) -> bool {

@@ -139,6 +139,20 @@ fn wrong_usage_is_code_2() {
 }
 
 #[test]
+fn sound_in_another_form_is_not_promised() {
+    let room = Room::new();
+    for name in ["x.flac", "x.mp3", "no/such/x.ogg", "x.AIF", "x.wav.aiff"] {
+        let expected = format!("{name} is refused: low-action writes WAV");
+        let said = room.refuses(2, &["render", "song.mid", "-o", name]);
+        assert!(said.contains(&format!("-o {expected}")), "{said}");
+    }
+    // Other names may be of anything.
+    for name in ["flac", "x", "x.wave", "x.WAV"] {
+        room.renders(&["song.mid", "-q", "draft", "--tail", "none", "-o", name]);
+    }
+}
+
+#[test]
 fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
     let room = Room::new();
     let whole = song();

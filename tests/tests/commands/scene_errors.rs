@@ -559,6 +559,7 @@ fn wrong_usage_is_told_apart() {
         ),
         (&["scene", "scene.toml", "--every", "2"], &["--trace"]),
         (&["scene", "scene.toml", "--wav", "x", "--trace", "x"], &["--wav", "--trace", "same file"]),
+        (&["scene", "scene.toml", "--wav", "x.flac"], &["--wav x.flac is refused", "writes WAV"]),
         (&["scene", "scene.toml", "--wav", "-", "--trace", "-"], &["--wav", "--trace", "same file"]),
         (&["scene", "scene.toml", "--wav", "./scene.toml"], &["the scene", "--wav", "same file"]),
         (&["scene", "scene.toml", "--wav", "x", "--trace", "./x"], &["--wav", "--trace", "same file"]),
