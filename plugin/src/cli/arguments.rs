@@ -97,6 +97,9 @@ pub struct RenderArgs {
     /// broken off.
     #[arg(long)]
     pub skip_existing: bool,
+    /// Say nothing of how far it has come, nor at the end: only warnings, errors, and why what is there is rendered again.
+    #[arg(long)]
+    pub quiet: bool,
     /// Threads that share the strings among them, 1 to 64 [default: as many as there are processors]; strings over a body are
     /// one thread's. The sound is the same bits.
     #[arg(long, value_name = "N", value_parser = whole::<u8>(1..=64), allow_hyphen_values = true)]

@@ -10,7 +10,7 @@ use super::say;
 /// How often a line says how far it has come where there is no terminal to draw on.
 const BETWEEN_LINES: Duration = Duration::from_secs(60);
 
-const TEMPLATE: &str = "{wide_bar} {percent} %, {eta} to go";
+const TEMPLATE: &str = "{msg} {wide_bar} {percent} %, {eta} to go";
 
 /// How many of so many samples are done: a bar on standard error if that is a terminal, and else a line there every
 /// minute.
@@ -28,9 +28,16 @@ impl Progress {
         let bar = std::io::stderr().is_terminal().then(|| {
             let style = ProgressStyle::with_template(TEMPLATE);
             let style = style.expect("the template is constant and the tests show it");
-            ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr()).with_style(style)
+            let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
+            bar.with_style(style).with_message(name.clone())
         });
         Self { name, total, bar, started: Instant::now(), next_line: BETWEEN_LINES }
+    }
+
+    /// Of what nobody watches.
+    pub fn unseen() -> Self {
+        let (started, next_line) = (Instant::now(), Duration::MAX);
+        Self { name: String::new(), total: 0, bar: None, started, next_line }
     }
 
     /// So many samples are done.

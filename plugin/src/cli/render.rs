@@ -56,7 +56,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     check_paths(arguments, setup_file.as_deref(), &output, &names)?;
     let is_there = arguments.skip_existing && files::are_there(arguments, &output, &names);
     if is_there && arguments.labels.is_none() {
-        return skip(&output);
+        return skip(arguments, &output);
     }
     let written = Written::read(arguments)?;
     options.seed = written.seed(arguments.seed);
@@ -64,7 +64,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     // (Files without labels may be of anything.)
     if let Some(labels) = arguments.labels.as_deref().filter(|_| is_there) {
         match labels::difference(labels, &source) {
-            None => return skip(&output),
+            None => return skip(arguments, &output),
             Some(difference) => say(&shown(&output), &format!("rendered again: {difference}")),
         }
     }
@@ -104,8 +104,10 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
 }
 
 /// Leaves what is there.
-fn skip(output: &Path) -> Outcome {
-    say(&shown(output), "skipped: all that is asked for is there already");
+fn skip(arguments: &RenderArgs, output: &Path) -> Outcome {
+    if !arguments.quiet {
+        say(&shown(output), "skipped: all that is asked for is there already");
+    }
     Ok(())
 }
 
@@ -219,6 +221,8 @@ fn report(arguments: &RenderArgs, output: &Path, rendered: &Rendered, elapsed: f
     };
     let seconds = heard.samples as f64 / f64::from(arguments.sample_rate);
     let speed = seconds / elapsed.max(1e-9);
-    say(&name, &format!("{seconds:.2} s, {peak}, {speed:.1} times faster than real time"));
+    if !arguments.quiet {
+        say(&name, &format!("{seconds:.2} s, {peak}, {speed:.1} times faster than real time"));
+    }
     Ok(())
 }

@@ -111,3 +111,20 @@ fn what_is_not_whole_is_not_there() {
     }
     assert!(room.renders(&ALL).contains("skipped"));
 }
+
+#[test]
+fn who_asks_for_quiet_hears_of_nothing_that_goes_well() {
+    let room = Room::new();
+    let quiet = [&ALL[..], &["--quiet"]].concat();
+    // Rendered, and skipped.
+    assert_eq!(room.renders(&quiet), "");
+    assert!(room.path("song.wav").exists());
+    assert_eq!(room.renders(&quiet), "");
+    // What is not as asked is said.
+    let said = room.renders(&[&quiet[..], &["--seed", "1"]].concat());
+    assert_eq!(said, "song.wav: rendered again: seed was 0 and is 1\n");
+    fs::write(room.path("odd.mid"), midi(&[(0, &[0x90, 20, 90]), (48, &[0x80, 20, 0])])).unwrap();
+    let said = room.renders(&["odd.mid", "-q", "draft", "--quiet"]);
+    assert!(said.starts_with("warning: odd.mid: 1 note was moved") && said.lines().count() == 1, "{said}");
+    assert!(room.refuses(1, &["render", "none.mid", "--quiet"]).contains("cannot read none.mid"));
+}

@@ -61,7 +61,10 @@ impl Rendering<'_> {
         let tail = self.source.arguments.tail;
         let longest = samples(self.longest_tail);
         // (How long a tail by itself is nobody knows before.)
-        let mut progress = Progress::new(song_name(self.source.arguments), last + longest);
+        let mut progress = match self.source.arguments.quiet {
+            true => Progress::unseen(),
+            false => Progress::new(song_name(self.source.arguments), last + longest),
+        };
         // (Labels know of each string's own sound, too, whether it is written or not.)
         let apart = if labelled { self.engine.string_count() } else { self.files.stems.len() };
         let mut buffers = Buffers::new(apart, Engine::LATENCY as usize);
