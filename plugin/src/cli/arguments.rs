@@ -182,8 +182,8 @@ the energies half a sample later.
   power_loss_hand, power_loss_body
                                W; the terms of power_loss
   power_in_pluck, power_in_hand, power_in_slide,
-  power_in_tension             W; the terms of power_in, all but in the first sample of a
-                               string that is thrown and begins inside board or frets
+  power_in_barrier, power_in_tension
+                               W; the terms of power_in
   residual                     J in that sample: what the balance leaves over
   scene                        the text of the scene
 

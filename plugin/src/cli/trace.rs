@@ -37,12 +37,10 @@ struct FingerArrays {
 /// What an array of the ledger holds of an entry.
 type Part = fn(&Entry) -> f64;
 
-/// The ledger's arrays, without what only instruments do: moving frets, placing fingers, and without what the bridge of a body puts
-/// into strings, which in all is what it takes from them: each string has an array of its own for that. (There is an
-/// exception: under a string that is thrown and begins inside board or frets these count as risen in the first sample, by
-/// `inputs.barrier`, and there the terms of `power_in` here are less than all of it.) Readers add up all whose names begin with
-/// `energy_`: no other may.
-const LEDGER: [(&str, Part); 18] = [
+/// The ledger's arrays, without what only instruments do, placing fingers, and without what the bridge of a body puts into strings,
+/// which in all is what it takes from them: each string has an array of its own for that. Readers add up all whose names begin
+/// with `energy_`: no other may.
+const LEDGER: [(&str, Part); 19] = [
     ("energy_string", |entry| entry.energies.string),
     ("energy_tension", |entry| entry.energies.tension),
     ("energy_contact", |entry| entry.energies.contact),
@@ -59,6 +57,7 @@ const LEDGER: [(&str, Part); 18] = [
     ("power_in_pluck", |entry| entry.inputs.pluck),
     ("power_in_hand", |entry| entry.inputs.hand),
     ("power_in_slide", |entry| entry.inputs.slide),
+    ("power_in_barrier", |entry| entry.inputs.barrier),
     ("power_in_tension", |entry| entry.inputs.tension),
     ("residual", |entry| entry.residual),
 ];

@@ -8,18 +8,19 @@ use std::path::Path;
 use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::{Entry, Scene, Simulation};
 use low_action_tests::command::Workplace;
-use low_action_tests::npz::arrays;
+use low_action_tests::npz::{Array, arrays};
 use low_action_tests::numbers::largest;
 use low_action_tests::scenes::PLUCKED_AND_TAPPED as SCENE;
 
 /// The ledger's arrays, by the alphabet.
-const LEDGER: [&str; 18] = [
+const LEDGER: [&str; 19] = [
     "energy_body",
     "energy_contact",
     "energy_finger",
     "energy_string",
     "energy_tension",
     "power_in",
+    "power_in_barrier",
     "power_in_hand",
     "power_in_pluck",
     "power_in_slide",
@@ -144,6 +145,7 @@ fn the_trace_holds_the_ledger() {
         ("power_in_pluck", column(|entry| entry.inputs.pluck)),
         ("power_in_hand", column(|entry| entry.inputs.hand)),
         ("power_in_slide", column(|entry| entry.inputs.slide)),
+        ("power_in_barrier", column(|entry| entry.inputs.barrier)),
         ("power_in_tension", column(|entry| entry.inputs.tension)),
         ("residual", column(|entry| entry.residual)),
     ];
@@ -167,16 +169,31 @@ fn the_trace_holds_the_ledger() {
         .sum();
     assert!(open.abs() < 1e-12 * largest, "{open} of {largest}");
 
-    // And can tell what was lost and put in by its terms.
+    // And can tell what was lost and put in by its terms, also where a string begins inside the board and is thrown.
+    terms_add_up(&found);
+    assert!(found["power_in_barrier"].numbers.iter().all(|&power| power == 0.0));
+    let thrown = "sample_rate = 44100\nduration = 0.01\n[[string]]\nlength = 0.65\nlinear_density = 5.25e-3\ntension = 60.0\n\
+                  loss_0 = 1.0\nshape = [[0.0, 0.0], [0.3, -0.004], [0.65, 0.0]]\nvelocity = [[0.3, 1.0]]\n[fretboard]\n\
+                  stiffness = 1e9\nexponent = 2.0\nboard = -0.002\nfrets = 3\nfret_top = -0.001\n";
+    place.write("scene.toml", thrown);
+    assert_eq!(place.run(&["scene", "scene.toml", "--trace", "out.npz"]).code, 0);
+    let found = arrays(&place.path("out.npz"));
+    terms_add_up(&found);
+    let risen = &found["power_in_barrier"].numbers;
+    assert!(risen[0].abs() > 1e-3 && risen[1..].iter().all(|&power| power == 0.0), "{} W", risen[0]);
+}
+
+/// Whether the terms of what is lost and of what is put in make up all of it.
+fn terms_add_up(found: &BTreeMap<String, Array>) {
     for total in ["power_loss", "power_in"] {
         let terms = found.iter().filter(|(name, _)| name.starts_with(&format!("{total}_")));
         let terms: Vec<_> = terms.map(|(_, array)| &array.numbers).collect();
-        for (row, &total) in found[total].numbers.iter().enumerate() {
+        for (row, &all) in found[total].numbers.iter().enumerate() {
             let sum: f64 = terms.iter().map(|numbers| numbers[row]).sum();
             let size: f64 = terms.iter().map(|numbers| numbers[row].abs()).sum();
             assert!(
-                (total - sum).abs() <= 16.0 * f64::EPSILON * size,
-                "{total} W is not {sum} W in row {row}"
+                (all - sum).abs() <= 16.0 * f64::EPSILON * size,
+                "{total}: {all} W is not {sum} W in row {row}"
             );
         }
     }
