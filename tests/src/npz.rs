@@ -29,15 +29,15 @@ pub fn arrays(path: &Path) -> BTreeMap<String, Array> {
         // Reading to the end compares the checksum.
         let entry = archive.by_index(index).unwrap();
         let name = entry.name().unwrap().strip_suffix(".npy").unwrap().to_owned();
-        if name == "scene" {
+        if name == "scene" || name == "program" {
             continue;
         }
         let array = NpyFile::new(entry).unwrap();
         let shape = array.shape().to_vec();
-        let numbers = if name == "iterations" {
-            array.into_vec::<u32>().unwrap().into_iter().map(f64::from).collect()
-        } else {
-            array.into_vec::<f64>().unwrap()
+        let numbers = match name.as_str() {
+            "iterations" => array.into_vec::<u32>().unwrap().into_iter().map(f64::from).collect(),
+            "every" => array.into_vec::<u64>().unwrap().into_iter().map(|number| number as f64).collect(),
+            _ => array.into_vec::<f64>().unwrap(),
         };
         assert_eq!(numbers.len() as u64, shape.iter().product::<u64>(), "{name}");
         arrays.insert(name, Array { shape, numbers });

@@ -186,6 +186,8 @@ the energies half a sample later.
                                W; the terms of power_in
   residual                     J in that sample: what the balance leaves over
   scene                        the text of the scene
+  program                      name and version of what computed it
+  sample_rate, every           Hz, and how many samples apart rows are
 
 The result is checked: it must be finite and, unless only a WAV file is made, its energy must balance to \
 1e-9 of the largest energy, or of all that was put in where that is more (what was taken out again is not \

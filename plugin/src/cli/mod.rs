@@ -35,6 +35,9 @@ use clap::{CommandFactory, Parser, Subcommand};
 pub use arguments::{InstrumentsArgs, RenderArgs, SceneArgs, StandAloneArgs, TakenArgs};
 pub use render::{BitDepth, Seed, Tail};
 
+/// Name and version, as results have it that say what made them.
+const PROGRAM: &str = concat!("low-action ", env!("CARGO_PKG_VERSION"));
+
 /// A fretted string instrument whose strings really hit the frets.
 #[derive(Debug, Parser)]
 #[command(

@@ -36,6 +36,8 @@ pub(super) enum Kind {
     Real,
     /// Whole numbers of 32 bits, 0 or more.
     Count,
+    /// Whole numbers of 64 bits, 0 or more.
+    Whole,
     /// Text of so many characters, 1 or more.
     Text(u64),
 }
@@ -46,13 +48,14 @@ impl Kind {
         match self {
             Kind::Real => "<f8".into(),
             Kind::Count => "<u4".into(),
+            Kind::Whole => "<u8".into(),
             Kind::Text(characters) => format!("<U{characters}"),
         }
     }
 
     fn bytes(self) -> u64 {
         match self {
-            Kind::Real => 8,
+            Kind::Real | Kind::Whole => 8,
             Kind::Count => 4,
             Kind::Text(characters) => 4 * characters,
         }
@@ -138,6 +141,11 @@ impl NpzFile {
     /// Adds a number to an array of [`Kind::Count`].
     pub fn add_count(&mut self, array: usize, count: u32) -> io::Result<()> {
         self.add_bytes(array, &count.to_le_bytes())
+    }
+
+    /// Adds a number to an array of [`Kind::Whole`].
+    pub fn add_whole(&mut self, array: usize, number: u64) -> io::Result<()> {
+        self.add_bytes(array, &number.to_le_bytes())
     }
 
     /// Adds a text to an array of [`Kind::Text`], in UTF-32 as NumPy has it.

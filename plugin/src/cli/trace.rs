@@ -9,6 +9,7 @@ use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::simulation::SceneString;
 use low_action_dsp::{Entry, Simulation};
 
+use super::PROGRAM as PROGRAM_NAME;
 use super::names::shown;
 use super::npz::{Array, Kind, NpzFile};
 use super::output::Draft;
@@ -62,11 +63,14 @@ const LEDGER: [(&str, Part); 19] = [
     ("residual", |entry| entry.residual),
 ];
 
-/// Where times go, and the scene's text.
+/// Where times go, and what the trace is of: the scene's text, what computed it, at which rate, and how many samples apart rows are.
 const TIME: usize = 0;
 const SCENE: usize = 1;
+const PROGRAM: usize = 2;
+const SAMPLE_RATE: usize = 3;
+const EVERY: usize = 4;
 
-/// The arrays of a trace and what fills them. Those of [`TIME`] and [`SCENE`] are the first.
+/// The arrays of a trace and what fills them. Those above are the first.
 struct Plan {
     arrays: Vec<Array>,
     strings: Vec<StringArrays>,
@@ -91,6 +95,9 @@ impl Plan {
         };
         array("t".into(), Kind::Real, &[rows]);
         array("scene".into(), Kind::Text(text.chars().count() as u64), &[]);
+        array("program".into(), Kind::Text(PROGRAM_NAME.chars().count() as u64), &[]);
+        array("sample_rate".into(), Kind::Real, &[]);
+        array("every".into(), Kind::Whole, &[]);
         let has_body = simulation.has_body();
         let mut strings = Vec::new();
         let mut pluck_count = 0;
@@ -171,8 +178,7 @@ impl Trace {
         let npz = draft.handle().and_then(|file| NpzFile::begin(file, &plan.arrays));
         let npz = npz.with_context(|| cannot_write(path))?;
         let mut trace = Trace { path: path.to_owned(), draft, plan, npz, fret_forces: Vec::new() };
-        trace.npz.add_text(SCENE, text).with_context(|| cannot_write(path))?;
-        trace.keep_places(simulation).with_context(|| cannot_write(path))?;
+        trace.keep_origin(text, simulation).with_context(|| cannot_write(path))?;
         Ok(trace)
     }
 
@@ -196,7 +202,12 @@ impl Trace {
         Ok(entry)
     }
 
-    fn keep_places(&mut self, simulation: &Simulation) -> io::Result<()> {
+    /// Keeps what does not change.
+    fn keep_origin(&mut self, text: &str, simulation: &Simulation) -> io::Result<()> {
+        self.npz.add_text(SCENE, text)?;
+        self.npz.add_text(PROGRAM, PROGRAM_NAME)?;
+        self.npz.add(SAMPLE_RATE, &[simulation.sample_rate()])?;
+        self.npz.add_whole(EVERY, self.plan.every)?;
         for (arrays, string) in self.plan.strings.iter().zip(simulation.strings()) {
             // Places stand just before displacements.
             string.places().try_for_each(|place| self.npz.add(arrays.displacement - 1, &[place]))?;

@@ -52,6 +52,8 @@ fn expected(every: usize) -> BTreeMap<String, Vec<f64>> {
     let mut simulation = simulation();
     let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
     let mut add = |name: String, number: f64| columns.entry(name).or_default().push(number);
+    add("sample_rate".into(), 44_100.0);
+    add("every".into(), every as f64);
     for (number, string) in (1..).zip(simulation.strings()) {
         string.places().for_each(|place| add(format!("x_{number}"), place));
     }

@@ -72,6 +72,29 @@ fn the_scene_is_in_it_as_it_was_written() {
 }
 
 #[test]
+fn it_says_what_made_it_and_how_far_rows_are_apart() {
+    let place = workplace();
+    for (every, rows) in [(1, 882), (7, 126), (u64::MAX, 1)] {
+        let done = place.run(&["scene", "scene.toml", "--trace", "out.npz", "--every", &every.to_string()]);
+        assert_eq!(done.code, 0, "{}", done.error);
+        let path = place.path("out.npz");
+        // (The tests have the program's version.)
+        assert_eq!(text(&path, "program"), concat!("low-action ", env!("CARGO_PKG_VERSION")));
+        let found = arrays(&path);
+        let single = |name: &str| {
+            let Array { shape, numbers } = &found[name];
+            assert!(shape.is_empty(), "{name}: {shape:?}");
+            numbers[0]
+        };
+        assert_eq!((single("sample_rate"), single("every")), (RATE, every as f64));
+        let times = &found["t"].numbers;
+        assert_eq!(times.len(), rows);
+        let exact = (0..rows).map(|row| (row as u64 * every) as f64 / single("sample_rate"));
+        assert!(times.iter().copied().eq(exact), "{every}");
+    }
+}
+
+#[test]
 fn plucks_push_as_the_scene_has_it() {
     let place = workplace();
     assert_eq!(place.run(&["scene", "scene.toml", "--trace", "out.npz"]).code, 0);

@@ -7,10 +7,10 @@ use low_action_dsp::{Error, Instrument, Setup};
 use nice_plug::prelude::Enum;
 use serde::Serialize;
 
-use crate::cli::RenderArgs;
 use crate::cli::render::tuning::stopped;
 use crate::cli::render::written::Written;
 use crate::cli::wav::Findings;
+use crate::cli::{PROGRAM, RenderArgs};
 use crate::params::{InputChoice, LegatoChoice, StringOrder};
 
 /// What a sound is made from.
@@ -88,7 +88,7 @@ impl Source<'_> {
         let Self { arguments, setup, written } = *self;
         let taken = &arguments.taken;
         About {
-            program: concat!("low-action ", env!("CARGO_PKG_VERSION")),
+            program: PROGRAM,
             song: arguments.song.as_ref().map(|song| song.to_string_lossy().into_owned()),
             song_bytes: written.bytes(),
             song_crc32: written.crc32(),
