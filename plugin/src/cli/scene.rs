@@ -46,9 +46,8 @@ pub(super) fn run(arguments: &SceneArgs) -> Outcome {
     let name = scene_name(&arguments.file);
     let mut simulation = Simulation::new(&scene).with_context(|| name.clone())?;
     check_paths(arguments)?;
-    warnings::of(&scene, &simulation)
-        .iter()
-        .for_each(|warning| say("warning", &format!("{name}: {warning}")));
+    let warn = |warning: &String| say("warning", &format!("{name}: {warning}"));
+    warnings::of(&scene, &simulation).iter().for_each(warn);
     if arguments.trace.is_some() || arguments.figure.is_some() || arguments.wav.is_none() {
         simulation.open_ledger();
     }
@@ -65,11 +64,10 @@ pub(super) fn run(arguments: &SceneArgs) -> Outcome {
     let summary =
         Summary { arguments, scene: &scene, simulation: &simulation, seen, sound, trace_size, elapsed };
     summary.print();
+    warnings::overstretched(&seen).iter().for_each(warn);
     let strings = simulation.strings().len();
     check(&name, &seen, sound.as_ref(), strings, simulation.accounts())?;
-    warnings::coarse(strings, simulation.accounts())
-        .iter()
-        .for_each(|warning| say("warning", &format!("{name}: {warning}")));
+    warnings::coarse(strings, simulation.accounts()).iter().for_each(warn);
     Ok(())
 }
 

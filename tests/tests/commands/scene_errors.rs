@@ -597,6 +597,39 @@ fn what_does_nothing_is_warned_of() {
         assert_eq!(done.code, 0, "{}", done.error);
         assert!(done.error.starts_with(&format!("warning: scene.toml: {warning}")), "{new}: {}", done.error);
     }
+    // Nor does anything else push then.
+    let still = "[[pluck]]\nduration = 0.002\nposition = 0.5\nforce = -1.0\n";
+    let motionless = "warning: scene.toml: nothing sets it in motion: ";
+    for (old, new, is_told) in [
+        (still, "", true),
+        ("force = -1.0", "force = 0.0", true),
+        (
+            still,
+            "[[finger]]\nmass = 5e-3\nstiffness = 1e8\nexponent = 2.0\nposition = 0.3\nforce = 0.1\n",
+            false,
+        ),
+        (
+            still,
+            "[[finger]]\nmass = 5e-3\nstiffness = 1e8\nexponent = 2.0\nposition = 0.3\nvelocity = -0.1\n",
+            false,
+        ),
+        ("force = -1.0", "force = 1.0", false),
+    ] {
+        assert!(SCENE.contains(old), "{old}");
+        place.write("scene.toml", SCENE.replacen(old, new, 1));
+        let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
+        assert_eq!((done.code, done.error.contains(motionless)), (0, is_told), "{new}: {}", done.error);
+        assert_eq!(done.text().contains("at most 0.0000 N"), is_told, "{}", done.text());
+    }
+    for shape in ["shape = [[0, 0], [0.3, 1e-6], [0.65, 0]]", "velocity = [[0.3, 1e-6]]"] {
+        let begun =
+            SCENE.replacen(still, "", 1).replacen("loss_0 = 1.0", &format!("loss_0 = 1.0\n{shape}"), 1);
+        place.write("scene.toml", begun);
+        let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
+        assert_eq!((done.code, done.error.as_str()), (0, ""));
+        // However little it is, it is something.
+        assert!(!done.text().contains("at most 0.0000"), "{}", done.text());
+    }
     // One that only lets go pushes.
     let released = SCENE.replacen("duration = 0.002", "duration = 0.0\nrelease = 0.002", 1);
     for scene in [SCENE, &released] {
@@ -651,9 +684,10 @@ fn a_balance_that_rounding_leaves_unchecked_is_warned_of() {
     let done = place.run(&["scene", "scene.toml"]);
     assert_eq!(done.code, 0, "{}", done.error);
     let warning = "warning: scene.toml: the energy balance of string 1 is checked only to ";
-    assert!(done.error.starts_with(warning), "{}", done.error);
-    assert!(done.error.contains("rounding"), "{}", done.error);
-    assert_eq!(done.error.lines().count(), 1, "{}", done.error);
+    // (It is stretched far beyond its grid, too.)
+    let told: Vec<&str> = done.error.lines().filter(|line| !line.contains("stretching brings")).collect();
+    assert!(told.len() == 1 && told[0].starts_with(warning), "{}", done.error);
+    assert!(told[0].contains("rounding"), "{}", done.error);
     // Where nothing is measured nothing is checked.
     let done = place.run(&["scene", "scene.toml", "--wav", "out.wav"]);
     assert_eq!((done.code, done.error.contains("balance")), (0, false), "{}", done.error);

@@ -53,7 +53,6 @@ impl Summary<'_> {
             "time: {samples} samples at {rate} Hz, {seconds:.4} s, computed in {elapsed:.2} s"
         ));
         lines.extend(self.contact());
-        lines.extend(self.stretched());
         lines.push(self.energy());
         lines.extend(self.files());
         lines
@@ -66,17 +65,6 @@ impl Summary<'_> {
             format!(
                 "contact: at most {contacts} at once, penetration at most {penetration:.2e} m, {mean:.2} iterations a \
                  sample, at most {most_iterations}"
-            )
-        })
-    }
-
-    /// Only where the grid had too little room for it.
-    fn stretched(&self) -> Option<String> {
-        let [most, borne] = self.seen.stretched?;
-        (most > borne).then(|| {
-            format!(
-                "stretching: tension at most {most:.2} N, and the grid bears {borne:.2} N: pitch glides too little, and the \
-                 shortest waves ripple. A tension whose course reaches as high, be it after the end, makes room"
             )
         })
     }
@@ -99,13 +87,11 @@ impl Summary<'_> {
     fn files(&self) -> Vec<String> {
         let mut lines = Vec::new();
         if let (Some(path), Some(sound)) = (&self.arguments.wav, self.sound) {
-            let (path, peak) = (shown(path), sound.peak);
+            let (path, peak) = (shown(path), size(sound.peak));
             lines.push(match self.scene.output.position {
-                ListeningPoint::Bridge => format!("{path}: force on the bridge, at most {peak:.4} N"),
-                ListeningPoint::At(place) => format!("{path}: velocity at {place} m, at most {peak:.4} m/s"),
-                ListeningPoint::Air => {
-                    format!("{path}: sound pressure before the body, at most {peak:.4} Pa")
-                }
+                ListeningPoint::Bridge => format!("{path}: force on the bridge, at most {peak} N"),
+                ListeningPoint::At(place) => format!("{path}: velocity at {place} m, at most {peak} m/s"),
+                ListeningPoint::Air => format!("{path}: sound pressure before the body, at most {peak} Pa"),
             });
         }
         if let (Some(path), Some((rows, bytes))) = (&self.arguments.trace, self.trace_size) {
@@ -116,6 +102,11 @@ impl Summary<'_> {
     }
 }
 
+/// A size with four digits after the point, or with its exponent where these would hide it.
+fn size(size: f32) -> String {
+    if size == 0.0 || size >= 0.001 { format!("{size:.4}") } else { format!("{size:.3e}") }
+}
+
 /// How far the ledgers are open in all at the end, where it is most, and what of.
 fn in_all(accounts: &[&Account]) -> String {
     let Some(worst) = accounts.iter().max_by(|a, b| open_part(a).total_cmp(&open_part(b))) else {
@@ -124,4 +115,22 @@ fn in_all(accounts: &[&Account]) -> String {
     let (part, put_in, largest) = (open_part(worst), worst.put_in_gross, worst.largest);
     let (of, what) = if put_in > largest { (put_in, "put in") } else { (largest, "that there was at most") };
     format!("and in all at the end by {part:.1e} of the {of:.3e} J {what}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_size_is_not_shown_as_none() {
+        for (number, expected) in [
+            (0.0, "0.0000"),
+            (0.001, "0.0010"),
+            (12.345_67, "12.3457"),
+            (4.2e-5, "4.200e-5"),
+            (f32::NAN, "NaN"),
+        ] {
+            assert_eq!(size(number), expected);
+        }
+    }
 }

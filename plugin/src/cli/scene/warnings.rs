@@ -1,9 +1,11 @@
 //! What a scene says that is allowed and hardly meant: strings that begin inside something, and parts that do nothing.
 
+use low_action_dsp::curve::Curve;
 use low_action_dsp::digits::plain;
+use low_action_dsp::scene::PluckSpec;
 use low_action_dsp::{Account, Ledger, Scene, Simulation};
 
-use super::{COARSE, named, open_part, rounding_part};
+use super::{COARSE, Seen, named, open_part, rounding_part};
 
 /// Contacts that begin with less energy than this, J, are not warned of: a pluck of 1 N that moves its place by 2 mm gives as much.
 const NO_THROW: f64 = 1e-3;
@@ -14,7 +16,19 @@ pub(super) fn of(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     warnings.extend(over_at_once(scene, simulation));
     warnings.extend(untouchable(scene, simulation));
     warnings.extend(unheard(scene));
+    warnings.extend(motionless(scene));
     warnings
+}
+
+/// What to warn of afterwards: strings that were stretched farther than their grid has room for.
+pub(super) fn overstretched(seen: &Seen) -> Option<String> {
+    let [most, borne] = seen.stretched?;
+    (most > borne).then(|| {
+        format!(
+            "stretching brings the tension to {most:.2} N, and the grid bears {borne:.2} N: pitch glides too little, and the \
+             shortest waves ripple. A tension whose course reaches as high, be it after the end, makes room"
+        )
+    })
 }
 
 /// What to warn of afterwards: a balance of which rounding leaves little or nothing to be checked, of the string or body where it
@@ -63,19 +77,43 @@ fn untouchable(scene: &Scene, simulation: &Simulation) -> Option<String> {
         .then(|| "fretboard has neither board nor frets under any string: nothing is touched".to_owned())
 }
 
+/// Why a pluck is not heard, if it is not.
+fn why_unheard(scene: &Scene, pluck: &PluckSpec) -> Option<String> {
+    if pluck.force == 0.0 || pluck.duration + pluck.release == 0.0 {
+        let (duration, force) = (plain(pluck.duration), plain(pluck.force));
+        Some(format!("pushes nothing: force {force} N for {duration} s"))
+    } else if pluck.start >= scene.duration {
+        let (start, end) = (plain(pluck.start), plain(scene.duration));
+        Some(format!("begins at {start} s, when the scene of {end} s is over"))
+    } else {
+        None
+    }
+}
+
 /// Plucks that push nothing, and those that begin when all is over.
 fn unheard(scene: &Scene) -> Vec<String> {
-    let why = |pluck: &low_action_dsp::scene::PluckSpec| {
-        if pluck.force == 0.0 || pluck.duration + pluck.release == 0.0 {
-            let (duration, force) = (plain(pluck.duration), plain(pluck.force));
-            Some(format!("pushes nothing: force {force} N for {duration} s"))
-        } else if pluck.start >= scene.duration {
-            let (start, end) = (plain(pluck.start), plain(scene.duration));
-            Some(format!("begins at {start} s, when the scene of {end} s is over"))
-        } else {
-            None
-        }
-    };
     let numbered = (1..).zip(&scene.pluck);
-    numbered.filter_map(|(number, pluck)| Some(format!("pluck[{number}] {}", why(pluck)?))).collect()
+    numbered
+        .filter_map(|(number, pluck)| Some(format!("pluck[{number}] {}", why_unheard(scene, pluck)?)))
+        .collect()
+}
+
+/// A scene that stays as it is. (A string at rest is moved by no change of its tension, nor by a finger that only goes along above
+/// it.)
+fn motionless(scene: &Scene) -> Option<String> {
+    let plucked = scene.pluck.iter().any(|pluck| why_unheard(scene, pluck).is_none());
+    let is_any = |points: &Option<Vec<[f64; 2]>>| points.iter().flatten().any(|[_, value]| *value != 0.0);
+    let begun = scene.string.iter().any(|string| is_any(&string.shape) || is_any(&string.velocity));
+    let pressed = scene.finger.iter().any(|finger| {
+        let forced = match &finger.force {
+            Curve::Constant(force) => *force != 0.0,
+            Curve::Points(course) => course.iter().any(|[_, force]| *force != 0.0),
+            Curve::Parabola(_) => true,
+        };
+        forced || finger.velocity != 0.0 || finger.height < 0.0
+    });
+    (!plucked && !begun && !pressed).then(|| {
+        "nothing sets it in motion: no pluck, no shape or velocity of a string, no finger that presses"
+            .to_owned()
+    })
 }
