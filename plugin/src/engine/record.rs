@@ -3,7 +3,7 @@
 use low_action_dsp::TimedGesture;
 
 use super::Engine;
-use crate::performance::TimedAnnotation;
+use crate::performance::{TimedAnnotation, Unplayed};
 
 /// What a player has done. Order is that of time on each string, but for plucks (and what is told of them) up to a millisecond
 /// ahead.
@@ -13,6 +13,8 @@ pub struct Record {
     pub gestures: Vec<TimedGesture>,
     /// What became of notes.
     pub annotations: Vec<TimedAnnotation>,
+    /// Notes that no string got.
+    pub unplayed: Vec<Unplayed>,
 }
 
 impl Engine {

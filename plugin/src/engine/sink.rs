@@ -3,7 +3,7 @@
 use low_action_dsp::{Instrument, TimedGesture};
 
 use super::Record;
-use crate::performance::{GestureSink, TimedAnnotation};
+use crate::performance::{GestureSink, TimedAnnotation, Unplayed};
 
 /// Hands gestures to the instrument, and keeps what is to be kept.
 pub(super) struct Sink<'a> {
@@ -39,6 +39,12 @@ impl GestureSink for Sink<'_> {
     fn annotation(&mut self, annotation: TimedAnnotation) {
         if let Some(record) = &mut self.record {
             record.annotations.push(annotation);
+        }
+    }
+
+    fn unplayed(&mut self, note: Unplayed) {
+        if let Some(record) = &mut self.record {
+            record.unplayed.push(note);
         }
     }
 }

@@ -19,6 +19,8 @@ pub enum Annotation {
     Released,
     /// The dampers come to rest on the string: its note is over.
     Damped,
+    /// It is bent less far than asked.
+    BentShort,
     /// What bends the string goes for another goal.
     Bent {
         /// Semitones over the fret of the note, by tension, by a finger that slides, or both.
@@ -119,6 +121,32 @@ pub enum Stopped {
     Finger,
     /// A bar.
     Bar,
+}
+
+/// A note that is not played, and has never been any string's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unplayed {
+    /// Its channel, 0 to 15.
+    pub channel: u8,
+    /// Its key, as sent.
+    pub key: u8,
+    /// How hard its key was struck, 0 to 1.
+    pub velocity: f64,
+    /// Sample at which that was.
+    pub asked: u64,
+    /// Why it is not played.
+    pub why: Why,
+}
+
+/// Why a note is not played, in the words of [`Compromises`](super::Compromises).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Why {
+    /// There were too many, or all was to be silent.
+    LeftOut,
+    /// No string gives it.
+    WithoutString,
+    /// It is one with another.
+    Doubled,
 }
 
 /// An annotation of one string at one sample.

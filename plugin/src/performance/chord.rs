@@ -25,8 +25,9 @@ use super::control::MANAGER;
 use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
 use super::string::{Manner, Start};
 use super::technique::*;
-use super::{CHANNELS, GestureSink, Performance};
+use super::{CHANNELS, GestureSink, Performance, Unplayed, Why};
 pub(super) use just_begun::JustBegun;
+use waiting::leave_out;
 pub(super) use waiting::{Late, OwnPluck, Unplaced};
 
 /// The way of the right hand over the strings of a chord.
@@ -48,10 +49,13 @@ impl Performance {
     /// Asks for the note of a key that went down so often.
     fn ask_for(&mut self, channel: u8, key: u8, velocity: f64, presses: u32) {
         let twin = self.chord.iter_mut().find(|other| other.is(channel, key));
+        let unplayed = |velocity, why| Unplayed { channel, key, velocity, asked: self.now, why };
         if let Some(twin) = twin {
+            let softer = unplayed(twin.velocity.min(velocity), Why::Doubled);
             twin.velocity = twin.velocity.max(velocity);
             twin.presses = twin.presses.saturating_add(presses);
             self.compromises.doubled += 1;
+            leave_out(&mut self.unplayed, softer);
             return;
         }
         match self.wanted(channel, key) {
@@ -73,8 +77,14 @@ impl Performance {
                     on: None,
                 });
             }
-            Some(_) => self.compromises.left_out += 1,
-            None => self.compromises.without_string += 1,
+            Some(_) => {
+                self.compromises.left_out += 1;
+                leave_out(&mut self.unplayed, unplayed(velocity, Why::LeftOut));
+            }
+            None => {
+                self.compromises.without_string += 1;
+                leave_out(&mut self.unplayed, unplayed(velocity, Why::WithoutString));
+            }
         }
     }
 
@@ -271,6 +281,7 @@ impl Performance {
                 self.count_move(before, false);
                 self.compromises.arpeggiated -= u64::from(note.waited);
                 self.compromises.left_out += 1;
+                leave_out(&mut self.unplayed, note.left_out());
             }
         }
     }

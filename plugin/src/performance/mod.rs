@@ -36,7 +36,7 @@ mod variation;
 use low_action_dsp::setup::Player;
 
 use crate::controls::Touching;
-pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedAnnotation};
+pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedAnnotation, Unplayed, Why};
 pub use announced::Announced;
 use articulation::Stop;
 use channel::{Channel, controller};
@@ -94,6 +94,8 @@ pub struct Performance {
     /// Whether fingers on the strings are another's, and act as that had them until they are next told how.
     taken_over: bool,
     compromises: Compromises,
+    /// Notes that are not played, of which nobody has been told yet.
+    unplayed: Vec<Unplayed>,
     /// Notes that began at `now` and are not placed yet.
     chord: Vec<Unplaced>,
     just_begun: JustBegun,
@@ -145,6 +147,7 @@ impl Performance {
             touching: Touching { take: style.seed, ..Touching::new(style.variation, style.bend_range) },
             taken_over: false,
             compromises: Compromises::default(),
+            unplayed: Vec::with_capacity(2 * LARGEST_CHORD),
             chord: Vec::with_capacity(LARGEST_CHORD),
             just_begun: JustBegun::new(count),
             releases: Vec::with_capacity(LARGEST_CHORD),
@@ -223,6 +226,7 @@ impl Performance {
                 self.go_back_to_the_beginning();
             }
         }
+        self.tell_unplayed(out);
     }
 
     /// The hands act differently from sample `time` on.
@@ -307,7 +311,13 @@ impl Performance {
             self.begin_chord(out);
             self.begin_late(until, out);
             self.advance_strings(until, out);
+            self.tell_unplayed(out);
         }
+    }
+
+    /// Tells of notes that are not played.
+    fn tell_unplayed(&mut self, out: &mut impl GestureSink) {
+        self.unplayed.drain(..).for_each(|note| out.unplayed(note));
     }
 
     fn advance_strings(&mut self, until: u64, out: &mut impl GestureSink) {
@@ -355,6 +365,7 @@ impl Performance {
         self.hand.reset();
         self.variation.reset();
         self.compromises = Compromises::default();
+        self.unplayed.clear();
         self.chord.clear();
         self.just_begun.reset();
         self.releases.clear();

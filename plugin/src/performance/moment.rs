@@ -2,7 +2,7 @@
 
 use low_action_dsp::{Gesture, TimedGesture};
 
-use super::{Annotation, TimedAnnotation};
+use super::{Annotation, TimedAnnotation, Unplayed};
 
 /// Somewhere gestures go: the instrument, or a list in a test.
 pub trait GestureSink {
@@ -12,6 +12,9 @@ pub trait GestureSink {
 
     /// Is told what becomes of a note. Most do not listen.
     fn annotation(&mut self, _annotation: TimedAnnotation) {}
+
+    /// Is told of a note that no string gets. Fewer listen.
+    fn unplayed(&mut self, _note: Unplayed) {}
 }
 
 impl GestureSink for Vec<TimedGesture> {

@@ -25,7 +25,7 @@ use super::bend::Bend;
 use super::fingers::Fingers;
 use super::hand::Use;
 use super::technique::*;
-use super::{GestureSink, Moment, PlayedString};
+use super::{Annotation, GestureSink, Moment, PlayedString};
 use deeds::{Deed, Deeds};
 use ending::Ending;
 pub(crate) use note::{Manner, Note, Start};
@@ -258,6 +258,7 @@ impl StringPlayer {
                 if let Some(note) = self.note.as_mut().filter(|note| short && !note.bent_short) {
                     note.bent_short = true;
                     self.bent_short += 1;
+                    at.tells(Annotation::BentShort);
                 }
             } else if touch == Some(first) {
                 self.fingers.follow(&mut at);

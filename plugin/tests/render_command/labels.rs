@@ -287,7 +287,14 @@ fn every_key_is_documented() {
     let room = Room::new();
     fs::write(room.path("all.mid"), midi(&ALL)).unwrap();
     room.renders(&["all.mid", "--labels", "all.json"]);
-    let labels = read(&room, "all.json").1;
+    let mut labels = read(&room, "all.json").1;
+    // Of this song all notes are played.
+    assert_eq!(labels["unplayed"].as_array().unwrap().len(), 0);
+    let twice: [(u8, &[u8]); 3] = [(0, &[0x90, 60, 90]), (0, &[0x90, 60, 80]), (24, &[0x80, 60, 0])];
+    fs::write(room.path("twice.mid"), midi(&twice)).unwrap();
+    room.renders(&["twice.mid", "-q", "draft", "--tail", "none", "--labels", "twice.json"]);
+    labels["unplayed"] = read(&room, "twice.json").1["unplayed"].take();
+    assert_eq!(labels["unplayed"][0]["velocity"], 80);
     let page = include_str!("../../../docs/formats.md");
     let (_, section) = page.split_once("\n## Labels\n").unwrap();
     let section = section.split("\n## ").next().unwrap();

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use low_action::midi_file::{Selection, Song};
 use low_action::performance::PlayerEvent;
-use low_action_tests::labelled::{list, number, render, sample, song};
+use low_action_tests::labelled::{Labelled, list, number, render, sample, song};
 use serde_json::Value;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_low-action-command");
@@ -36,29 +36,15 @@ fn every_note_of_a_song_has_one_label() {
     songs.retain(|(name, _)| name != "keyswitches.mid");
     assert!(songs.len() > 10);
     for (name, bytes) in songs {
-        let asked = Song::from_midi(&bytes, Selection::default()).expect("a song").events.into_iter();
-        let mut asked: Vec<[u64; 4]> = asked
-            .filter_map(|event| match event.event {
-                PlayerEvent::NoteOn { channel, key, velocity } => {
-                    let velocity = (velocity * 127.0).round() as u64;
-                    Some([event.time.sample(8000), u64::from(channel) + 1, u64::from(key), velocity])
-                }
-                _ => None,
-            })
-            .collect();
-        let played = render(PROGRAM, &bytes, &FAST);
-        let mut labelled: Vec<[u64; 4]> = Vec::new();
+        let ([asked, told], played) = told(&bytes, &[]);
+        assert_eq!(told, asked, "{name}");
+        assert!(list(&played.labels, "unplayed").is_empty(), "{name}");
         for note in played.notes().iter().filter(|note| note["returned"] == false) {
-            let keys = ["asked_sample", "channel", "key", "velocity"];
-            labelled.push(keys.map(|key| sample(note, key) as u64));
             late += usize::from(number(note, "onset") - number(note, "asked") > 0.06);
             moved += usize::from(
                 (number(note, "pitch") - number(note, "key")).abs() > 11.0 && note["partial"].is_null(),
             );
         }
-        asked.sort_unstable();
-        labelled.sort_unstable();
-        assert_eq!(labelled, asked, "{name}");
         let onsets: Vec<usize> = played.notes().iter().map(|note| sample(note, "onset_sample")).collect();
         assert!(onsets.is_sorted(), "{name}");
         for note in played.notes() {
@@ -72,6 +58,73 @@ fn every_note_of_a_song_has_one_label() {
     }
     // Of chords with more notes than strings, and of strums.
     assert!(late > 20 && moved >= 4, "{late} late, {moved} moved");
+}
+
+/// All note-ons of a song, and what labels say of each that is no keyswitch: sample, channel, key and velocity.
+fn told(bytes: &[u8], options: &[&str]) -> ([Vec<[u64; 4]>; 2], Labelled) {
+    let asked = Song::from_midi(bytes, Selection::default()).expect("a song").events.into_iter();
+    let asked = asked.filter_map(|event| match event.event {
+        PlayerEvent::NoteOn { channel, key, velocity } => {
+            let velocity = (velocity * 127.0).round() as u64;
+            Some([event.time.sample(8000), u64::from(channel) + 1, u64::from(key), velocity])
+        }
+        _ => None,
+    });
+    let played = render(PROGRAM, bytes, &[&FAST[..], options].concat());
+    let numbers =
+        |note: &Value| ["asked_sample", "channel", "key", "velocity"].map(|key| sample(note, key) as u64);
+    let first = played.notes().iter().filter(|note| note["returned"] == false);
+    let told = first.chain(list(&played.labels, "unplayed")).map(numbers).collect();
+    let mut both = [asked.collect(), told];
+    both.iter_mut().for_each(|notes: &mut Vec<_>| notes.sort_unstable());
+    (both, played)
+}
+
+#[test]
+fn every_note_that_is_not_played_is_named() {
+    let open = [40, 45, 50, 55, 59, 64];
+    let strum = |time: u32| open.map(|key| (time, [0x90, key, 90]));
+    let up = |time: u32| open.map(|key| (time, [0x80, key, 0]));
+    // A strum that another overtakes, one that is called off, two notes in one, and one the sound ends before.
+    let overtaken = [&[cc(21, 127)][..], &strum(0), &up(49), &strum(50), &up(900)].concat();
+    let silenced = [&[cc(21, 127)][..], &strum(0), &[(200, [0xB0, 120, 0])], &up(900)].concat();
+    let doubled = [(0, [0x90, 60, 90]), (0, [0x90, 60, 50]), (100, [0x80, 60, 0]), (100, [0x80, 60, 0])];
+    let late = [&[cc(21, 127)][..], &strum(0)].concat();
+    let strings: Vec<At> = (0..9).map(|channel| (0, [0x90 | channel, 60, 90])).collect();
+    // So many that they wait for strings, and then all is to be silent.
+    let crowd: Vec<At> = (30..90).map(|key| on(0, key)).chain([(150, [0xB0, 120, 0])]).collect();
+    for (messages, options, expected) in [
+        (&overtaken[..], &[][..], &[("overtaken", 5)][..]),
+        (&silenced, &[], &[("left_out", 3)]),
+        (&doubled, &[], &[("doubled", 1)]),
+        (&late, &[], &[("file", 4)]),
+        (&strings, &["--input", "strings"], &[("without_string", 3)]),
+        (&crowd, &[], &[("left_out", 52)]),
+        (&[on(0, 60), off(100, 60)], &[], &[]),
+    ] {
+        let ([asked, told], played) = told(&song(messages), options);
+        assert_eq!(told, asked, "{messages:?}");
+        let mut why: BTreeMap<&str, usize> = BTreeMap::new();
+        for note in list(&played.labels, "unplayed") {
+            *why.entry(note["why"].as_str().expect("a word")).or_default() += 1;
+        }
+        assert_eq!(why.into_iter().collect::<Vec<_>>(), expected, "{messages:?}");
+        // As they are counted.
+        for (word, notes) in expected.iter().filter(|(word, _)| *word != "file") {
+            assert_eq!(sample(&played.labels["compromises"], word), *notes, "{messages:?}");
+        }
+    }
+}
+
+#[test]
+fn notes_that_are_bent_short_are_marked() {
+    let wide = [(0, [0xB0, 101, 0]), (0, [0xB0, 100, 0]), (0, [0xB0, 6, 24])];
+    let bent =
+        [on(0, 64), (100, [0xE0, 127, 127]), (400, [0xE0, 0, 64]), off(500, 64), on(1000, 64), off(1200, 64)];
+    let played = render(PROGRAM, &song(&[&wide[..], &bent].concat()), &FAST);
+    let marked: Vec<_> = played.notes().iter().map(|note| note["bent_short"].as_bool()).collect();
+    assert_eq!(marked, [Some(true), Some(false)]);
+    assert_eq!(played.labels["compromises"]["bent_short"], 1);
 }
 
 /// What is said of a note: key, technique, stop, whether it is a partial, whether it came back, how it ended.

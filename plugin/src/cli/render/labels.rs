@@ -7,6 +7,7 @@ mod header;
 mod lines;
 mod notes;
 mod source;
+mod unplayed;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
@@ -25,9 +26,10 @@ use crate::engine::Record;
 use crate::performance::Compromises;
 use gestures::{LabelledBend, LabelledGesture, bends, gestures};
 use lines::Lines;
-use notes::{LabelledNote, notes};
+use notes::{LabelledNote, courses, notes};
 pub(super) use source::Source;
 use source::{About, LabelledString};
+use unplayed::{LabelledUnplayed, unplayed};
 
 /// What labels are of: a sound of so many samples.
 pub(super) struct Labelled<'a> {
@@ -80,7 +82,9 @@ pub(super) fn are_whole(path: &Path) -> bool {
 
 impl Labelled<'_> {
     fn write(mut self, strings: Vec<LabelledString>, file: File) -> io::Result<()> {
-        let notes = notes(&self.record.annotations, &strings, self.clock());
+        let courses = courses(&self.record.annotations, strings.len());
+        let notes = notes(&courses, &strings, self.clock());
+        let unplayed = unplayed(&courses, &self.record.unplayed, self.clock());
         let bends = bends(&self.record.annotations, self.clock());
         // Those of equal times on one string stay in the order in which they are done.
         self.record.gestures.sort_by_key(|gesture| (gesture.time, gesture.string));
@@ -96,6 +100,7 @@ impl Labelled<'_> {
             compromises,
             strings,
             notes,
+            unplayed,
             bends,
             gestures,
         };
@@ -124,6 +129,7 @@ struct Document<'a> {
     compromises: Compromises,
     strings: Vec<LabelledString>,
     notes: Vec<LabelledNote>,
+    unplayed: Vec<LabelledUnplayed>,
     bends: Vec<LabelledBend>,
     gestures: Vec<LabelledGesture>,
 }

@@ -1,7 +1,7 @@
 //! Notes on their way to a string: struck and not placed yet, or waiting until one is free.
 
 use super::{Articulation, Manner, Placement, Use, Wanted};
-use crate::performance::{GestureSink, Performance};
+use crate::performance::{GestureSink, Performance, Unplayed, Why};
 
 /// A note of a chord as it was asked for: it has no string yet, or waits for one, or has just begun and is placed once more with
 /// those that follow.
@@ -32,6 +32,19 @@ impl Unplaced {
     /// Whether it is the note of a key of a channel.
     pub fn is(&self, channel: u8, key: u8) -> bool {
         (self.wanted.channel, self.wanted.key) == (channel, key)
+    }
+
+    /// What there is to tell of it where it is left out.
+    pub(super) fn left_out(&self) -> Unplayed {
+        let Self { wanted: Wanted { channel, key, .. }, velocity, asked, .. } = *self;
+        Unplayed { channel, key, velocity, asked, why: Why::LeftOut }
+    }
+}
+
+/// Has it told that a note is not played, as far as there is room: no event leaves out as many as there is room for.
+pub(super) fn leave_out(unplayed: &mut Vec<Unplayed>, note: Unplayed) {
+    if unplayed.len() < unplayed.capacity() {
+        unplayed.push(note);
     }
 }
 
@@ -112,13 +125,14 @@ impl Performance {
 
     /// Notes of such channels that wait for a string do not come.
     pub(in crate::performance) fn leave_out_late(&mut self, is_meant: impl Fn(u8) -> bool) {
-        let Self { late, compromises, .. } = self;
-        late.retain(|Late { note: Unplaced { wanted, waited, .. }, .. }| {
+        let Self { late, compromises, unplayed, .. } = self;
+        late.retain(|Late { note: note @ Unplaced { wanted, waited, .. }, .. }| {
             let meant = is_meant(wanted.channel);
             if meant {
                 compromises.moved_by_octaves -= u64::from(wanted.is_moved());
                 compromises.arpeggiated -= u64::from(*waited);
                 compromises.left_out += 1;
+                leave_out(unplayed, note.left_out());
             }
             !meant
         });

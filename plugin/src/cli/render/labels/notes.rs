@@ -48,35 +48,31 @@ pub(super) struct LabelledNote {
     touch_position: Option<f64>,
     /// 0 to 1.
     palm: f64,
+    bent_short: bool,
 }
 
 /// A note on its way from being asked for to its end.
-struct Course {
+pub(super) struct Course {
     string: usize,
-    note: NewNote,
+    pub note: NewNote,
     /// When it sounded, and by what; not yet, or never, if it was called off.
-    sounded: Option<(u64, Excitation)>,
+    pub sounded: Option<(u64, Excitation)>,
     strokes: u64,
     released: Option<u64>,
-    end: Option<(u64, &'static str)>,
+    pub end: Option<(u64, &'static str)>,
+    bent_short: bool,
 }
 
 /// The notes that are heard, in order of onset, and of strings at once.
-pub(super) fn notes(
-    annotations: &[TimedAnnotation],
-    strings: &[LabelledString],
-    clock: Clock,
-) -> Vec<LabelledNote> {
-    let mut notes: Vec<LabelledNote> = courses(annotations, strings.len())
-        .iter()
-        .filter_map(|course| course.label(strings, clock))
-        .collect();
+pub(super) fn notes(courses: &[Course], strings: &[LabelledString], clock: Clock) -> Vec<LabelledNote> {
+    let mut notes: Vec<LabelledNote> =
+        courses.iter().filter_map(|course| course.label(strings, clock)).collect();
     notes.sort_by_key(|note| (note.onset_sample, note.string));
     notes
 }
 
 /// What became of each note.
-fn courses(annotations: &[TimedAnnotation], strings: usize) -> Vec<Course> {
+pub(super) fn courses(annotations: &[TimedAnnotation], strings: usize) -> Vec<Course> {
     let mut courses: Vec<Course> = Vec::new();
     // The note that each string is for.
     let mut present: Vec<Option<usize>> = vec![None; strings];
@@ -88,7 +84,15 @@ fn courses(annotations: &[TimedAnnotation], strings: usize) -> Vec<Course> {
                     before.end = Some((time, "note"));
                 }
                 present[string] = Some(courses.len());
-                courses.push(Course { string, note, sounded: None, strokes: 0, released: None, end: None });
+                courses.push(Course {
+                    string,
+                    note,
+                    sounded: None,
+                    strokes: 0,
+                    released: None,
+                    end: None,
+                    bent_short: false,
+                });
             }
             Annotation::Sounds(excitation) => {
                 if let Some(course) = course {
@@ -107,6 +111,11 @@ fn courses(annotations: &[TimedAnnotation], strings: usize) -> Vec<Course> {
                 }
                 present[string] = None;
             }
+            Annotation::BentShort => {
+                if let Some(course) = course {
+                    course.bent_short = true;
+                }
+            }
             Annotation::Bent { .. } => {}
         }
     }
@@ -116,7 +125,7 @@ fn courses(annotations: &[TimedAnnotation], strings: usize) -> Vec<Course> {
 impl Course {
     /// In words and numbers, if the sound has it.
     fn label(&self, strings: &[LabelledString], clock: Clock) -> Option<LabelledNote> {
-        let Self { note, strokes, .. } = *self;
+        let Self { note, strokes, bent_short, .. } = *self;
         let (onset, excitation) = self.sounded.filter(|&(onset, _)| clock.has(onset))?;
         let released = self.released.filter(|&released| clock.has(released));
         let (end, end_by) = self.end.filter(|&(end, _)| clock.has(end)).unwrap_or((clock.samples, "file"));
@@ -161,6 +170,7 @@ impl Course {
             finger_position: excitation.finger,
             touch_position: excitation.touch,
             palm: note.palm,
+            bent_short,
         })
     }
 }
