@@ -102,6 +102,38 @@ fn stems_are_each_strings_own_sound() {
 }
 
 #[test]
+fn stems_are_found_by_labels_and_are_the_whole_by_the_law_of_pan() {
+    let room = Room::new();
+    let own = "name = \"own\"\nbased_on = \"electric\"\n[[string]]\nname = \"E/4 é\"\npan = -1.0\n[[string]]\npan = 0.3\n";
+    fs::write(room.path("own.toml"), own).unwrap();
+    let options = ["song.mid", "-o", "x.wav", "-i", "own.toml", "-b", "32f", "--labels", "x.json"];
+    room.renders(&[&options[..], &["--stems", "stems"]].concat());
+    let samples = |name: &str| -> Vec<f64> {
+        let mut reader = WavReader::open(room.path(name)).unwrap();
+        reader.samples::<f32>().map(|sample| sample.unwrap().into()).collect()
+    };
+    let labels = read_labels(&room);
+    let strings =
+        labels["strings"].as_array().unwrap().iter().zip(labels["setup"]["string"].as_array().unwrap());
+    let mut sum = vec![[0.0; 2]; samples("x.wav").len() / 2];
+    for (string, setup) in strings {
+        let name = string["stem"].as_str().unwrap();
+        let angle = 0.25 * std::f64::consts::PI * (setup["pan"].as_f64().unwrap() + 1.0);
+        for (sum, sample) in sum.iter_mut().zip(samples(&format!("stems/{name}"))) {
+            sum[0] += angle.cos() * sample;
+            sum[1] += angle.sin() * sample;
+        }
+    }
+    assert_eq!(labels["strings"][0]["stem"], "1-E_4_é.wav");
+    // Each stem is rounded to 32 bits, and so is the whole.
+    let largest = samples("x.wav").into_iter().fold(0.0, |most: f64, sample| most.max(sample.abs()));
+    for (pair, sum) in samples("x.wav").chunks(2).zip(sum) {
+        assert!((0..2).all(|side| (pair[side] - sum[side]).abs() < 1e-6 * largest), "{pair:?} {sum:?}");
+    }
+    assert!(largest > 0.01);
+}
+
+#[test]
 fn stems_of_another_song_are_told_of() {
     let room = Room::new();
     let put = |name: &str| fs::write(room.path("stems").join(name), "").unwrap();

@@ -7,6 +7,7 @@ use low_action_dsp::{Error, Instrument, Setup};
 use nice_plug::prelude::Enum;
 use serde::Serialize;
 
+use crate::cli::render::files::stem_name;
 use crate::cli::render::tuning::stopped;
 use crate::cli::render::written::Written;
 use crate::cli::wav::Findings;
@@ -68,6 +69,8 @@ pub(super) struct LabelledString {
     /// From 1.
     pub string: usize,
     pub name: String,
+    /// What the file of its own sound is called, if there is one.
+    pub stem: String,
     /// Of the open string, MIDI note number; and Hz.
     pub pitch: f64,
     pub frequency: f64,
@@ -130,6 +133,7 @@ impl Source<'_> {
             Ok(LabelledString {
                 string: index + 1,
                 name: string.name.clone(),
+                stem: stem_name(index, &string.name),
                 pitch,
                 frequency: frequency(pitch),
                 length: placed.string.length,
