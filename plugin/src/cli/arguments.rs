@@ -263,12 +263,17 @@ variable LOW_ACTION_INSTRUMENTS may name.
 Examples:
   low-action instruments                             what there is
   low-action instruments --install my-guitar.toml    checks and copies the file
+  low-action instruments --show steel > my-guitar.toml
+                                                     a whole set-up file to begin with
 
 Exit codes: 0 done, 1 could not be done, 2 wrong usage.")]
 pub struct InstrumentsArgs {
     /// Set-up files to check and copy to the folder, in place of those of the same name.
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub install: Vec<PathBuf>,
+    /// Write a set-up to standard output as a set-up file: with all of its keys, also of one that is based on another.
+    #[arg(long, value_name = "NAME|FILE", conflicts_with = "install")]
+    pub show: Option<OsString>,
 }
 
 /// Reads a whole number, and names the range where it is none or lies outside.

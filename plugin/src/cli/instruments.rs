@@ -7,12 +7,17 @@ use low_action_dsp::Setup;
 
 use super::names::{escaped, shown};
 use super::unfinished::undisturbed;
-use super::{Failure, InstrumentsArgs, Outcome, say};
+use super::{Failure, InstrumentsArgs, Outcome, instrument, say};
 use crate::plugin::shelf::MOST_FILES;
 use crate::setups::{self, FOLDER_VARIABLE, SHIPPED};
 
-/// Installs what is asked for, or lists what there is.
+/// Installs or shows what is asked for, or lists what there is.
 pub(super) fn run(arguments: &InstrumentsArgs) -> Outcome {
+    if let Some(name) = &arguments.show {
+        let (setup, _) = instrument::load(name)?;
+        super::unless_closed(std::io::stdout().write_all(setup.to_toml()?.as_bytes()))?;
+        return Ok(());
+    }
     let folder = setups::folder().with_context(|| {
         format!("this system has no folder for a user's data: name one in {FOLDER_VARIABLE}")
     })?;

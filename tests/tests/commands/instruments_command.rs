@@ -3,6 +3,7 @@
 //! program.
 
 use low_action::setups::SHIPPED;
+use low_action_dsp::Setup;
 use low_action_tests::command::Workplace;
 
 const LOWER: &str =
@@ -213,4 +214,29 @@ fn what_is_no_set_up_is_refused_in_one_line() {
         "{}",
         done.error
     );
+}
+
+/// A set-up file is a good beginning for another if it is all there.
+#[test]
+fn what_is_shown_is_the_whole_set_up() {
+    let place = workplace();
+    for name in SHIPPED {
+        let done = place.run(&["instruments", "--show", name]);
+        assert_eq!((done.code, done.error.as_str()), (0, ""), "{name}");
+        assert_eq!(Setup::from_toml(&done.text()).unwrap(), Setup::shipped(name).unwrap(), "{name}");
+        assert!(!done.text().contains("based_on"), "{name}");
+    }
+    // Also of one's own, by its name or its file.
+    let own = "name = \"own\"\nbased_on = \"steel\"\ntuning = -1.0\n";
+    place.write("own.toml", own);
+    let from_file = place.run(&["instruments", "--show", "own.toml"]);
+    assert_eq!(place.run(&["instruments", "--install", "own.toml"]).code, 0);
+    let by_name = place.run(&["instruments", "--show", "own"]);
+    for done in [from_file, by_name] {
+        assert_eq!(Setup::from_toml(&done.text()).unwrap(), Setup::from_toml(own).unwrap(), "{}", done.error);
+    }
+    for arguments in [&["banjo"][..], &["steel", "--install", "own.toml"]] {
+        let done = place.run(&[&["instruments", "--show"], arguments].concat());
+        assert!(done.code == 2 && done.output.is_empty(), "{arguments:?}: {}", done.error);
+    }
 }
