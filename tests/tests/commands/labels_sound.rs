@@ -293,6 +293,33 @@ fn strings_are_silent_where_labels_say_nothing() {
     }
 }
 
+/// Over a body they sing along with the others, as loud as the page says and no louder; without one they are silent.
+#[test]
+fn strings_that_nobody_plays_sing_along_over_a_body() {
+    // All open strings but G3, and that between their strokes.
+    let others = [40, 45, 50, 59, 64];
+    let mut messages: Vec<_> = [0, 2000]
+        .iter()
+        .flat_map(|&from| others.map(|key| held(key, 100, from, from + 900)))
+        .flatten()
+        .collect();
+    messages.extend(held(55, 100, 1200, 1400));
+    messages.sort_by_key(|&(time, _)| time);
+    for (instrument, range) in
+        [("steel", -40.0..-30.0), ("classical", -40.0..-30.0), ("electric", f64::NEG_INFINITY..-140.0)]
+    {
+        let played = render(PROGRAM, &song(&messages), &["--instrument", instrument, "--tail", "none"]);
+        let own: Vec<&Value> = played.notes().iter().filter(|note| sample(note, "string") == 3).collect();
+        let [note] = own.as_slice() else { panic!("{own:?}") };
+        let sound = played.string_of(note);
+        let before = decibels(peak(&sound[..sample(note, "asked_sample")]));
+        let after = decibels(peak(&sound[sample(note, "end_sample") + samples(0.4)..]));
+        println!("{instrument}: {before:.1} dBFS before, {after:.1} dBFS after");
+        assert!(range.contains(&before), "{instrument}: {before} dBFS before its note");
+        assert!(after < range.end.max(-60.0), "{instrument}: {after} dBFS after it");
+    }
+}
+
 #[test]
 fn what_is_called_off_has_no_label() {
     // All sound off while the hand is on its way over open strings.
