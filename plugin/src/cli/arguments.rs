@@ -176,6 +176,7 @@ the energies half a sample later.
   energy_string, energy_tension,
   energy_contact, energy_finger,
   energy_body                  J
+  stored_S                     J; in a string, of several or over a body
   power_loss, power_solver,
   power_in                     W
   power_loss_0, power_loss_1, power_loss_contact,

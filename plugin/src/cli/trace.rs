@@ -21,6 +21,8 @@ const LARGEST: u64 = 1_000_000_000_000;
 struct StringArrays {
     displacement: usize,
     tension: usize,
+    /// What is stored in it, where that is not all there is.
+    stored: Option<usize>,
     /// Of the bridge of a body.
     bridge: Option<usize>,
     board: Option<usize>,
@@ -99,6 +101,7 @@ impl Plan {
         array("sample_rate".into(), Kind::Real, &[]);
         array("every".into(), Kind::Whole, &[]);
         let has_body = simulation.has_body();
+        let has_others = has_body || simulation.strings().len() > 1;
         let mut strings = Vec::new();
         let mut pluck_count = 0;
         let mut finger_numbers = Vec::new();
@@ -107,14 +110,16 @@ impl Plan {
             array(format!("x_{number}"), Kind::Real, &[points]);
             let displacement = array(format!("u_{number}"), Kind::Real, &[rows, points]);
             let tension = array(format!("tension_{number}"), Kind::Real, &[rows]);
+            let stored = has_others.then(|| array(format!("stored_{number}"), Kind::Real, &[rows]));
             let bridge = has_body.then(|| array(format!("power_bridge_{number}"), Kind::Real, &[rows]));
             let board =
                 string.has_board().then(|| array(format!("force_board_{number}"), Kind::Real, &[rows]));
-            let frets = tension + 1 + usize::from(bridge.is_some()) + usize::from(board.is_some());
+            let before = [stored, bridge, board].into_iter().flatten().count();
+            let frets = tension + 1 + before;
             for fret in 1..=string.fret_count() {
                 array(format!("force_fret_{number}_{fret}"), Kind::Real, &[rows]);
             }
-            strings.push(StringArrays { displacement, tension, bridge, board, frets });
+            strings.push(StringArrays { displacement, tension, stored, bridge, board, frets });
             pluck_count += string.plucks().count();
             finger_numbers.extend(string.fingers().map(|finger| finger.number));
         }
@@ -235,6 +240,11 @@ impl Trace {
         for (index, string) in simulation.strings().iter().enumerate() {
             iterations += string.convergence.iterations;
             self.keep_forces(index, string)?;
+        }
+        for (arrays, ledger) in self.plan.strings.iter().zip(simulation.ledgers()) {
+            if let Some(stored) = arrays.stored {
+                self.npz.add(stored, &[ledger.energies().total()])?;
+            }
         }
         self.npz.add(self.plan.output, &[simulation.output()])?;
         self.npz.add_count(self.plan.iterations, iterations)?;

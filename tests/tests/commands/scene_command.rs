@@ -13,7 +13,7 @@ use low_action_tests::numbers::largest;
 use low_action_tests::scenes::PLUCKED_AND_TAPPED as SCENE;
 
 /// The ledger's arrays, by the alphabet.
-const LEDGER: [&str; 19] = [
+const LEDGER: [&str; 21] = [
     "energy_body",
     "energy_contact",
     "energy_finger",
@@ -33,6 +33,8 @@ const LEDGER: [&str; 19] = [
     "power_loss_hand",
     "power_solver",
     "residual",
+    "stored_1",
+    "stored_2",
 ];
 
 fn workplace() -> Workplace {

@@ -172,6 +172,18 @@ fn what_strings_and_a_body_give_each_other_is_told() {
         given += put_in / RATE;
     }
     assert!(given > 1e-9 && largest > 1e-9 && second.iter().any(|power| *power > 0.0), "{given} J");
+    // Strings have the rest, each its own.
+    let [one, other] = ["stored_1", "stored_2"].map(numbers);
+    let terms = ["energy_string", "energy_tension", "energy_contact", "energy_finger"].map(numbers);
+    for row in 0..one.len() {
+        let all: f64 = terms.iter().map(|numbers| numbers[row]).sum();
+        assert!(
+            (one[row] + other[row] - all).abs() <= 1e-14 * all,
+            "row {row}: {} {} J",
+            one[row],
+            other[row]
+        );
+    }
     assert!(!found.contains_key("power_in_bridge"));
     // Without a body there is none of that.
     place.write("scene.toml", SCENE);
@@ -181,4 +193,36 @@ fn what_strings_and_a_body_give_each_other_is_told() {
         ["energy_body", "power_loss_body"].iter().all(|name| found[*name].numbers.iter().all(|&x| x == 0.0))
     );
     assert!(!found.contains_key("power_bridge_1"));
+}
+
+/// A string that nobody plays has nothing but what the bridge of the body gives it, and loses it to itself alone.
+#[test]
+fn what_each_string_stores_is_told_apart() {
+    let place = workplace();
+    let string =
+        |shape: &str| format!("[[string]]\nlength = 0.65\nlinear_density = 5.25e-3\ntension = 60.0\n{shape}");
+    let body = "[body]\nfrequency = 170.0\nmass = 0.1\narea = 0.05\nquality = 20.0\nspacing = 50.0\nvolume = 0.0145\n\
+                hole = 0.0055\n";
+    let strings = [string("shape = [[0.0, 0.0], [0.5, 0.003], [0.65, 0.0]]\n"), string("")].concat();
+    place.write("scene.toml", format!("sample_rate = 44100\nduration = 0.05\n{strings}{body}"));
+    let done = place.run(&["scene", "scene.toml", "--trace", "out.npz"]);
+    assert_eq!((done.code, done.error.as_str()), (0, ""));
+    let found = arrays(&place.path("out.npz"));
+    let largest = largest(found["stored_1"].numbers.iter().copied());
+    for number in [1, 2] {
+        let stored = &found[&format!("stored_{number}")].numbers;
+        let given = &found[&format!("power_bridge_{number}")].numbers;
+        for row in 1..stored.len() {
+            let open = stored[row] - stored[row - 1] - given[row] / RATE;
+            assert!(open.abs() < 1e-13 * largest, "string {number}, row {row}: {open} of {largest} J");
+        }
+    }
+    assert!(found["stored_2"].numbers.iter().any(|&stored| stored > 1e-9));
+    // Alone it has all there is.
+    place.write(
+        "scene.toml",
+        format!("sample_rate = 44100\nduration = 0.01\n{}", string("velocity = [[0.1, 0.1]]\n")),
+    );
+    assert_eq!(place.run(&["scene", "scene.toml", "--trace", "out.npz"]).code, 0);
+    assert!(!arrays(&place.path("out.npz")).contains_key("stored_1"));
 }
