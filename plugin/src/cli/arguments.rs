@@ -185,6 +185,8 @@ the energies half a sample later.
   power_in_pluck, power_in_hand, power_in_slide,
   power_in_barrier, power_in_tension
                                W; the terms of power_in
+  work_loss, work_solver,
+  work_in                      J; of these powers since the row before, also with --every
   residual                     J in that sample: what the balance leaves over
   scene                        the text of the scene
   program                      name and version of what computed it

@@ -1,5 +1,7 @@
 //! The trace of a scene: what moved where, what pushed, and where the energy went, as arrays.
 
+mod booked;
+
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -13,6 +15,7 @@ use super::PROGRAM as PROGRAM_NAME;
 use super::names::shown;
 use super::npz::{Array, Kind, NpzFile};
 use super::output::Draft;
+use booked::{LEDGER, WORK};
 
 /// The largest trace written, bytes.
 const LARGEST: u64 = 1_000_000_000_000;
@@ -36,34 +39,6 @@ struct FingerArrays {
     height: usize,
     force: usize,
 }
-
-/// What an array of the ledger holds of an entry.
-type Part = fn(&Entry) -> f64;
-
-/// The ledger's arrays, without what only instruments do, placing fingers, and without what the bridge of a body puts into strings,
-/// which in all is what it takes from them: each string has an array of its own for that. Readers add up all whose names begin
-/// with `energy_`: no other may.
-const LEDGER: [(&str, Part); 19] = [
-    ("energy_string", |entry| entry.energies.string),
-    ("energy_tension", |entry| entry.energies.tension),
-    ("energy_contact", |entry| entry.energies.contact),
-    ("energy_finger", |entry| entry.energies.finger),
-    ("energy_body", |entry| entry.energies.body),
-    ("power_loss", |entry| entry.power_loss),
-    ("power_loss_0", |entry| entry.losses.loss_0),
-    ("power_loss_1", |entry| entry.losses.loss_1),
-    ("power_loss_contact", |entry| entry.losses.contact),
-    ("power_loss_hand", |entry| entry.losses.hand),
-    ("power_loss_body", |entry| entry.losses.body),
-    ("power_solver", |entry| entry.power_solver),
-    ("power_in", |entry| entry.power_in),
-    ("power_in_pluck", |entry| entry.inputs.pluck),
-    ("power_in_hand", |entry| entry.inputs.hand),
-    ("power_in_slide", |entry| entry.inputs.slide),
-    ("power_in_barrier", |entry| entry.inputs.barrier),
-    ("power_in_tension", |entry| entry.inputs.tension),
-    ("residual", |entry| entry.residual),
-];
 
 /// Where times go, and what the trace is of: the scene's text, what computed it, at which rate, and how many samples apart rows are.
 const TIME: usize = 0;
@@ -136,8 +111,8 @@ impl Plan {
         let output = array("output".into(), Kind::Real, &[rows]);
         let iterations = array("iterations".into(), Kind::Count, &[rows]);
         let ledger = iterations + 1;
-        for (name, _) in LEDGER {
-            array(name.into(), Kind::Real, &[rows]);
+        for (name, _) in LEDGER.iter().chain(&WORK) {
+            array((*name).into(), Kind::Real, &[rows]);
         }
         Plan { arrays, strings, plucks, fingers, output, iterations, ledger, rows, every }
     }
@@ -165,6 +140,8 @@ pub(super) struct Trace {
     plan: Plan,
     npz: NpzFile,
     fret_forces: Vec<f64>,
+    /// Sums of powers since the row before, in the order of [`WORK`], W.
+    since: [f64; WORK.len()],
 }
 
 impl Trace {
@@ -182,7 +159,14 @@ impl Trace {
         let draft = Draft::begin(path)?;
         let npz = draft.handle().and_then(|file| NpzFile::begin(file, &plan.arrays));
         let npz = npz.with_context(|| cannot_write(path))?;
-        let mut trace = Trace { path: path.to_owned(), draft, plan, npz, fret_forces: Vec::new() };
+        let mut trace = Trace {
+            path: path.to_owned(),
+            draft,
+            plan,
+            npz,
+            fret_forces: Vec::new(),
+            since: [0.0; WORK.len()],
+        };
         trace.keep_origin(text, simulation).with_context(|| cannot_write(path))?;
         Ok(trace)
     }
@@ -200,6 +184,9 @@ impl Trace {
             self.keep_state(simulation).with_context(|| cannot_write(&self.path))?;
         }
         let entry = simulation.step();
+        for (sum, (_, power)) in self.since.iter_mut().zip(WORK) {
+            *sum += entry.as_ref().map_or(0.0, power);
+        }
         if due {
             let entry = entry.unwrap_or_default();
             self.keep_events(simulation, &entry).with_context(|| cannot_write(&self.path))?;
@@ -250,6 +237,9 @@ impl Trace {
         self.npz.add_count(self.plan.iterations, iterations)?;
         for (array, (_, number)) in (self.plan.ledger..).zip(LEDGER) {
             self.npz.add(array, &[number(entry)])?;
+        }
+        for (array, sum) in (self.plan.ledger + LEDGER.len()..).zip(&mut self.since) {
+            self.npz.add(array, &[std::mem::take(sum) / simulation.sample_rate()])?;
         }
         Ok(())
     }

@@ -13,7 +13,7 @@ use low_action_tests::numbers::largest;
 use low_action_tests::scenes::PLUCKED_AND_TAPPED as SCENE;
 
 /// The ledger's arrays, by the alphabet.
-const LEDGER: [&str; 21] = [
+const LEDGER: [&str; 24] = [
     "energy_body",
     "energy_contact",
     "energy_finger",
@@ -35,6 +35,9 @@ const LEDGER: [&str; 21] = [
     "residual",
     "stored_1",
     "stored_2",
+    "work_in",
+    "work_loss",
+    "work_solver",
 ];
 
 fn workplace() -> Workplace {
@@ -185,6 +188,32 @@ fn the_trace_holds_the_ledger() {
     terms_add_up(&found);
     let risen = &found["power_in_barrier"].numbers;
     assert!(risen[0].abs() > 1e-3 && risen[1..].iter().all(|&power| power == 0.0), "{} W", risen[0]);
+}
+
+/// What happens in the samples between is counted, however few are kept.
+#[test]
+fn the_balance_closes_between_rows_that_are_kept() {
+    let place = workplace();
+    place.write("scene.toml", SCENE);
+    for every in ["1", "7", "100"] {
+        assert_eq!(place.run(&["scene", "scene.toml", "--trace", "out.npz", "--every", every]).code, 0);
+        let found = arrays(&place.path("out.npz"));
+        let number = |name: &str, row: usize| found[name].numbers[row];
+        let energy = |row: usize| {
+            let names = found.keys().filter(|name| name.starts_with("energy_"));
+            names.map(|name| number(name, row)).sum::<f64>()
+        };
+        let rows = found["t"].numbers.len();
+        let largest = largest((0..rows).map(energy));
+        let mut put_in = 0.0;
+        for row in 1..rows {
+            let work = number("work_loss", row) + number("work_solver", row) - number("work_in", row);
+            let open = energy(row) - energy(row - 1) + work;
+            assert!(open.abs() < 1e-12 * largest, "--every {every}, row {row}: {open} of {largest} J");
+            put_in += number("work_in", row);
+        }
+        assert!(put_in.abs() > 1e-3 * largest, "{put_in} J");
+    }
 }
 
 /// Whether the terms of what is lost and of what is put in make up all of it.
