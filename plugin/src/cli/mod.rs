@@ -18,6 +18,7 @@ pub mod output;
 mod paths;
 mod progress;
 mod render;
+mod room_left;
 mod scene;
 mod stand_alone;
 mod stopping;

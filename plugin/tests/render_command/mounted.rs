@@ -95,3 +95,32 @@ fn what_it_has_no_room_for_is_kept_beside_it_and_named() {
     let labels = fs::read_to_string(room.path("new.json")).unwrap();
     assert!(labels.starts_with('{') && labels.ends_with("}\n"), "{labels}");
 }
+
+/// Not after hours, when it is full.
+#[test]
+fn a_trace_that_there_is_no_room_for_is_refused_before_the_work() {
+    let room = Room::new();
+    let scene = "sample_rate = 44100\nduration = 1.0\n[[string]]\nlength = 0.65\nlinear_density = 5e-3\ntension = 60.0\n\
+                 shape = [[0.0, 0.0], [0.3, 0.001], [0.65, 0.0]]\n";
+    fs::write(room.path("scene.toml"), scene).unwrap();
+    fs::create_dir(room.path("small")).unwrap();
+    let mount = "mount -t tmpfs -o size=1m none small";
+    let run = |every: &str| {
+        let trace = ["scene", "scene.toml", "--trace", "small/out.npz", "--every", every];
+        let output = where_is_mounted(&room, mount, &trace)?;
+        Some((output.status.code(), String::from_utf8(output.stderr).unwrap()))
+    };
+    let Some((code, said)) = run("1") else { return };
+    assert_eq!(code, Some(1), "{said}");
+    assert!(
+        said.starts_with("error: --every 1 is refused: the trace would take ") && said.lines().count() == 1,
+        "{said}"
+    );
+    assert!(said.contains(" where it goes: it must be at least "), "{said}");
+    // What is named is enough, and no less is.
+    let least = said.trim_end().rsplit(' ').next().unwrap();
+    let (code, said) = run(least).unwrap();
+    assert_eq!(code, Some(0), "{least}: {said}");
+    let less = (least.parse::<u64>().unwrap() - 1).to_string();
+    assert!(run(&less).unwrap().1.contains(&format!("it must be at least {least}")));
+}
