@@ -27,7 +27,8 @@ pub(super) struct FingerArrays {
     pub force: usize,
 }
 
-/// Where times go, and what the trace is of: the scene's text, what computed it, at which rate, and how many samples apart rows are.
+/// Where times go, and what the trace is of: the scene's text, what computed it, at which rate, and how many samples apart rows
+/// are.
 pub(super) const TIME: usize = 0;
 pub(super) const SCENE: usize = 1;
 pub(super) const PROGRAM: usize = 2;
