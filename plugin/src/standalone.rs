@@ -5,24 +5,24 @@
 
 mod keyboards;
 mod names;
+mod outputs;
 mod pulse;
 mod server;
 mod way;
 pub(crate) mod window;
 
-use anyhow::{Result, bail};
-use cpal::traits::{DeviceTrait, HostTrait};
+use anyhow::{Context, Result, bail};
 use nice_plug::prelude::nice_export_standalone_with_args;
 
 use crate::cli::say;
 use crate::params::{Start, begin_with};
 use crate::plugin::LowAction;
 pub use way::Way;
-use way::{JACK, NOTHING};
+use way::{JACK, NATIVE, NOTHING};
 
-/// Hz, where nobody says otherwise.
+/// Hz, where nobody says otherwise and the output takes it.
 const SAMPLE_RATE: u32 = 48_000;
-/// Samples computed at a time, where nobody says otherwise.
+/// Samples computed at a time, where nobody says otherwise and the output takes them.
 const PERIOD: u32 = 256;
 
 /// Which devices are to be used.
@@ -34,9 +34,9 @@ pub struct Devices {
     pub output: Option<String>,
     /// Which keyboard plays; nothing is the first there is.
     pub keyboard: Option<String>,
-    /// Hz, but for JACK, which has its own; nothing is the usual 48,000.
+    /// Hz, but for JACK, which has its own; nothing is what the output takes that is nearest to 48,000.
     pub sample_rate: Option<u32>,
-    /// Samples computed at a time, but for JACK; nothing is the usual 256.
+    /// Samples computed at a time, but for JACK; nothing is what the output takes that is nearest to 256.
     pub period: Option<u32>,
     /// More of the framework's options.
     pub others: Vec<String>,
@@ -46,9 +46,23 @@ impl Devices {
     /// The way to them; none is opened.
     ///
     /// # Errors
-    /// When there is none.
+    /// When there is none, or the output does not take what is asked for.
     pub fn way(&self) -> Result<Way> {
-        Way::to(self, Way::may_need_server(self).then(server::running).flatten())
+        let mut way = Way::to(self, Way::may_need_server(self).then(server::running).flatten())?;
+        if way.name == NATIVE {
+            let output = self.output.as_deref();
+            way.output = output.map(|name| names::find("output", &outputs::names(), name)).transpose()?;
+            // (Named to the framework itself, which takes no option twice.)
+            if let Some(name) = value(&self.others, "--output-device") {
+                way.output = Some(name.to_owned());
+            }
+            let (name, offers) = outputs::offers(way.output.as_deref());
+            let period = value(&self.others, "--period-size").map_or(self.period, |value| value.parse().ok());
+            let fit = outputs::fit(&name, &offers, self.sample_rate, period);
+            let played = fit.with_context(|| format!("no sound can be played by {NATIVE}"));
+            (way.sample_rate, way.period) = played?;
+        }
+        Ok(way)
     }
 }
 
@@ -71,7 +85,7 @@ pub fn open(mut start: Start, devices: &Devices, way: &Way) -> Result<()> {
         format!("--sample-rate={}", way.sample_rate),
     ];
     if name != JACK && !given(&devices.others, "--period-size") {
-        arguments.push(format!("--period-size={}", devices.period.unwrap_or(PERIOD)));
+        arguments.push(format!("--period-size={}", way.period));
     }
     if name == NOTHING {
         say("low-action", &format!("plays to nobody, {until}"));
@@ -79,9 +93,7 @@ pub fn open(mut start: Start, devices: &Devices, way: &Way) -> Result<()> {
         let (known, sources, option) = match &way.server {
             Some(server) => (server.keyboards.clone(), server.sources.clone(), "--connect-jack-midi-input"),
             None => {
-                let output = devices.output.as_deref();
-                let output = output.map(|name| names::find("output", &outputs(), name)).transpose()?;
-                let output = output.filter(|_| !given(&devices.others, "--output-device"));
+                let output = way.output.iter().filter(|_| !given(&devices.others, "--output-device"));
                 arguments.extend(output.map(|name| format!("--output-device={name}")));
                 let inputs = keyboards::of_system();
                 (inputs.clone(), inputs, "--midi-input")
@@ -118,28 +130,20 @@ fn given(others: &[String], option: &str) -> bool {
         .any(|other| other.strip_prefix(option).is_some_and(|rest| rest.is_empty() || rest.starts_with('=')))
 }
 
-/// The names of all outputs of the system.
-fn outputs() -> Vec<String> {
-    let devices = cpal::default_host().output_devices().into_iter().flatten();
-    devices.filter_map(|device| Some(device.description().ok()?.name().to_owned())).collect()
+/// The value of an option among those for the framework.
+fn value<'a>(others: &'a [String], option: &str) -> Option<&'a str> {
+    others.iter().enumerate().find_map(|(index, other)| match other.strip_prefix(option)? {
+        "" => others.get(index + 1).map(String::as_str),
+        rest => rest.strip_prefix('='),
+    })
 }
 
 /// What there is to choose from, for people to read.
 pub fn list() -> String {
-    let host = cpal::default_host();
-    let usual = host.default_output_device().and_then(|device| device.description().ok());
-    let mut text = String::from("Outputs (--output-device NAME, or a part of it):\n");
-    let names = outputs().into_iter();
-    let mut lines: Vec<String> = names
-        .map(|name| {
-            let is_usual = usual.as_ref().is_some_and(|usual| usual.name() == name);
-            format!("  {name}{}\n", if is_usual { " (the usual one)" } else { "" })
-        })
-        .collect();
-    if lines.is_empty() {
-        lines.push("  none\n".into());
-    }
-    text += &lines.concat();
+    let mut text = String::from(
+        "Outputs (--output-device NAME, or a part of it), with --sample-rate and --period-size:\n",
+    );
+    text += &outputs::listed();
     text += "MIDI inputs (--midi-input NAME, or a part of it; the first keyboard if none is named):\n";
     text += &keyboards::listed(&keyboards::of_system());
     match server::running() {
@@ -168,6 +172,8 @@ mod tests {
         ] {
             let others: Vec<String> = others.iter().map(|&other| other.to_owned()).collect();
             assert_eq!(given(&others, option), expected, "{others:?}");
+            assert_eq!(value(&others, option), expected.then_some("vmpk:out"), "{others:?}");
         }
+        assert_eq!(value(&[option.to_owned()], option), None);
     }
 }

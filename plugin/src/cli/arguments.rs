@@ -239,16 +239,17 @@ pub struct StandAloneArgs {
     /// jack if its server runs and no output device is named].
     #[arg(long, value_name = "NAME", value_parser = ["auto", "jack", "alsa", "core-audio", "wasapi", "none"])]
     pub backend: Option<String>,
-    /// Samples per second, 8000 to 384000; JACK has its own [default: 48000].
+    /// Samples per second, 8000 to 384000; JACK has its own [default: what the output takes nearest to 48000].
     #[arg(short = 'r', long, value_name = "HZ", value_parser = render::parse_rate, allow_hyphen_values = true)]
     pub sample_rate: Option<u32>,
-    /// Samples computed at a time, 1 to 65536: fewer answer sooner, more are safer. JACK has its own [default: 256].
+    /// Samples computed at a time, 1 to 65536: fewer answer sooner, more are safer. JACK has its own [default: what the
+    /// output takes nearest to 256].
     #[arg(short, long, value_name = "SAMPLES", value_parser = whole::<u32>(1..=65_536), allow_hyphen_values = true)]
     pub period_size: Option<u32>,
     /// How notes are taken.
     #[command(flatten)]
     pub taken: TakenArgs,
-    /// Lists outputs and MIDI inputs, and plays nothing.
+    /// Lists outputs, with what rates and periods they take, and MIDI inputs, and plays nothing.
     #[arg(long)]
     pub list_devices: bool,
     /// More options, of the plugin framework: `low-action -- --help` lists them.

@@ -4,7 +4,7 @@ use anyhow::{Result, ensure};
 
 use super::Devices;
 use super::server::Server;
-use super::{SAMPLE_RATE, given};
+use super::{PERIOD, SAMPLE_RATE, given};
 use crate::cli::say;
 
 /// The system's own way to its devices, by the framework's name for it.
@@ -30,8 +30,12 @@ pub struct Way {
     pub(super) name: String,
     /// The server that it goes through.
     pub(super) server: Option<Server>,
-    /// Hz: what is asked for, or what the server has.
+    /// The output's full name; nothing is the system's usual one.
+    pub(super) output: Option<String>,
+    /// Hz: what is asked for, what the output takes, or what the server has.
     pub sample_rate: u32,
+    /// Samples computed at a time; the server has its own.
+    pub(super) period: u32,
 }
 
 impl Way {
@@ -57,7 +61,8 @@ impl Way {
         };
         let asked_for = devices.sample_rate.unwrap_or(SAMPLE_RATE);
         let sample_rate = server.as_ref().map_or(asked_for, |server| server.sample_rate);
-        Ok(Self { name: name.to_owned(), server, sample_rate })
+        let period = devices.period.unwrap_or(PERIOD);
+        Ok(Self { name: name.to_owned(), server, output: None, sample_rate, period })
     }
 
     /// That devices were named where the way to them takes no names, or numbers given where it has its own, if so.
