@@ -3,11 +3,13 @@
 //! nice-plug 0.4.2 takes what a host says of its mode (real time or offline) for what it said the time before: the first
 //! bounce would be played as if live, and what is played after it would wait for coefficients on the audio thread. And it has the
 //! note expressions "expression" and "brightness" the wrong way round. And where a call has nothing to play into, it loses the
-//! call's notes. So hosts are given a class of our own, in which the framework's is told everything twice that it takes late, what
-//! it loses is kept ([`Kept`]), and events pass [`mended`]. (`cargo xtask hosts` plays the first two.)
+//! call's notes; where the memory it has to play into is nowhere, it follows the address. So hosts are given a class of our own, in
+//! which the framework's is told everything twice that it takes late, what it loses is kept ([`Kept`]), it plays only into what is
+//! there (`outputs`), and events pass [`mended`]. (`cargo xtask hosts` plays the first two.)
 
 mod heard;
 mod kept;
+mod outputs;
 #[cfg(test)]
 mod tests;
 
@@ -142,11 +144,12 @@ impl IAudioProcessorTrait for Instance {
     }
 
     unsafe fn process(&self, data: *mut ProcessData) -> tresult {
-        self.kept.begin_call();
         // SAFETY: what the host promises is what the framework asks for, and what it has sent stays until this returns.
         unsafe {
-            let said = self.framework.process(data);
-            data.as_ref().into_iter().for_each(|data| self.kept.end_call(data, self.hidden));
+            let Some(data) = data.as_ref() else { return kInvalidArgument };
+            self.kept.begin_call();
+            let said = outputs::within(data, |data| self.framework.process(data));
+            self.kept.end_call(data, self.hidden);
             said
         }
     }

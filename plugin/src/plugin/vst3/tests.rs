@@ -43,8 +43,27 @@ fn loudness(sound: &[f32]) -> f32 {
 /// Changes and events of a call.
 type Call<'a> = (&'a [(ParamID, f64)], &'a [Event]);
 
-/// What the framework leaves out wholly: no samples, no bus, a bus without channels' memory.
-const SILENCES: [Silence; 3] = [Silence::Samples, Silence::Outputs, Silence::Memory];
+/// What the framework leaves out wholly: no samples, no bus, a bus without channels' memory. And one whose channels' memory is
+/// nowhere, as of an output that has been switched off.
+const SILENCES: [Silence; 4] = [Silence::Samples, Silence::Outputs, Silence::Memory, Silence::Addresses];
+
+/// The bus has two, whatever a host makes of it.
+#[test]
+fn two_channels_are_played_and_others_are_silent() {
+    let note = [on(0, 1, 52)];
+    let [left, right] = Host::new().play_into(LENGTH, &[], &note);
+    assert!(loudness(&left) > 0.01 && loudness(&right) > 0.01);
+    let four = Host::new().play_into(LENGTH, &[], &note);
+    assert!(four == [left, right, vec![0.0; LENGTH], vec![0.0; LENGTH]]);
+}
+
+/// One channel is no output: what comes with it waits.
+#[test]
+fn notes_without_a_second_channel_are_played_with_the_next_samples() {
+    let host = Host::new();
+    let [_] = host.play_into(512, &[], &[on(0, 1, 52)]);
+    assert!(host.play(LENGTH, &[], &[]) == Host::new().play(LENGTH, &[], &[on(0, 1, 52)]));
+}
 
 #[test]
 fn notes_and_note_offs_without_sound_are_played_with_the_next_samples() {

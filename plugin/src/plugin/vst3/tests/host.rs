@@ -36,6 +36,7 @@ pub enum Silence {
     Samples,
     Outputs,
     Memory,
+    Addresses,
 }
 
 /// Events of one call.
@@ -181,22 +182,38 @@ impl Host {
 
     /// Plays so many samples; the left channel.
     pub fn play(&self, samples: usize, changes: &[(ParamID, f64)], events: &[Event]) -> Vec<f32> {
-        let [mut left, mut right] = [0, 1].map(|_| vec![f32::NAN; samples]);
-        let mut channels = [left.as_mut_ptr(), right.as_mut_ptr()];
-        let memory = AudioBusBuffers__type0 { channelBuffers32: channels.as_mut_ptr() };
-        let mut bus = AudioBusBuffers { numChannels: 2, silenceFlags: 0, __field0: memory };
-        self.call(samples, Some(&mut bus), changes, events);
+        let [left, _] = self.play_into(samples, changes, events);
         left
+    }
+
+    /// The same into so many channels; all of them.
+    pub fn play_into<const N: usize>(
+        &self,
+        samples: usize,
+        changes: &[(ParamID, f64)],
+        events: &[Event],
+    ) -> [Vec<f32>; N] {
+        let mut sound = [0; N].map(|_| vec![f32::NAN; samples]);
+        let mut channels = sound.each_mut().map(|channel| channel.as_mut_ptr());
+        let memory = AudioBusBuffers__type0 { channelBuffers32: channels.as_mut_ptr() };
+        let mut bus = AudioBusBuffers { numChannels: N as int32, silenceFlags: 0, __field0: memory };
+        self.call(samples, Some(&mut bus), changes, events);
+        sound
     }
 
     /// Tells it of changes and events without having anything played.
     pub fn flush(&self, silence: Silence, changes: &[(ParamID, f64)], events: &[Event]) {
-        let memory = AudioBusBuffers__type0 { channelBuffers32: null_mut() };
+        let mut nowhere = [null_mut(); 2];
+        let channels = match silence {
+            Silence::Addresses => nowhere.as_mut_ptr(),
+            _ => null_mut(),
+        };
+        let memory = AudioBusBuffers__type0 { channelBuffers32: channels };
         let mut bus = AudioBusBuffers { numChannels: 2, silenceFlags: 0, __field0: memory };
         match silence {
             Silence::Samples => self.call(0, None, changes, events),
             Silence::Outputs => self.call(512, None, changes, events),
-            Silence::Memory => self.call(512, Some(&mut bus), changes, events),
+            Silence::Memory | Silence::Addresses => self.call(512, Some(&mut bus), changes, events),
         }
     }
 
