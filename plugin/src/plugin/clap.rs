@@ -1,9 +1,11 @@
 //! The door through which CLAP hosts come in.
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
-//! (`in_order`), and a host that sleeps is woken when the editor is shown (`shown`).
+//! (`in_order`), hosts are told of states that are refused (`refused`), and one that sleeps is woken when the editor is shown
+//! (`shown`).
 
 mod in_order;
+mod refused;
 mod shown;
 
 use std::ffi::{CStr, c_char, c_void};
@@ -11,6 +13,7 @@ use std::sync::{Arc, OnceLock};
 
 use clap_sys::entry::clap_plugin_entry;
 use clap_sys::ext::gui::CLAP_EXT_GUI;
+use clap_sys::ext::state::CLAP_EXT_STATE;
 use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
 use clap_sys::host::clap_host;
 use clap_sys::plugin::{clap_plugin, clap_plugin_descriptor};
@@ -66,10 +69,10 @@ impl Instance {
             let inside = (*plugin.cast::<Self>()).inside;
             let Some(get) = (*inside).get_extension else { return std::ptr::null() };
             let extension = get(inside, id);
-            if CStr::from_ptr(id) == CLAP_EXT_GUI {
-                shown::around(extension.cast()).cast()
-            } else {
-                extension
+            match CStr::from_ptr(id) {
+                id if id == CLAP_EXT_GUI => shown::around(extension.cast()).cast(),
+                id if id == CLAP_EXT_STATE => refused::around(extension.cast()).cast(),
+                _ => extension,
             }
         }
     }

@@ -5,6 +5,7 @@
 //! than this program, is refused as a whole and what was set stays; an older one is brought up to date here;
 //! values that a parameter cannot have become some that it can.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use nice_plug::params::persist::PersistentField;
@@ -53,6 +54,20 @@ impl<'a> PersistentField<'a, Mark> for Marked {
     }
 }
 
+thread_local! {
+    /// Whether a state has been refused on this thread, which the framework has no way to hear of: to it one that has become
+    /// empty is loaded.
+    static REFUSED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// What loading says, and whether what it has loaded was taken in. A host that does not hear of a refusal saves what is there
+/// over what it had.
+pub(super) fn taken_in<T>(load: impl FnOnce() -> T) -> (T, bool) {
+    REFUSED.set(false);
+    let said = load();
+    (said, !REFUSED.take())
+}
+
 /// Makes of a saved state what can be loaded: all of it, brought up to date, or nothing.
 pub(super) fn admit(state: &mut PluginState) {
     match judge(&state.fields, &state.params) {
@@ -66,6 +81,7 @@ pub(super) fn admit(state: &mut PluginState) {
             nice_error!("the saved state is refused, and everything stays as it is: {reason}");
             state.params.clear();
             state.fields.clear();
+            REFUSED.set(true);
         }
     }
 }

@@ -5,7 +5,7 @@
 //! note expressions "expression" and "brightness" the wrong way round. And where a call has nothing to play into, it loses the
 //! call's notes; where the memory it has to play into is nowhere, it follows the address. So hosts are given a class of our own, in
 //! which the framework's is told everything twice that it takes late, what it loses is kept ([`Kept`]), it plays only into what is
-//! there (`outputs`), and events pass [`mended`]. (`cargo xtask hosts` plays the first two.)
+//! there (`outputs`), hosts are told of a state that is refused, and events pass [`mended`]. (`cargo xtask hosts` plays the first two.)
 
 mod heard;
 mod kept;
@@ -25,6 +25,7 @@ use nice_plug::wrapper::vst3::vst3::{Class, ComWrapper};
 use nice_plug::wrapper::vst3::{PluginInfo, Wrapper};
 
 use super::LowAction;
+use super::state::taken_in;
 use heard::Hidden;
 pub(super) use kept::Kept;
 
@@ -96,9 +97,14 @@ impl IComponentTrait for Instance {
         getRoutingInfo(into: *mut RoutingInfo, out: *mut RoutingInfo) -> tresult;
         activateBus(media: MediaType, way: BusDirection, index: int32, state: TBool) -> tresult;
         setActive(state: TBool) -> tresult;
-        setState(state: *mut IBStream) -> tresult;
         getState(state: *mut IBStream) -> tresult;
     } }
+
+    unsafe fn setState(&self, state: *mut IBStream) -> tresult {
+        // SAFETY: what the host promises is what the framework asks for.
+        let (said, taken) = taken_in(|| unsafe { IComponentTrait::setState(&self.framework, state) });
+        if said == kResultOk && !taken { kResultFalse } else { said }
+    }
 }
 
 impl IEditControllerTrait for Instance {

@@ -86,21 +86,22 @@ fn what_cannot_be_read_changes_nothing() {
     let mut endless = saved.clone();
     endless[..8].fill(0xFF);
     let foreign = json!({ "version": "2.1", "params": { "gain": { "f32": 0.5 } }, "fields": {} });
-    // What is damaged the host is told of; what is a state, but none of ours, the framework takes as read.
-    for (what, damaged, bytes) in [
-        ("nothing", true, Vec::new()),
-        ("a truncated state", true, truncated),
-        ("a scrambled state", true, scrambled),
-        ("an endless length", true, endless),
-        ("random bytes", true, (0..200_u8).map(|n| n.wrapping_mul(73)).collect()),
-        ("another plugin's state", false, packed(&foreign)),
-        ("a newer form", false, with_mark(r#"{"owner":"low-action","version":99}"#)),
-        ("somebody else's mark", false, with_mark(r#"{"owner":"high-action","version":1}"#)),
-        ("an unreadable mark", false, with_mark("[]")),
+    // The host is told, and does not save over what it has.
+    for (what, bytes) in [
+        ("nothing", Vec::new()),
+        ("a truncated state", truncated),
+        ("a scrambled state", scrambled),
+        ("an endless length", endless),
+        ("random bytes", (0..200_u8).map(|n| n.wrapping_mul(73)).collect()),
+        ("another plugin's state", packed(&foreign)),
+        ("a newer form", with_mark(r#"{"owner":"low-action","version":99}"#)),
+        ("somebody else's mark", with_mark(r#"{"owner":"high-action","version":1}"#)),
+        ("an unreadable mark", with_mark("[]")),
     ] {
-        assert_eq!(host.load(&bytes), !damaged, "{what}");
+        assert!(!host.load(&bytes), "{what}");
         assert_eq!(unpacked(&host.save()), before, "{what} was taken in");
     }
+    assert!(host.load(&saved), "what was refused before has nothing to do with it");
 }
 
 #[test]

@@ -123,6 +123,30 @@ fn parameters_and_controllers_without_sound_are_as_with_the_next_samples() {
     }
 }
 
+#[test]
+fn what_is_refused_the_host_is_told_of() {
+    let host = Host::new();
+    let force = host.parameter("Pluck force", 0.25);
+    host.flush(Silence::Samples, &[force], &[]);
+    let saved = host.save();
+    let with_mark = |mark: &str| {
+        let mut state: serde_json::Value = serde_json::from_slice(&saved).expect("it is a state");
+        state["fields"]["state"] = mark.into();
+        serde_json::to_vec(&state).expect("it can be written")
+    };
+    let other = Host::new();
+    let before = other.save();
+    for (what, bytes) in [
+        ("a truncated state", saved[..saved.len() - 20].to_vec()),
+        ("a newer form", with_mark(r#"{"owner":"low-action","version":99}"#)),
+        ("somebody else's mark", with_mark(r#"{"owner":"high-action","version":1}"#)),
+    ] {
+        assert!(!other.load(&bytes), "{what}");
+        assert!(other.save() == before, "{what} was taken in");
+    }
+    assert!(other.load(&saved) && other.save() == saved);
+}
+
 /// As many as fill any room. What they say last counts, and the note's end is not lost.
 #[test]
 fn a_note_off_is_not_lost_among_too_many_others() {

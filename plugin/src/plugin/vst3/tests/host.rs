@@ -1,5 +1,7 @@
 //! A host of one instance, as far as it takes one to play.
 
+use std::cell::RefCell;
+use std::io::{Cursor, Read, Seek, SeekFrom, Write};
 use std::ptr::null_mut;
 
 use nice_plug::wrapper::vst3::vst3::{ComPtr, Interface};
@@ -110,6 +112,53 @@ impl IParameterChangesTrait for Changes {
 
     unsafe fn addParameterData(&self, _: *const ParamID, _: *mut int32) -> *mut IParamValueQueue {
         null_mut()
+    }
+}
+
+/// What a session has saved, or is to save.
+struct Stream(RefCell<Cursor<Vec<u8>>>);
+
+impl Class for Stream {
+    type Interfaces = (IBStream,);
+}
+
+impl IBStreamTrait for Stream {
+    unsafe fn read(&self, buffer: *mut c_void, size: int32, read: *mut int32) -> tresult {
+        // SAFETY: there is room for as many bytes, and for their number if it is asked for.
+        unsafe {
+            let buffer = std::slice::from_raw_parts_mut(buffer.cast::<u8>(), size as usize);
+            let count = self.0.borrow_mut().read(buffer).expect("there is nothing to fail");
+            read.as_mut().into_iter().for_each(|read| *read = count as int32);
+        }
+        kResultOk
+    }
+
+    unsafe fn write(&self, buffer: *mut c_void, size: int32, written: *mut int32) -> tresult {
+        // SAFETY: there are as many bytes, and room for their number if it is asked for.
+        unsafe {
+            let buffer = std::slice::from_raw_parts(buffer.cast::<u8>(), size as usize);
+            self.0.borrow_mut().write_all(buffer).expect("there is room");
+            written.as_mut().into_iter().for_each(|written| *written = size);
+        }
+        kResultOk
+    }
+
+    unsafe fn seek(&self, place: int64, mode: int32, result: *mut int64) -> tresult {
+        let from = match mode {
+            0 => SeekFrom::Start(place as u64),
+            1 => SeekFrom::Current(place),
+            _ => SeekFrom::End(place),
+        };
+        let reached = self.0.borrow_mut().seek(from).expect("the place is there");
+        // SAFETY: there is room for it if it is asked for.
+        unsafe { result.as_mut() }.into_iter().for_each(|result| *result = reached as int64);
+        kResultOk
+    }
+
+    unsafe fn tell(&self, place: *mut int64) -> tresult {
+        // SAFETY: there is room for it.
+        unsafe { place.write(self.0.borrow().position() as int64) };
+        kResultOk
     }
 }
 
@@ -240,6 +289,22 @@ impl Host {
             })
         };
         (id.expect("there is one of that name"), value)
+    }
+
+    /// What a session would save.
+    pub fn save(&self) -> Vec<u8> {
+        let stream = ComWrapper::new(Stream(RefCell::default()));
+        let interface = stream.to_com_ptr::<IBStream>().expect("it has that interface");
+        // SAFETY: it lives until this returns.
+        assert_eq!(unsafe { self.part::<IComponent>().getState(interface.as_ptr()) }, kResultOk);
+        stream.0.borrow().get_ref().clone()
+    }
+
+    /// Loads it again; whether the plugin took it.
+    pub fn load(&self, saved: &[u8]) -> bool {
+        let stream: ComPtr<IBStream> = pointer(Stream(RefCell::new(Cursor::new(saved.to_vec()))));
+        // SAFETY: as above.
+        unsafe { self.part::<IComponent>().setState(stream.as_ptr()) == kResultOk }
     }
 
     /// What a parameter stands at.

@@ -1,0 +1,33 @@
+//! The host hears of a state that is refused.
+//!
+//! The framework (nice-plug 0.4.2) takes what the plugin has made empty as loaded. A host that believed it would save what is there
+//! over a session of a newer program.
+
+use std::sync::OnceLock;
+
+use clap_sys::ext::state::clap_plugin_state;
+use clap_sys::plugin::clap_plugin;
+use clap_sys::stream::clap_istream;
+
+use crate::plugin::state::taken_in;
+
+/// The framework's functions for states, and ours around them: the same for all instances.
+static FUNCTIONS: OnceLock<[clap_plugin_state; 2]> = OnceLock::new();
+
+/// The extension for states, with refusals told; nothing for nothing.
+///
+/// # Safety
+/// It must be null or the framework's, whose functions are the same each time.
+pub(super) unsafe fn around(extension: *const clap_plugin_state) -> *const clap_plugin_state {
+    // SAFETY: as above.
+    let Some(inner) = (unsafe { extension.as_ref() }) else { return std::ptr::null() };
+    let [_, outer] = FUNCTIONS.get_or_init(|| [*inner, clap_plugin_state { load: Some(load), ..*inner }]);
+    outer
+}
+
+unsafe extern "C" fn load(plugin: *const clap_plugin, stream: *const clap_istream) -> bool {
+    let Some(inner) = FUNCTIONS.get().and_then(|[inner, _]| inner.load) else { return false };
+    // SAFETY: the host gives back what it was given, and a stream.
+    let (loaded, taken) = taken_in(|| unsafe { inner(plugin, stream) });
+    loaded && taken
+}
