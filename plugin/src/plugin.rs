@@ -30,7 +30,7 @@ use nice_plug::prelude::*;
 use crate::display::{Health, Writer, display};
 #[cfg(feature = "editor")]
 use crate::editor::Link;
-use crate::engine::{Engine, EngineOptions};
+use crate::engine::EngineOptions;
 use crate::params::{LowActionParams, start};
 use crate::performance::Announced;
 use crate::pointer::{Played, pointer};
@@ -201,7 +201,6 @@ impl Plugin for LowAction {
                 }
             },
         }
-        context.set_latency_samples(Engine::LATENCY);
         if let Some(playing) = &mut self.playing {
             if let Some(announced) = &self.announced {
                 playing.announce(&self.params, announced);

@@ -9,6 +9,7 @@ mod refused;
 mod shown;
 
 use std::ffi::{CStr, c_char, c_void};
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, OnceLock};
 
 use clap_sys::entry::clap_plugin_entry;
@@ -23,6 +24,7 @@ use nice_plug::wrapper::clap::{PluginDescriptor, Wrapper};
 use nice_plug::wrapper::setup_logger;
 
 use super::LowAction;
+use crate::engine::Engine;
 use in_order::InOrder;
 
 /// The plugin as the host sees it, and as the framework does.
@@ -116,9 +118,13 @@ unsafe extern "C" fn create_plugin(
     if host.is_null() || id.is_null() || unsafe { CStr::from_ptr(id) } != descriptor().clap_id() {
         return std::ptr::null();
     }
+    // SAFETY: the host outlives its plugins.
+    let wrapper = unsafe { Wrapper::<LowAction>::new(host) };
+    // It is always the same. The framework would have it 0 until somebody said otherwise, and then ask for a restart.
+    wrapper.current_latency.store(Engine::LATENCY, Ordering::Relaxed);
     // The framework takes its reference back in `destroy`.
     // SAFETY: it has just been made.
-    let inside = unsafe { (*Arc::into_raw(Wrapper::<LowAction>::new(host))).clap_plugin.as_ptr() };
+    let inside = unsafe { (*Arc::into_raw(wrapper)).clap_plugin.as_ptr() };
     // SAFETY: as above. All functions find their way by `plugin_data`, so that they can be called with either.
     let outside = clap_plugin {
         process: Some(Instance::process),

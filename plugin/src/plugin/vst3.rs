@@ -26,6 +26,7 @@ use nice_plug::wrapper::vst3::{PluginInfo, Wrapper};
 
 use super::LowAction;
 use super::state::taken_in;
+use crate::engine::Engine;
 use heard::Hidden;
 pub(super) use kept::Kept;
 
@@ -135,10 +136,14 @@ impl IAudioProcessorTrait for Instance {
         ) -> tresult;
         getBusArrangement(way: BusDirection, index: int32, arrangement: *mut SpeakerArrangement) -> tresult;
         canProcessSampleSize(size: int32) -> tresult;
-        getLatencySamples() -> uint32;
         setProcessing(state: TBool) -> tresult;
         getTailSamples() -> uint32;
     } }
+
+    unsafe fn getLatencySamples(&self) -> uint32 {
+        // The framework knows of none until somebody tells it, and then asks for a restart.
+        Engine::LATENCY
+    }
 
     unsafe fn setupProcessing(&self, setup: *mut ProcessSetup) -> tresult {
         // The first time its mode is remembered, the second time it is used.

@@ -4,6 +4,7 @@
 //! In builds with debug assertions the plugin framework aborts the test as soon as memory is allocated
 //! while processing.
 
+use clack_extensions::latency::PluginLatency;
 use low_action::engine::{Engine, EngineOptions, Quality};
 use low_action::performance::PlayerEvent;
 use low_action_dsp::Setup;
@@ -109,19 +110,25 @@ fn a_note_sounds() {
     }
 }
 
-/// A host that has once activated the plugin. The framework asks for a restart then, since it has told a latency.
-fn once_activated() -> Host {
+#[test]
+fn the_latency_is_known_before_anything_is_activated_and_asks_for_nothing() {
     let mut host = Host::new();
+    let latency = |host: &mut Host| {
+        let handle = host.handle();
+        let latency = handle.get_extension::<PluginLatency>().expect("it tells its latency");
+        latency.get(&handle)
+    };
+    assert_eq!(latency(&mut host), Engine::LATENCY);
     host.play(RATE, &Vec::new(), 480, &[480]);
-    assert!(host.take_restart_request());
-    host
+    assert_eq!(latency(&mut host), Engine::LATENCY);
+    assert!(!host.take_restart_request());
 }
 
 #[test]
 fn the_plugin_plays_what_the_engine_plays() {
     let expected = engine_alone(&options("electric", RATE), &score(), 24_000);
     assert!(rms(&expected[0]) > 1e-3);
-    let mut host = once_activated();
+    let mut host = Host::new();
     for blocks in [&[24_000][..], &[480], &[64], &[1], &[17, 1, 960, 33, 256]] {
         let found = host.play(RATE, &score(), 24_000, blocks);
         assert_same_bits(&expected, &found, &format!("blocks of {blocks:?}"));
@@ -165,7 +172,7 @@ fn the_level_scales_and_nothing_else() {
 
 #[test]
 fn another_instrument_plays_at_once() {
-    let mut host = once_activated();
+    let mut host = Host::new();
     let mut changed = score();
     changed.insert(0, (0, Action::Parameter(INSTRUMENT, 3.0)));
     let found = host.play(RATE, &changed, 24_000, &[480]);

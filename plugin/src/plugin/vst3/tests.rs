@@ -29,7 +29,7 @@ fn the_factory_has_one_class_and_makes_it() {
     }
     let made = host::made(&factory, class.cid.map(|byte| byte as u8)).expect("it is made");
     // SAFETY: nothing is asked for but a number.
-    assert!(unsafe { made.getLatencySamples() } < 1000);
+    assert_eq!(unsafe { made.getLatencySamples() }, Engine::LATENCY, "right after it is made");
     assert!(host::made(&factory, *b"somebody else's.").is_none());
 }
 
