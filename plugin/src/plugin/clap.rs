@@ -1,10 +1,11 @@
 //! The door through which CLAP hosts come in.
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
-//! (`in_order`), hosts are told of states that are refused (`refused`), and one that sleeps is woken when the editor is shown
-//! (`shown`).
+//! (`in_order`), hosts are told of states that are refused (`refused`), what they ask of parameters wrongly is answered
+//! (`parameters`), and one that sleeps is woken when the editor is shown (`shown`).
 
 mod in_order;
+mod parameters;
 mod refused;
 mod shown;
 
@@ -13,7 +14,9 @@ use std::sync::atomic::Ordering;
 use std::sync::{Arc, OnceLock};
 
 use clap_sys::entry::clap_plugin_entry;
+use clap_sys::events::clap_input_events;
 use clap_sys::ext::gui::CLAP_EXT_GUI;
+use clap_sys::ext::params::CLAP_EXT_PARAMS;
 use clap_sys::ext::state::CLAP_EXT_STATE;
 use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
 use clap_sys::host::clap_host;
@@ -30,7 +33,7 @@ use in_order::InOrder;
 /// The plugin as the host sees it, and as the framework does.
 #[repr(C)]
 struct Instance {
-    /// The host's side: the framework's functions, but for three. It stands first, so that a pointer to it is one
+    /// The host's side: the framework's functions, but for some. It stands first, so that a pointer to it is one
     /// to the whole.
     outside: clap_plugin,
     inside: *const clap_plugin,
@@ -46,19 +49,49 @@ impl Instance {
         if plugin.is_null() || process.is_null() {
             return CLAP_PROCESS_ERROR;
         }
-        let instance = plugin.cast::<Self>().cast_mut();
         // SAFETY: the host gives back what `create_plugin` gave it, and processes one block at a time.
         unsafe {
-            let inside = (*instance).inside;
+            let inside = (*plugin.cast::<Self>()).inside;
             let Some(next) = (*inside).process else { return CLAP_PROCESS_ERROR };
             let last = (*process).frames_count.saturating_sub(1);
-            match (*process).in_events.as_ref() {
+            Self::in_order(plugin, (*process).in_events, last, |in_events| {
+                next(inside, &clap_process { in_events, ..*process })
+            })
+        }
+    }
+
+    /// Does something with a host's events, put right where they are not.
+    ///
+    /// # Safety
+    /// The plugin must be what `create_plugin` gave the host, the events null or a host's, and this done by one at a time.
+    unsafe fn in_order<T>(
+        plugin: *const clap_plugin,
+        events: *const clap_input_events,
+        last: u32,
+        take: impl FnOnce(*const clap_input_events) -> T,
+    ) -> T {
+        // SAFETY: as above.
+        unsafe {
+            match events.as_ref() {
                 Some(list) if !in_order::is_right(list, last) => {
-                    let list = InOrder::put_right(&raw mut (*instance).in_order, list, last);
-                    next(inside, &clap_process { in_events: &list, ..*process })
+                    let instance = plugin.cast::<Self>().cast_mut();
+                    take(&InOrder::put_right(&raw mut (*instance).in_order, list, last))
                 }
-                _ => next(inside, process),
+                _ => take(events),
             }
+        }
+    }
+
+    /// Whether the host knows of windows. The framework believes that every one does that asks for one.
+    ///
+    /// # Safety
+    /// As above.
+    unsafe fn knows_windows(plugin: *const clap_plugin) -> bool {
+        // SAFETY: the host outlives its plugins.
+        unsafe {
+            let host = (*plugin.cast::<Self>()).host;
+            let get = host.as_ref().and_then(|host| host.get_extension);
+            get.is_some_and(|get| !get(host, CLAP_EXT_GUI.as_ptr()).is_null())
         }
     }
 
@@ -72,7 +105,11 @@ impl Instance {
             let Some(get) = (*inside).get_extension else { return std::ptr::null() };
             let extension = get(inside, id);
             match CStr::from_ptr(id) {
-                id if id == CLAP_EXT_GUI => shown::around(extension.cast()).cast(),
+                id if id == CLAP_EXT_GUI && Self::knows_windows(plugin) => {
+                    shown::around(extension.cast()).cast()
+                }
+                id if id == CLAP_EXT_GUI => std::ptr::null(),
+                id if id == CLAP_EXT_PARAMS => parameters::around(extension.cast()).cast(),
                 id if id == CLAP_EXT_STATE => refused::around(extension.cast()).cast(),
                 _ => extension,
             }

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use clack_extensions::audio_ports::{AudioPortInfoBuffer, PluginAudioPorts};
 use clack_extensions::latency::PluginLatency;
+use clack_extensions::params::{ParamInfoBuffer, PluginParams};
 use clack_extensions::remote_controls::{PluginRemoteControls, RemoteControlsPageBuffer};
 use clack_extensions::voice_info::PluginVoiceInfo;
 use low_action::engine::Engine;
@@ -283,6 +284,13 @@ fn hosts_are_told_the_truth() {
     let mut buffer = RemoteControlsPageBuffer::new();
     let first = pages.get(&handle, 0, &mut buffer).expect("there is one");
     assert_eq!(first.param_ids[3].map(|id| id.get()), Some(parameter("action")));
+    let params = handle.get_extension::<PluginParams>().expect("it has parameters");
+    let (count, mut buffer) = (params.count(&handle), ParamInfoBuffer::new());
+    assert!(params.get_info(&handle, count - 1, &mut buffer).is_some());
+    for beyond in [count, count + 1, u32::MAX] {
+        assert!(params.get_info(&handle, beyond, &mut buffer).is_none(), "{beyond} of {count}");
+    }
+    let mut buffer = RemoteControlsPageBuffer::new();
     // Between them they hold every parameter, no page twice the same.
     let mut held = BTreeSet::new();
     for index in 0..pages.count(&handle) {

@@ -3,13 +3,17 @@
 //! CLAP promises that the events of a block come in the order of their times, and that those lie within the
 //! block. The plugin framework relies on it: `handle_input_event` of nice-plug 0.4.2
 //! (`wrapper/clap/wrapper.rs`) subtracts times without looking, and `process` there cuts the block at whatever
-//! time an event has. Events of a host that does not keep the promise are put right here, before the framework
-//! sees them: in their order, and none later than the last sample. Those of all others pass untouched.
+//! time an event has. And it stops at a system-exclusive message that has no bytes. Events of a host that does not keep
+//! the promise are put right here, before the framework sees them: in their order, none later than the last sample, and
+//! without such messages. Those of all others pass untouched.
 
 use std::ffi::c_void;
 use std::mem::size_of;
 
-use clap_sys::events::{clap_event_header, clap_input_events};
+use clap_sys::events::{
+    CLAP_CORE_EVENT_SPACE_ID, CLAP_EVENT_MIDI_SYSEX, clap_event_header, clap_event_midi_sysex,
+    clap_input_events,
+};
 use nice_plug::prelude::Plugin;
 
 use crate::plugin::LowAction;
@@ -65,6 +69,10 @@ impl InOrder {
         for (place, event) in unsafe { events(list) }.enumerate().take(MOST_EVENTS) {
             // SAFETY: hosts give pointers to events, or none.
             let Some(header) = (unsafe { event.as_ref() }) else { continue };
+            // SAFETY: as above.
+            if unsafe { is_empty(header) } {
+                continue;
+            }
             let mut entry = Entry { time: header.time.min(last), place: place as u32, event };
             if header.time > last {
                 let size = header.size as usize;
@@ -114,7 +122,17 @@ unsafe fn events(list: &clap_input_events) -> impl Iterator<Item = *const clap_e
     (0..count).filter_map(move |index| list.get.map(|get| unsafe { get(list, index) }))
 }
 
-/// Whether the events of a block are in order and none comes after its last sample.
+/// Whether an event is a message whose bytes are nowhere.
+///
+/// # Safety
+/// It must be as large as it says.
+unsafe fn is_empty(event: &clap_event_header) -> bool {
+    (event.space_id, event.type_) == (CLAP_CORE_EVENT_SPACE_ID, CLAP_EVENT_MIDI_SYSEX)
+        // SAFETY: events of a kind are such.
+        && unsafe { (*(&raw const *event).cast::<clap_event_midi_sysex>()).buffer.is_null() }
+}
+
+/// Whether the events of a block are in order, none comes after its last sample and none is empty.
 ///
 /// # Safety
 /// The list must be a host's.
@@ -122,8 +140,57 @@ pub(super) unsafe fn is_right(list: &clap_input_events, last: u32) -> bool {
     let mut latest = 0;
     // SAFETY: as above; hosts give pointers to events, or none.
     unsafe { events(list) }.filter_map(|event| unsafe { event.as_ref() }).all(|header| {
-        let right = (latest..=last).contains(&header.time);
+        // SAFETY: as above.
+        let right = (latest..=last).contains(&header.time) && !unsafe { is_empty(header) };
         latest = header.time;
         right
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use clap_sys::events::{CLAP_EVENT_NOTE_ON, clap_event_note};
+
+    use super::*;
+
+    fn header(time: u32, kind: u16, size: usize) -> clap_event_header {
+        let space_id = CLAP_CORE_EVENT_SPACE_ID;
+        clap_event_header { size: size as u32, time, space_id, type_: kind, flags: 0 }
+    }
+
+    fn message(time: u32, bytes: &[u8]) -> clap_event_midi_sysex {
+        let header = header(time, CLAP_EVENT_MIDI_SYSEX, size_of::<clap_event_midi_sysex>());
+        let buffer = if bytes.is_empty() { std::ptr::null() } else { bytes.as_ptr() };
+        clap_event_midi_sysex { header, port_index: 0, buffer, size: bytes.len() as u32 }
+    }
+
+    unsafe extern "C" fn size(list: *const clap_input_events) -> u32 {
+        // SAFETY: the test's own list.
+        unsafe { (*(*list).ctx.cast::<Vec<*const clap_event_header>>()).len() as u32 }
+    }
+
+    unsafe extern "C" fn get(list: *const clap_input_events, index: u32) -> *const clap_event_header {
+        // SAFETY: as above.
+        unsafe { (&(*(*list).ctx.cast::<Vec<*const clap_event_header>>()))[index as usize] }
+    }
+
+    #[test]
+    fn a_message_without_bytes_is_left_out() {
+        let (bytes, note) = ([0xF0, 0x7E, 0xF7], header(3, CLAP_EVENT_NOTE_ON, size_of::<clap_event_note>()));
+        let [empty, whole] = [message(1, &[]), message(2, &bytes)];
+        let found = |events: &[*const clap_event_header]| {
+            let mut events = events.to_vec();
+            let list = clap_input_events { ctx: (&raw mut events).cast(), size: Some(size), get: Some(get) };
+            let mut order = InOrder::new();
+            // SAFETY: all of them are alive.
+            unsafe {
+                let right = is_right(&list, 511);
+                let list = InOrder::put_right(&raw mut order, &list, 511);
+                (right, super::events(&list).collect::<Vec<_>>())
+            }
+        };
+        let [empty, whole] = [&empty, &whole].map(|message| &raw const message.header);
+        assert_eq!(found(&[empty, whole, &note]), (false, vec![whole, &raw const note]));
+        assert_eq!(found(&[whole, &note]), (true, vec![whole, &raw const note]));
+    }
 }

@@ -103,16 +103,24 @@ mod tests {
         if unsafe { CStr::from_ptr(id) } == CLAP_EXT_GUI { (&raw const GUI).cast() } else { std::ptr::null() }
     }
 
+    unsafe extern "C" fn knows_windows(_: *const clap_host, id: *const c_char) -> *const c_void {
+        // SAFETY: only the test below asks.
+        if unsafe { CStr::from_ptr(id) } == CLAP_EXT_GUI { c"one".as_ptr().cast() } else { std::ptr::null() }
+    }
+    unsafe extern "C" fn knows_nothing(_: *const clap_host, _: *const c_char) -> *const c_void {
+        std::ptr::null()
+    }
+
     #[test]
     fn a_host_is_woken_when_the_window_is_shown() {
-        let host = clap_host {
+        let mut host = clap_host {
             clap_version: CLAP_VERSION,
             host_data: std::ptr::null_mut(),
             name: c"a host".as_ptr(),
             vendor: c"".as_ptr(),
             url: c"".as_ptr(),
             version: c"".as_ptr(),
-            get_extension: None,
+            get_extension: Some(knows_windows),
             request_restart: None,
             request_process: Some(request_process),
             request_callback: None,
@@ -132,7 +140,8 @@ mod tests {
             on_main_thread: None,
         };
         let outside = clap_plugin { get_extension: Some(Instance::get_extension), ..inside };
-        let instance = Instance { outside, inside: &inside, host: &host, in_order: InOrder::new() };
+        let host = &raw mut host;
+        let instance = Instance { outside, inside: &inside, host, in_order: InOrder::new() };
         let plugin = (&raw const instance).cast::<clap_plugin>();
         // SAFETY: all of them are alive.
         unsafe {
@@ -144,5 +153,14 @@ mod tests {
             assert!(gui.show.expect("it can be shown")(plugin));
         }
         assert_eq!(ASKED.load(Ordering::Relaxed), 1);
+        // The framework would take it at its word, and panic.
+        for knows in [Some(knows_nothing as _), None] {
+            // SAFETY: as above.
+            unsafe {
+                (*host).get_extension = knows;
+                let gui = Instance::get_extension(plugin, CLAP_EXT_GUI.as_ptr());
+                assert!(gui.is_null(), "a host that knows of no windows is told of none");
+            }
+        }
     }
 }

@@ -1,0 +1,52 @@
+//! What a host asks of parameters and tells them between blocks, where the framework (nice-plug 0.4.2) panics: asked for the one after
+//! the last, or told of a message that has no bytes.
+
+use std::sync::OnceLock;
+
+use clap_sys::events::{clap_input_events, clap_output_events};
+use clap_sys::ext::params::{clap_param_info, clap_plugin_params};
+use clap_sys::plugin::clap_plugin;
+
+use super::Instance;
+
+/// The framework's functions for parameters, and ours around them: the same for all instances.
+static FUNCTIONS: OnceLock<[clap_plugin_params; 2]> = OnceLock::new();
+
+/// The extension for parameters, with those functions put right; nothing for nothing.
+///
+/// # Safety
+/// It must be null or the framework's, whose functions are the same each time.
+pub(super) unsafe fn around(extension: *const clap_plugin_params) -> *const clap_plugin_params {
+    // SAFETY: as above.
+    let Some(inner) = (unsafe { extension.as_ref() }) else { return std::ptr::null() };
+    let [_, outer] = FUNCTIONS.get_or_init(|| {
+        [*inner, clap_plugin_params { get_info: Some(get_info), flush: Some(flush), ..*inner }]
+    });
+    outer
+}
+
+fn inner() -> Option<&'static clap_plugin_params> {
+    FUNCTIONS.get().map(|[inner, _]| inner)
+}
+
+unsafe extern "C" fn get_info(plugin: *const clap_plugin, index: u32, info: *mut clap_param_info) -> bool {
+    let Some((count, get_info)) = inner().and_then(|inner| inner.count.zip(inner.get_info)) else {
+        return false;
+    };
+    // SAFETY: the host gives back what it was given, and room.
+    unsafe { index < count(plugin) && get_info(plugin, index, info) }
+}
+
+unsafe extern "C" fn flush(
+    plugin: *const clap_plugin,
+    input: *const clap_input_events,
+    output: *const clap_output_events,
+) {
+    let Some(inner) = inner().and_then(|inner| inner.flush) else { return };
+    if plugin.is_null() {
+        return;
+    }
+    // SAFETY: the host gives back what it was given, and neither processes nor flushes meanwhile. Outside of blocks no time is too
+    // late.
+    unsafe { Instance::in_order(plugin, input, u32::MAX, |input| inner(plugin, input, output)) }
+}
