@@ -174,7 +174,7 @@ impl Plugin for LowAction {
         let offline = buffers.process_mode == ProcessMode::Offline;
         let order = Order::of(&self.params, buffers.sample_rate, offline);
         self.output.activate(buffers.sample_rate, self.params.output.bypass.value());
-        self.transport = Transport::default();
+        self.transport = Transport::of_blocks(buffers.max_buffer_size);
         self.played.clear();
         self.kept.make_room();
         self.announced = self.playing.as_ref().and_then(Playing::announced).or(self.announced);

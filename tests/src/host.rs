@@ -14,7 +14,7 @@ use clack_host::events::event_types::NoteEndEvent;
 use clack_host::prelude::*;
 
 pub use score::{Action, Score, parameter};
-use score::{events_between, transport};
+use score::{Running, events_between};
 
 use crate::user::isolate;
 
@@ -157,16 +157,13 @@ impl Host {
         while start < length {
             let size = *block_sizes.next().expect("a cycle has no end") as usize;
             let end = length.min(start + size);
-            let events =
-                events_between(score, start as u64, end as u64, self.mistaken.unwrap_or(|time| time));
-            let block_transport = running.map(|running| transport(0, running));
-            for &(at, action) in score {
-                if let Action::Transport(playing) = action
-                    && (start as u64..end as u64).contains(&at)
-                {
-                    running = Some(playing);
-                }
-            }
+            let span = [start as u64, end as u64];
+            let clock = self.mistaken.unwrap_or(|time| time);
+            let events = events_between(score, span, clock, sample_rate);
+            let block_transport = running.map(|running: Running| running.said(start as u64, 0));
+            let told = score.iter().filter(|(at, _)| (span[0]..span[1]).contains(at));
+            let mut told = told.filter_map(|&(at, action)| Running::from(at, action, sample_rate));
+            running = told.next_back().or(running);
             if self.sleepy && rests && events.is_empty() {
                 slept += end - start;
                 asleep = true;

@@ -6,6 +6,7 @@ use clack_host::events::event_types::{
 };
 use clack_host::events::{EventFlags, EventHeader};
 use clack_host::prelude::*;
+use clack_host::utils::SecondsTime;
 
 /// What a performer or a host does to the plugin.
 #[derive(Clone, Copy, Debug)]
@@ -76,6 +77,38 @@ pub enum Action {
     },
     /// The transport starts or stops.
     Transport(bool),
+    /// The transport goes to this sample of the song, and runs on from there.
+    Place(u64),
+}
+
+/// How the host's transport runs.
+#[derive(Clone, Copy)]
+pub(super) struct Running {
+    is: bool,
+    /// A sample of the performance and of the song, and the sample rate, if the host tells where in it.
+    place: Option<(u64, u64, f64)>,
+}
+
+impl Running {
+    /// As an action has it that comes at a sample, if it has to do with it.
+    pub fn from(at: u64, action: Action, sample_rate: f64) -> Option<Self> {
+        match action {
+            Action::Transport(is) => Some(Self { is, place: None }),
+            Action::Place(song) => Some(Self { is: true, place: Some((at, song, sample_rate)) }),
+            _ => None,
+        }
+    }
+
+    /// What it says at a sample, to an event at a time of its block.
+    pub fn said(self, at: u64, time: u32) -> TransportEvent {
+        let mut said = transport(time, self.is);
+        if let Some((from, song, sample_rate)) = self.place {
+            said.flags |= TransportFlags::HAS_SECONDS_TIMELINE | TransportFlags::HAS_TEMPO;
+            said.song_pos_seconds = SecondsTime::from_float((song + at - from) as f64 / sample_rate);
+            said.tempo = 120.0;
+        }
+        said
+    }
 }
 
 /// The number under which CLAP hosts know the parameter that is saved as `id`: the framework's hash.
@@ -89,7 +122,12 @@ pub type Score = Vec<(u64, Action)>;
 
 /// The events of the samples from `start` up to `end`, in the order of the score, timed from `start` as `clock`
 /// says.
-pub(super) fn events_between(score: &Score, start: u64, end: u64, clock: fn(u32) -> u32) -> EventBuffer {
+pub(super) fn events_between(
+    score: &Score,
+    [start, end]: [u64; 2],
+    clock: fn(u32) -> u32,
+    sample_rate: f64,
+) -> EventBuffer {
     let mut events = EventBuffer::new();
     for &(at, action) in score.iter().filter(|(at, _)| (start..end).contains(at)) {
         let time = clock((at - start) as u32);
@@ -123,8 +161,9 @@ pub(super) fn events_between(score: &Score, start: u64, end: u64, clock: fn(u32)
             Action::Express { what, channel, key, value } => {
                 events.push(&NoteExpressionEvent::new(time, note(channel, key), what, value));
             }
-            Action::Transport(playing) => {
-                events.push(&transport(time, playing));
+            Action::Transport(_) | Action::Place(_) => {
+                let running = Running::from(at, action, sample_rate);
+                running.into_iter().for_each(|running| events.push(&running.said(at, time)));
             }
         }
     }
@@ -132,7 +171,7 @@ pub(super) fn events_between(score: &Score, start: u64, end: u64, clock: fn(u32)
 }
 
 /// A transport that tells nothing but whether it runs.
-pub(super) fn transport(time: u32, playing: bool) -> TransportEvent {
+fn transport(time: u32, playing: bool) -> TransportEvent {
     TransportEvent {
         header: EventHeader::new_core(time, EventFlags::empty()),
         flags: if playing { TransportFlags::IS_PLAYING } else { TransportFlags::empty() },
