@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clack_extensions::audio_ports_config::PluginAudioPortsConfig;
 use clack_extensions::latency::{HostLatency, HostLatencyImpl};
+use clack_extensions::params::PluginParams;
 use clack_extensions::render::{PluginRender, RenderMode};
 use clack_extensions::state::PluginState;
 use clack_extensions::tail::{PluginTail, TailLength};
@@ -255,6 +256,13 @@ impl Host {
         let state = handle.get_extension::<PluginState>().expect("the plugin has a state");
         let mut reader = saved;
         state.load(&handle, &mut reader).is_ok()
+    }
+
+    /// What a parameter is set to, in the units CLAP shows to a host.
+    pub fn value(&mut self, parameter: u32) -> Option<f64> {
+        let handle = self.instance.plugin_handle();
+        let params = handle.get_extension::<PluginParams>().expect("the plugin has parameters");
+        params.get_value(&handle, ClapId::new(parameter))
     }
 
     /// Whether the plugin has asked to be activated anew since the last time this was asked.

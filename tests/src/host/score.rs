@@ -64,6 +64,13 @@ pub enum Action {
         /// What is added, 0 to 1.
         amount: f64,
     },
+    /// The same for all notes.
+    ModulateAll {
+        /// The parameter.
+        parameter: u32,
+        /// What is added, 0 to 1.
+        amount: f64,
+    },
     /// A note expression.
     Express {
         /// What is expressed.
@@ -157,6 +164,9 @@ pub(super) fn events_between(
                 use clack_host::events::Match::All;
                 let address = Pckn::new(All, All, All, u32::from(key));
                 events.push(&ParamModEvent::new(time, ClapId::new(parameter), address, amount));
+            }
+            Action::ModulateAll { parameter, amount } => {
+                events.push(&ParamModEvent::new(time, ClapId::new(parameter), Pckn::match_all(), amount));
             }
             Action::Express { what, channel, key, value } => {
                 events.push(&NoteExpressionEvent::new(time, note(channel, key), what, value));

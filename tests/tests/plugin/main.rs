@@ -12,3 +12,4 @@ mod passes;
 mod plays;
 mod rest;
 mod sessions;
+mod told;

@@ -4,7 +4,6 @@
 //! In builds with debug assertions the plugin framework aborts the test as soon as memory is allocated
 //! while processing.
 
-use clack_extensions::latency::PluginLatency;
 use low_action::engine::{Engine, EngineOptions, Quality};
 use low_action::performance::PlayerEvent;
 use low_action_dsp::Setup;
@@ -108,20 +107,6 @@ fn a_note_sounds() {
         assert!(channel[..100].iter().all(|&sample| sample == 0.0), "sound before the note");
         assert!(rms(&channel[2400..]) > 1e-3, "no sound: {}", rms(&channel[2400..]));
     }
-}
-
-#[test]
-fn the_latency_is_known_before_anything_is_activated_and_asks_for_nothing() {
-    let mut host = Host::new();
-    let latency = |host: &mut Host| {
-        let handle = host.handle();
-        let latency = handle.get_extension::<PluginLatency>().expect("it tells its latency");
-        latency.get(&handle)
-    };
-    assert_eq!(latency(&mut host), Engine::LATENCY);
-    host.play(RATE, &Vec::new(), 480, &[480]);
-    assert_eq!(latency(&mut host), Engine::LATENCY);
-    assert!(!host.take_restart_request());
 }
 
 #[test]

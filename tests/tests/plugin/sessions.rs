@@ -1,20 +1,10 @@
 //! Promise: a session comes back as it was left, at any sample rate; a state that is damaged, newer than the
 //! program or somebody else's changes nothing; and no host breaks the plugin by what it asks for.
 
-use std::collections::BTreeSet;
-
-use clack_extensions::audio_ports::{AudioPortInfoBuffer, PluginAudioPorts};
-use clack_extensions::latency::PluginLatency;
-use clack_extensions::params::{ParamInfoBuffer, PluginParams};
-use clack_extensions::remote_controls::{PluginRemoteControls, RemoteControlsPageBuffer};
-use clack_extensions::voice_info::PluginVoiceInfo;
-use low_action::engine::Engine;
-use low_action::params::LowActionParams;
 use low_action_tests::host::{Action, Host, Score, parameter};
 use low_action_tests::numbers::{largest, rms};
 use low_action_tests::session::{packed, unpacked};
 use low_action_tests::stage::peak;
-use nice_plug::prelude::Params;
 use serde_json::{Value, json};
 
 const RATE: f64 = 48_000.0;
@@ -263,52 +253,4 @@ fn everything_stops_with_the_transport() {
     score.push((12_000, Action::Transport(false)));
     let [left, _] = Host::new().play(RATE, &score, 36_000, &[256]);
     assert!(rms(&left[30_000..]) < 0.01 * rms(&left[8_000..12_000]));
-}
-
-#[test]
-fn hosts_are_told_the_truth() {
-    let mut host = Host::new();
-    host.play(RATE, &score(), 1024, &[256]);
-    let handle = host.handle();
-    let latency = handle.get_extension::<PluginLatency>().expect("it tells its latency");
-    assert_eq!(latency.get(&handle), Engine::LATENCY);
-    let voices = handle.get_extension::<PluginVoiceInfo>().expect("it tells its voices");
-    let voices = voices.get(&handle).expect("it does");
-    assert_eq!(voices.voice_count, 6);
-    let ports = handle.get_extension::<PluginAudioPorts>().expect("it has ports");
-    assert_eq!((ports.count(&handle, true), ports.count(&handle, false)), (0, 1));
-    let mut buffer = AudioPortInfoBuffer::new();
-    assert_eq!(ports.get(&handle, 0, false, &mut buffer).expect("there is one").channel_count, 2);
-    let pages = handle.get_extension::<PluginRemoteControls>().expect("it has pages");
-    assert_eq!(pages.count(&handle), 7);
-    let mut buffer = RemoteControlsPageBuffer::new();
-    let first = pages.get(&handle, 0, &mut buffer).expect("there is one");
-    assert_eq!(first.param_ids[3].map(|id| id.get()), Some(parameter("action")));
-    let params = handle.get_extension::<PluginParams>().expect("it has parameters");
-    let (count, mut buffer) = (params.count(&handle), ParamInfoBuffer::new());
-    assert!(params.get_info(&handle, count - 1, &mut buffer).is_some());
-    for beyond in [count, count + 1, u32::MAX] {
-        assert!(params.get_info(&handle, beyond, &mut buffer).is_none(), "{beyond} of {count}");
-    }
-    let mut buffer = RemoteControlsPageBuffer::new();
-    // Between them they hold every parameter, no page twice the same.
-    let mut held = BTreeSet::new();
-    for index in 0..pages.count(&handle) {
-        let page = pages.get(&handle, index, &mut buffer).expect("there is one");
-        let ids: Vec<u32> = page.param_ids.iter().flatten().map(|id| id.get()).collect();
-        assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len(), "page {index}");
-        held.extend(ids);
-    }
-    let all = LowActionParams::default().param_map().into_iter().map(|(id, ..)| parameter(&id));
-    assert_eq!(held, all.collect());
-    // As many voices as there are strings, from the block on in which the instrument comes.
-    for (instrument, strings) in [(3.0, 4), (0.0, 6)] {
-        host.play(RATE, &set(&[("instrument", instrument)]), 64, &[64]);
-        for _ in 0..2 {
-            let handle = host.handle();
-            let voices = handle.get_extension::<PluginVoiceInfo>().expect("it tells its voices");
-            assert_eq!(voices.get(&handle).expect("it does").voice_count, strings);
-            host.play(RATE, &score(), 64, &[64]);
-        }
-    }
 }

@@ -1,18 +1,22 @@
-//! What a host asks of parameters and tells them between blocks, where the framework (nice-plug 0.4.2) panics: asked for the one after
-//! the last, or told of a message that has no bytes.
+//! What a host asks of parameters and tells them between blocks. The framework (nice-plug 0.4.2) panics asked for the one after the
+//! last, or told of a message that has no bytes; and with what a parameter is set to it answers what is added for the moment, which
+//! the host would keep.
 
 use std::sync::OnceLock;
 
 use clap_sys::events::{clap_input_events, clap_output_events};
 use clap_sys::ext::params::{clap_param_info, clap_plugin_params};
+use clap_sys::id::clap_id;
 use clap_sys::plugin::clap_plugin;
+use nice_plug::wrapper::clap::Wrapper;
 
 use super::Instance;
+use crate::plugin::LowAction;
 
 /// The framework's functions for parameters, and ours around them: the same for all instances.
 static FUNCTIONS: OnceLock<[clap_plugin_params; 2]> = OnceLock::new();
 
-/// The extension for parameters, with those functions put right; nothing for nothing.
+/// The extension for parameters, with these put right; nothing for nothing.
 ///
 /// # Safety
 /// It must be null or the framework's, whose functions are the same each time.
@@ -20,7 +24,8 @@ pub(super) unsafe fn around(extension: *const clap_plugin_params) -> *const clap
     // SAFETY: as above.
     let Some(inner) = (unsafe { extension.as_ref() }) else { return std::ptr::null() };
     let [_, outer] = FUNCTIONS.get_or_init(|| {
-        [*inner, clap_plugin_params { get_info: Some(get_info), flush: Some(flush), ..*inner }]
+        let (get_info, get_value, flush) = (Some(get_info as _), Some(get_value as _), Some(flush as _));
+        [*inner, clap_plugin_params { get_info, get_value, flush, ..*inner }]
     });
     outer
 }
@@ -35,6 +40,22 @@ unsafe extern "C" fn get_info(plugin: *const clap_plugin, index: u32, info: *mut
     };
     // SAFETY: the host gives back what it was given, and room.
     unsafe { index < count(plugin) && get_info(plugin, index, info) }
+}
+
+unsafe extern "C" fn get_value(plugin: *const clap_plugin, id: clap_id, value: *mut f64) -> bool {
+    let Some(inner) = inner().and_then(|inner| inner.get_value) else { return false };
+    // SAFETY: the host gives back what it was given, and room; the framework's own is behind it, and parameters live as long.
+    unsafe {
+        if !inner(plugin, id, value) {
+            return false;
+        }
+        let wrapper = &*(*plugin).plugin_data.cast::<Wrapper<LowAction>>();
+        if let Some((param, _)) = wrapper.param_ptr_to_hash.iter().find(|&(_, &hash)| hash == id) {
+            let steps = param.step_count().unwrap_or(1) as f64;
+            *value = f64::from(param.unmodulated_normalized_value()) * steps;
+        }
+    }
+    true
 }
 
 unsafe extern "C" fn flush(
