@@ -14,7 +14,7 @@ use xtask::files;
 const FILE: &str = "THIRD-PARTY.txt";
 
 /// What is bundled.
-const BUNDLED: &str = "low-action";
+pub const BUNDLED: &str = "low-action";
 
 /// How names of files begin that hold a licence, in any case; fonts have theirs one folder down.
 const BEGINNINGS: [&str; 7] = ["license", "licence", "copying", "copyright", "notice", "ofl", "ufl"];
@@ -149,9 +149,9 @@ mod tests {
             "x86_64-apple-darwin",
             "aarch64-apple-darwin",
         ] {
-            let words = ["--target", platform, "--all-features"].map(str::to_owned);
+            let words = ["low-action", "--target", platform, "--all-features"].map(str::to_owned);
             let metadata =
-                Build::of("bundle", &words).and_then(|build| build.metadata()).expect("cargo is there");
+                Build::of("bundle", &words, None).and_then(|build| build.metadata()).expect("cargo is there");
             let text = notices(&metadata).expect("there is a text for each");
             let (list, above) = named(&text);
             assert!(list.len() > 200, "{} on {platform}", list.len());
