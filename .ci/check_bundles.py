@@ -7,8 +7,13 @@ import sys
 
 folder = pathlib.Path(sys.argv[1])
 notices = folder / "THIRD-PARTY.txt"
-if not notices.is_file() or "SIL OPEN FONT LICENSE" not in notices.read_text(encoding="utf-8"):
-    sys.exit(f"{notices} is missing, or has not all licences")
+# Of the fonts, of Rust's own library and of the plugin itself.
+HELD = ["SIL OPEN FONT LICENSE", "Source Foundry Authors", "John Slegers", "The Rust Project Developers", "Low Action:\n"]
+if not notices.is_file():
+    sys.exit(f"{notices} is missing")
+absent = [words for words in HELD if words not in notices.read_text(encoding="utf-8")]
+if absent:
+    sys.exit(f"{notices} has not all licences: {', '.join(map(str.strip, absent))}")
 # After the list of libraries each text stands under the names of those that come with it.
 listed, *texts = notices.read_text(encoding="utf-8").split("=" * 80)
 libraries = [line.split(": ")[0] for line in listed.splitlines()[2:] if line]

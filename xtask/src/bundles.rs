@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 use serde_json::Value;
 use xtask::repository;
 
-pub use build::Build;
+pub use build::{Build, output};
 
 use crate::notices;
 

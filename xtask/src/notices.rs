@@ -1,6 +1,7 @@
 //! What the licences of the libraries inside a bundle ask to be handed on with it: their names and texts, in one file.
 
 mod kept;
+mod rust;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -16,8 +17,15 @@ const FILE: &str = "THIRD-PARTY.txt";
 /// What is bundled.
 pub const BUNDLED: &str = "low-action";
 
-/// How names of files begin that hold a licence, in any case; fonts have theirs one folder down.
-const BEGINNINGS: [&str; 7] = ["license", "licence", "copying", "copyright", "notice", "ofl", "ufl"];
+/// Our own licences.
+const OURS: [&str; 2] = [include_str!("../../LICENSE-MIT"), include_str!("../../LICENSE-APACHE")];
+
+/// What stands in names of files that hold a licence, in any case, and how others begin; fonts have theirs one folder down.
+const WITHIN: [&str; 4] = ["license", "licence", "copying", "copyright"];
+const BEGINNINGS: [&str; 3] = ["notice", "ofl", "ufl"];
+
+/// Files of fonts. What is written beside one, under its name, is whose it is.
+const FONTS: [&str; 2] = ["ttf", "otf"];
 
 /// Writes the notices of everything that is linked into the plugin, beside its bundles.
 pub fn write(text: String, folder: &Path) -> Result<()> {
@@ -27,15 +35,23 @@ pub fn write(text: String, folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// A list of the libraries, then each text once, under the names of those that come with it.
+/// A list of the libraries, with Rust's own, then each text once, under the names of those that come with it, and ours.
 ///
 /// # Errors
 /// When one of them ships no text, and none is kept for it.
 pub fn notices(metadata: &Value) -> Result<String> {
+    list(metadata, &rust::library()?)
+}
+
+fn list(metadata: &Value, library: &rust::Library) -> Result<String> {
     let linked = linked(metadata)?;
     let word = |package: &Value, key: &str| package[key].as_str().unwrap_or_default().to_owned();
-    let mut list = Vec::new();
+    let mut list = vec![format!("{}: MIT OR Apache-2.0, https://github.com/rust-lang/rust\n", library.name)];
     let mut texts: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    texts.insert(library.text.clone(), vec![library.name.clone()]);
+    for text in OURS {
+        texts.entry(text.to_owned()).or_default().push("Low Action".to_owned());
+    }
     for package in metadata["packages"].as_array().context("cargo lists no packages")? {
         // What is ours has no source of its own.
         if !linked.contains(&word(package, "id")) || package["source"].is_null() {
@@ -107,16 +123,19 @@ fn licences(folder: &Path) -> Result<Vec<String>> {
     for path in entries(folder)? {
         if path.is_dir() { files.extend(entries(&path)?) } else { files.push(path) }
     }
-    let is_licence = |path: &PathBuf| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-        path.is_file()
-            && !name.ends_with(".rs")
-            && BEGINNINGS.iter().any(|beginning| name.starts_with(beginning))
-    };
-    files.retain(is_licence);
+    files.retain(|path| path.is_file() && is_licence(path));
     // What is no text is none that can be read.
     let texts = files.iter().filter_map(|path| fs::read_to_string(path).ok());
     Ok(texts.filter(|text| !text.trim().is_empty()).collect())
+}
+
+/// Whether a file holds a licence, by its name.
+fn is_licence(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    let is_named = WITHIN.iter().any(|words| name.contains(words))
+        || BEGINNINGS.iter().any(|beginning| name.starts_with(beginning));
+    let is_of_font = name.ends_with(".txt") && FONTS.iter().any(|font| path.with_extension(font).is_file());
+    !name.ends_with(".rs") && (is_named || is_of_font)
 }
 
 #[cfg(test)]
@@ -125,7 +144,8 @@ mod tests {
 
     use serde_json::json;
 
-    use super::notices;
+    use super::rust::Library;
+    use super::{is_licence, list, notices};
     use crate::bundles::Build;
 
     /// Names in the list, and in the lines above texts.
@@ -137,6 +157,10 @@ mod tests {
         let list = list.map(|(name, _)| name).collect();
         let above = parts.filter_map(|part| part.trim_start().split_once(":\n"));
         (list, above.flat_map(|(names, _)| names.split(", ")).collect())
+    }
+
+    fn rust() -> Library {
+        Library { name: "std 1.2.3".into(), text: "As Rust likes.".into() }
     }
 
     /// Fonts and sound files are under licences that ask for their texts, and most others are.
@@ -158,17 +182,46 @@ mod tests {
             for name in &list {
                 assert!(above.contains(name), "{name} has no text on {platform}");
             }
-            for name in ["hound ", "nice-plug ", "egui "] {
+            for name in ["hound ", "nice-plug ", "egui ", "std "] {
                 assert!(
                     list.iter().any(|listed| listed.starts_with(name)),
                     "{name} is missing on {platform}"
                 );
             }
-            for words in ["SIL OPEN FONT LICENSE", "Apache License", "Robbert van der Helm"] {
+            assert_eq!(above.iter().filter(|&&name| name == "Low Action").count(), 2, "both of ours");
+            for words in [
+                "SIL OPEN FONT LICENSE",
+                "Apache License",
+                "Robbert van der Helm",
+                // Fonts of the editor.
+                "Source Foundry Authors",
+                "BITSTREAM VERA LICENSE",
+                "John Slegers",
+                "The Rust Project Developers",
+            ] {
                 assert!(text.contains(words), "{words} is missing on {platform}");
             }
             assert!(!text.contains("\nproptest "), "what only tests use is not bundled");
         }
+    }
+
+    #[test]
+    fn licences_are_known_by_their_files() {
+        let folder = std::env::temp_dir().join(format!("low-action-licences-{}", std::process::id()));
+        fs::create_dir_all(&folder).expect("it can be made");
+        fs::write(folder.join("Hack.ttf"), "a font").expect("it can be written");
+        for (name, expected) in [
+            ("LICENSE", true),
+            ("UNLICENSE", true),
+            ("emoji-mit-license.txt", true),
+            ("OFL.txt", true),
+            ("Hack.txt", true),
+            ("Other.txt", false),
+            ("license.rs", false),
+        ] {
+            assert_eq!(is_licence(&folder.join(name)), expected, "{name}");
+        }
+        fs::remove_dir_all(&folder).expect("it is there");
     }
 
     #[test]
@@ -188,14 +241,17 @@ mod tests {
                 { "id": "nobody", "deps": [] },
             ] },
         });
-        let refused = notices(&metadata).expect_err("it has no text").to_string();
+        let refused = list(&metadata, &rust()).expect_err("it has no text").to_string();
         assert!(refused.contains("nobody 1.0.0") && refused.contains("MIT"), "{refused}");
         // An empty file is no text.
         fs::write(folder.join("LICENSE"), "\n").expect("it can be written");
-        assert!(notices(&metadata).is_err());
+        assert!(list(&metadata, &rust()).is_err());
         fs::write(folder.join("LICENSE"), "As you like.").expect("it can be written");
-        let text = notices(&metadata).expect("there is one now");
-        assert_eq!(named(&text), (vec!["nobody 1.0.0"], vec!["nobody 1.0.0"]));
+        let text = list(&metadata, &rust()).expect("there is one now");
+        let (list, mut above) = named(&text);
+        above.sort_unstable();
+        assert_eq!(list, ["nobody 1.0.0", "std 1.2.3"]);
+        assert_eq!(above, ["Low Action", "Low Action", "nobody 1.0.0", "std 1.2.3"]);
         fs::remove_dir_all(&folder).expect("it is there");
     }
 }
