@@ -8,6 +8,8 @@ use anyhow::{Context, Result};
 use serde_json::Value;
 use xtask::repository;
 
+#[cfg(test)]
+pub use build::host;
 pub use build::{Build, output};
 
 use crate::notices;
