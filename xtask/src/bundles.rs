@@ -1,8 +1,9 @@
 //! Bundles of the plugin, with the notices of what is in them beside them.
 
 mod build;
+mod property_list;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use serde_json::Value;
@@ -37,6 +38,13 @@ pub fn make(command: &str, arguments: &[String]) -> Result<()> {
         nice_plug_xtask::bundle(&target, package, &build.of_framework(platform), is_universal)?;
     }
     let folder = folder_of(&metadata)?;
+    let for_macos = match platform {
+        Some(platform) => platform.ends_with("-apple-darwin"),
+        None => cfg!(target_os = "macos"),
+    };
+    if for_macos {
+        property_list::tell(&folder)?;
+    }
     notices::write(text, &folder)
 }
 
