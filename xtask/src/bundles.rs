@@ -3,11 +3,11 @@
 mod build;
 mod property_list;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use serde_json::Value;
-use xtask::repository;
+use xtask::{files, repository};
 
 #[cfg(test)]
 pub use build::host;
@@ -48,6 +48,17 @@ pub fn make(command: &str, arguments: &[String]) -> Result<()> {
     notices::write(text, &folder)
 }
 
+/// Writes the notices of what is linked with some features to a file, for a program that is handed on by itself.
+pub fn write_notices(arguments: &[String]) -> Result<()> {
+    let file = arguments.last().filter(|file| !file.starts_with('-'));
+    let (file, options) = file
+        .zip(arguments.get(..arguments.len().saturating_sub(1)))
+        .context("no file is named: `cargo xtask notices --features standalone THIRD-PARTY.txt`")?;
+    let words: Vec<String> = [notices::BUNDLED.to_owned()].into_iter().chain(options.to_vec()).collect();
+    let text = notices::notices(&Build::here("notices", &words)?.metadata()?)?;
+    files::write(Path::new(file), text)
+}
+
 /// The folder of the bundles: in cargo's target folder, wherever that has been put.
 pub fn folder() -> Result<PathBuf> {
     folder_of(&Build::here("bundle", &[notices::BUNDLED.to_owned()])?.metadata()?)
@@ -67,7 +78,7 @@ mod tests {
 
     use serde_json::json;
 
-    use super::folder_of;
+    use super::{folder_of, write_notices};
 
     #[test]
     fn bundles_are_where_cargo_builds() {
@@ -75,5 +86,25 @@ mod tests {
         let folder = folder_of(&metadata).expect("it is named");
         assert_eq!(folder, Path::new("/elsewhere/bundled"));
         assert!(folder_of(&json!({})).is_err());
+    }
+
+    /// The stand-alone program is linked with what opens devices, too.
+    #[test]
+    fn notices_of_a_program_are_written_to_a_file() {
+        let file = std::env::temp_dir().join(format!("low-action-notices-{}.txt", std::process::id()));
+        let written = |options: &[&str]| {
+            let name = file.to_str().expect("it can be written");
+            let words: Vec<String> = options.iter().chain(&[name]).map(|&word| word.to_owned()).collect();
+            write_notices(&words).expect("it can be written");
+            std::fs::read_to_string(&file).expect("it is there")
+        };
+        let [plugin, program] = [written(&[]), written(&["--features", "low-action/standalone"])];
+        assert!(plugin.contains("\nhound ") && !plugin.contains("\ncpal "));
+        assert!(program.contains("\nhound ") && program.contains("\ncpal "));
+        std::fs::remove_file(&file).expect("it is there");
+        for words in [&[][..], &["--all-features"], &["--features", "standalone"]] {
+            let words: Vec<String> = words.iter().map(|&word| word.to_owned()).collect();
+            assert!(write_notices(&words).is_err(), "{words:?}");
+        }
     }
 }

@@ -97,6 +97,15 @@ const COMMANDS: &[Command] = &[
         names: Vec::new,
         run: xtask::measure::run,
     },
+    Command {
+        name: "notices",
+        arguments: "[cargo features] FILE",
+        summary: "writes the licences of all libraries that are linked into the plugin, or with the feature `standalone` into \
+                  the stand-alone program, to a file to be handed on with it",
+        examples: &["--features standalone THIRD-PARTY.txt"],
+        names: Vec::new,
+        run: |arguments| bundles::write_notices(&arguments),
+    },
 ];
 
 /// The list of commands, one line each.
