@@ -115,3 +115,17 @@ fn the_table_of_parameters_is_what_hosts_see() {
         documented.into_iter().filter(|line| line.matches('|').count() == 7).collect();
     assert_eq!(documented.join("\n"), wanted, "the table should be\n{wanted}");
 }
+
+/// Who is told that a log says something has to find it.
+#[test]
+fn the_log_can_be_found() {
+    let document = document("plugin.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    let (before, section) = document.split_once("## The log ").expect("there is a section about it");
+    let (section, after) = section.split_once(" ## ").expect("others come after it");
+    for words in ["standard error", "on Windows to a debugger", "`NICE_LOG`", "names a file"] {
+        assert!(section.contains(words), "where it is: {words}");
+    }
+    let elsewhere = [before, after].concat();
+    assert!(elsewhere.matches("[the log](#the-log)").count() >= 4);
+    assert_eq!(elsewhere.matches("the log").count(), elsewhere.matches("[the log](#the-log)").count());
+}
