@@ -77,11 +77,30 @@ pub fn installed() -> Vec<SetupFile> {
     folder().map(|folder| files_in(&folder)).unwrap_or_default()
 }
 
+/// Whether two names may be one file's, on whatever system: some find a file by its name in large letters and in small ones alike.
+pub(crate) fn may_be_same_name(one: &str, other: &str) -> bool {
+    one.to_lowercase() == other.to_lowercase()
+}
+
+/// Names that Windows has for its devices, whatever comes after a dot.
+const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
+const NUMBERED_DEVICES: [&str; 2] = ["com", "lpt"];
+
+/// Whether a name is a device's on Windows, where no file can have it.
+fn is_device(name: &str) -> bool {
+    let name = name.to_lowercase();
+    let is_numbered = |device: &&str| {
+        let number = name.strip_prefix(*device).map(|rest| rest.chars().collect::<Vec<_>>());
+        matches!(number.as_deref(), Some(['0'..='9' | '¹' | '²' | '³']))
+    };
+    DEVICES.contains(&name.as_str()) || NUMBERED_DEVICES.iter().any(is_numbered)
+}
+
 /// Whether two names are one file's. Windows and macOS find a file by its name in large letters and in small ones alike.
 #[cfg(feature = "editor")]
 pub(crate) fn is_same_name(one: &str, other: &str) -> bool {
     match cfg!(any(windows, target_os = "macos")) {
-        true => one.to_lowercase() == other.to_lowercase(),
+        true => may_be_same_name(one, other),
         false => one == other,
     }
 }
@@ -170,8 +189,8 @@ pub fn check(path: &Path) -> Result<Checked> {
 /// Saves a set-up under its own name in a folder, which is made if need be, in place of one of the same name.
 ///
 /// # Errors
-/// When the name is empty, longer than [`LONGEST_NAME`], has anything but letters, digits, spaces, - and _ in it or
-/// is that of one that comes with the program, a value is out of its range, or the file cannot be written.
+/// When the name is empty, longer than [`LONGEST_NAME`], has anything but letters, digits, spaces, - and _ in it, is a device's on
+/// Windows or that of one that comes with the program, a value is out of its range, or the file cannot be written.
 pub fn save(setup: &Setup, folder: &Path) -> Result<SetupFile> {
     let name = setup.name.trim();
     let usable = |letter: char| letter.is_alphanumeric() || " -_".contains(letter);
@@ -180,6 +199,7 @@ pub fn save(setup: &Setup, folder: &Path) -> Result<SetupFile> {
         "an instrument cannot be named {name:?}: it must be 1 to {LONGEST_NAME} letters, digits, spaces, - or _"
     );
     ensure!(!SHIPPED.contains(&name), "{name} comes with the program: give yours another name");
+    ensure!(!is_device(name), "an instrument cannot be named {name:?}: Windows has it for a device");
     setup.check().with_context(|| name.to_owned())?;
     let file = SetupFile { name: name.to_owned(), path: place(name, folder) };
     files::put(&file.path, &setup.to_toml()?)?;
@@ -207,5 +227,29 @@ mod tests {
         let names: Vec<_> = files_in(folder.path()).into_iter().map(|file| file.name).collect();
         assert_eq!(names, ["one", "two"]);
         assert_eq!(fs::read_dir(folder.path()).expect("it is there").count(), 3);
+    }
+
+    #[test]
+    fn names_that_windows_has_for_devices_are_refused() {
+        let folder = tempfile::tempdir().expect("there is room");
+        let setup = Setup::shipped("electric").expect("it is there");
+        for (name, refused) in [
+            ("con", true),
+            ("Nul", true),
+            ("AUX", true),
+            ("prn", true),
+            ("com1", true),
+            ("LPT9", true),
+            ("lpt", false),
+            ("com10", false),
+            ("concert", false),
+            ("my aux", false),
+        ] {
+            let saved = save(&Setup { name: name.into(), ..setup.clone() }, folder.path());
+            assert_eq!(saved.is_err(), refused, "{name}: {saved:?}");
+            if let Err(error) = saved {
+                assert!(error.to_string().contains(name) && error.to_string().contains("Windows"), "{error}");
+            }
+        }
     }
 }

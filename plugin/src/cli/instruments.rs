@@ -24,7 +24,9 @@ pub(super) fn run(arguments: &InstrumentsArgs) -> Outcome {
     if !arguments.install.is_empty() {
         let files = arguments.install.iter().map(|path| setups::check(path)).collect::<Result<Vec<_>>>()?;
         for (index, file) in files.iter().enumerate() {
-            if let Some(other) = files[..index].iter().position(|other| other.name() == file.name()) {
+            // The folder may be on a disk, or come to a computer, to which large letters are small ones.
+            let is_same = |other: &setups::Checked| setups::may_be_same_name(other.name(), file.name());
+            if let Some(other) = files[..index].iter().position(is_same) {
                 let [one, two] = [other, index].map(|index| shown(&arguments.install[index]));
                 let name = escaped(file.name());
                 return Err(Failure::Usage(format!("{one} and {two} would both be installed as {name}")));

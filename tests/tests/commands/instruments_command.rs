@@ -198,6 +198,15 @@ fn what_is_no_set_up_is_refused_in_one_line() {
         "{}",
         done.error
     );
+    // So are two that are one to some systems.
+    place.write("other/Lower.toml", LOWER);
+    let done = place.run(&["instruments", "--install", "lower.toml", "other/Lower.toml"]);
+    assert_eq!(done.code, 2, "{}", done.error);
+    assert!(
+        done.error.contains("lower.toml and other/Lower.toml would both be installed as Lower"),
+        "{}",
+        done.error
+    );
     assert!(installed(&place).is_empty());
     // One that was put there by hand is listed with what is wrong with it.
     std::fs::create_dir_all(place.path("instruments")).expect("there is room");
