@@ -7,6 +7,7 @@ use std::process::Command;
 use anyhow::{Context, Result, bail};
 
 use super::compare::Sound;
+use crate::bundles::output;
 
 /// The packages, each at one version.
 const REQUIREMENTS: &str = include_str!("requirements.txt");
@@ -21,10 +22,12 @@ pub(super) fn environment(folder: &Path) -> Result<Python> {
     let environment = folder.join("venv");
     let program = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     let stamp = environment.join("installed.txt");
-    if fs::read_to_string(&stamp).is_ok_and(|installed| installed == REQUIREMENTS) {
+    let system = if cfg!(windows) { "python" } else { "python3" };
+    let version = String::from_utf8_lossy(&output(system, ["--version".to_owned()])?).into_owned();
+    let contents = contents(&version);
+    if is_made_of(&stamp, &contents) {
         return Ok(Python { program });
     }
-    let system = if cfg!(windows) { "python" } else { "python3" };
     checked(Command::new(system).args(["-m", "venv", "--clear"]).arg(&environment))?;
     let list = folder.join("requirements.txt");
     fs::write(&list, REQUIREMENTS)?;
@@ -33,8 +36,18 @@ pub(super) fn environment(folder: &Path) -> Result<Python> {
             .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"])
             .arg(&list),
     )?;
-    fs::write(&stamp, REQUIREMENTS)?;
+    fs::write(&stamp, contents)?;
     Ok(Python { program })
+}
+
+/// What an environment is made of. It runs the system's Python, and what is installed is for one version of that.
+fn contents(version: &str) -> String {
+    format!("{}\n{REQUIREMENTS}", version.trim())
+}
+
+/// Whether one has been made of that, as it says itself.
+fn is_made_of(stamp: &Path, contents: &str) -> bool {
+    fs::read_to_string(stamp).is_ok_and(|installed| installed == contents)
 }
 
 impl Python {
@@ -70,4 +83,22 @@ fn checked(command: &mut Command) -> Result<()> {
         bail!("{name} ended with {status}");
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_python_makes_another_environment() {
+        let stamp = std::env::temp_dir().join(format!("low-action-python-{}.txt", std::process::id()));
+        let made_of = contents("Python 3.11.2\n");
+        assert!(!is_made_of(&stamp, &made_of), "there is none");
+        fs::write(&stamp, &made_of).expect("it can be written");
+        assert!(is_made_of(&stamp, &contents("Python 3.11.2")));
+        assert!(!is_made_of(&stamp, &contents("Python 3.13.1")));
+        fs::write(&stamp, REQUIREMENTS).expect("it can be written");
+        assert!(!is_made_of(&stamp, &made_of), "it does not say of which");
+        fs::remove_file(&stamp).expect("it is there");
+    }
 }
