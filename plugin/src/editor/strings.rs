@@ -8,6 +8,7 @@ mod motion;
 mod play;
 mod sight;
 mod touch;
+mod watch;
 
 use egui::{Align2, Sense, Stroke, Ui, pos2};
 
@@ -19,25 +20,25 @@ use glow::Glow;
 pub(super) use play::Finger;
 use play::Play;
 pub use sight::Sight;
+use watch::Watch;
 
 /// What the view of the strings remembers.
 #[derive(Debug, Default)]
 pub struct Strings {
     glow: Glow,
     play: Play,
-    /// The string that the side view shows.
-    watched: usize,
+    watch: Watch,
 }
 
 impl Strings {
     /// The string that the side view shows, counted from 0.
     pub fn watched(&self) -> usize {
-        self.watched
+        self.watch.string
     }
 
-    /// Has the side view show another, until the mouse is over one.
+    /// Has the side view show another, until the mouse asks for one.
     pub fn watch(&mut self, string: usize) {
-        self.watched = string;
+        self.watch.string = string;
     }
 
     /// The mouse's finger, for whoever sees the window go.
@@ -65,12 +66,11 @@ impl Strings {
         // Not to be reached by Tab: keys do nothing to the picture as a whole.
         let response = ui.interact(area, ui.scope_id().with("strings"), Sense::CLICK | Sense::DRAG);
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Strings"));
-        if let Some(at) = response.hover_pos().filter(|_| !self.play.is_busy()) {
-            self.watched = sight.nearest(at.y);
-        }
+        let begun = self.play.follow(ui, &response, &sight, setup, given);
+        let over = response.hover_pos().filter(|_| !self.play.is_busy()).and_then(|at| sight.over(at.y));
+        self.watch.follow(ui, over, begun);
         // An instrument with fewer strings may have come.
-        self.watched = self.watched.min(setup.string.len().saturating_sub(1));
-        self.play.follow(ui, &response, &sight, setup, given);
+        self.watch.string = self.watch.string.min(setup.string.len().saturating_sub(1));
         handles::show(ui, given, &sight, setup);
     }
 }

@@ -81,7 +81,7 @@ fn it_comes_back_as_it_was_left() {
     let mut desk = Desk::new();
     desk.open("Engine");
     desk.point(desk.at(0.3, 4.0));
-    desk.wait(0.05);
+    desk.wait(0.3);
     let fields = desk.params.serialize_fields();
     let mut other = Desk::new();
     other.params.deserialize_fields(&fields);

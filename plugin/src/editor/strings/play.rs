@@ -80,8 +80,15 @@ impl Play {
         self.doing != Doing::Nothing
     }
 
-    /// Takes what the mouse has done since the last picture.
-    pub fn follow(&mut self, ui: &Ui, response: &Response, sight: &Sight, setup: &Setup, given: &Given) {
+    /// Takes what the mouse has done since the last picture. Gives back the string that it has begun to play, if it has.
+    pub fn follow(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        sight: &Sight,
+        setup: &Setup,
+        given: &Given,
+    ) -> Option<usize> {
         let (pressed, held, shift, seconds) = ui.input(|input| {
             let pointer = &input.pointer;
             (pointer.primary_pressed(), pointer.primary_down(), input.modifiers.shift, input.stable_dt)
@@ -91,13 +98,14 @@ impl Play {
         let at = at.or_else(|| ui.input(|input| input.pointer.latest_pos().filter(|_| self.is_busy())));
         // A tap that is over at the next picture is no press of anybody's any more.
         let is_own = response.is_pointer_button_down_on() || response.clicked_by(PointerButton::Primary);
+        let mut begun = None;
         if pressed
             && is_own
             && let Some(at) = at
         {
             // Between two pictures it may have been let go of elsewhere.
             self.end(given);
-            self.begin(at, shift, sight, setup, given);
+            begun = self.begin(at, shift, sight, setup, given);
         } else if let Some(at) = at.filter(|_| held) {
             self.go_on(at, seconds, sight, setup, given);
         }
@@ -112,14 +120,18 @@ impl Play {
         if let Some(at) = response.hover_pos() {
             hint(ui, at, sight, setup);
         }
+        begun
     }
 
-    fn begin(&mut self, at: Pos2, shift: bool, sight: &Sight, setup: &Setup, given: &Given) {
+    /// The button goes down. Gives back the string that it is on, if on any.
+    fn begin(&mut self, at: Pos2, shift: bool, sight: &Sight, setup: &Setup, given: &Given) -> Option<usize> {
         let string = sight.nearest(at.y);
         let place = sight.place(at.x);
         if !on_string(at, sight) {
             self.doing = Doing::Strumming(at);
-        } else if over_board(place, setup) {
+            return None;
+        }
+        if over_board(place, setup) {
             // One that was left there goes with the mouse.
             self.doing = Doing::Pressing { string, place };
             if !shift {
@@ -130,6 +142,7 @@ impl Play {
             self.doing = Doing::Strumming(at);
             self.pluck(given, string, place, CLICK);
         }
+        Some(string)
     }
 
     fn go_on(&mut self, at: Pos2, seconds: f32, sight: &Sight, setup: &Setup, given: &Given) {

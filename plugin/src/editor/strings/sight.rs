@@ -70,6 +70,12 @@ impl Sight {
         (along as usize).min(self.count - 1)
     }
 
+    /// The string that a height is over: none above the board and below it.
+    pub fn over(&self, y: f32) -> Option<usize> {
+        let string = self.nearest(y);
+        ((y - self.y(string)).abs() <= 0.5 * self.spacing).then_some(string)
+    }
+
     /// From over the first string to under the last: what a board is wide.
     pub fn board(&self, from: f32, to: f32) -> Rect {
         let margin = 0.5 * self.spacing;
