@@ -98,6 +98,7 @@ fn what_is_saved_is_what_was_heard() {
     desk.enter("Luthier", "Relief", "0.1");
     desk.enter("Player", "Finger force", "80");
     desk.enter("Sound", "Tuning", "-50");
+    desk.enter("Luthier", "String 6 tuning", "-2");
     save(&mut desk, "Mine 1");
     let text = fs::read_to_string(folder().join("Mine 1.toml")).expect("it was written");
     let saved = Setup::from_toml(&text).expect("it is a set-up");
@@ -108,6 +109,7 @@ fn what_is_saved_is_what_was_heard() {
     expected.neck.relief += 1e-4;
     expected.player.fretting.force *= 0.8;
     expected.tuning = -0.5;
+    (expected.string[5].pitch, expected.string[5].name) = (38.0, "D2".into());
     assert_eq!(saved, expected);
     // It is played, and nothing is done to it twice.
     let number = desk.params.instrument.file.value();

@@ -16,10 +16,11 @@ use egui::{
 };
 use nice_plug::prelude::Param;
 
+use super::shapes::fit_text;
 use super::{Given, theme};
 pub use choice::{choice, line};
 pub use handle::Handle;
-pub use slider::slider;
+pub use slider::{slider, titled_slider};
 pub use switch::switch;
 
 /// Height of a control, points.
@@ -164,11 +165,11 @@ fn shown<P: Param>(given: &Given, param: &P) -> String {
     param.normalized_value_to_string(given.value(param), true)
 }
 
-/// The name in its row, and a ring around all of it while it has the focus.
-fn paint_name<P: Param>(ui: &Ui, param: &P, area: Rect, response: &Response) {
+/// The name in its row, as far as there is room for it, and a ring around all of it while it has the focus.
+fn paint_name(ui: &Ui, name: &str, area: Rect, response: &Response, room: f32) {
     let colour = if is_taken(response) { theme::TEXT } else { theme::SOFT_TEXT };
-    let place = pos2(area.left(), area.top() + 0.5 * NAME);
-    ui.painter().text(place, Align2::LEFT_CENTER, param.name(), theme::SMALL, colour);
+    let place = (pos2(area.left(), area.top() + 0.5 * NAME), Align2::LEFT_CENTER);
+    fit_text(ui.painter(), place, name, (theme::SMALL, colour), room);
     if response.has_focus() {
         let ring = Stroke::new(1.0, theme::ACCENT);
         ui.painter().rect_stroke(area.expand2(vec2(6.0, 2.0)), 4.0, ring, StrokeKind::Inside);

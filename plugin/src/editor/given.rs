@@ -6,6 +6,7 @@ use nice_plug::context::gui::GuiContext;
 use nice_plug::prelude::{Param, ParamSetter};
 
 use super::history::History;
+use super::notes::name_by_sound;
 use crate::display::Snapshot;
 use crate::params::LowActionParams;
 use crate::params::words::Words;
@@ -59,7 +60,7 @@ struct Made {
     is_replaced: bool,
     /// As it comes.
     own: Setup,
-    /// With all that a luthier has done to it.
+    /// With all that a luthier has done to it; strings have the names of what they sound.
     setup: Setup,
     player: Player,
 }
@@ -85,6 +86,7 @@ impl Plan {
                 if let Some(own) = order.planned(&params.shelf) {
                     let mut setup = own.clone();
                     order.luthier.work_on(&mut setup);
+                    name_by_sound(&mut setup, &own);
                     let player = hands(&setup);
                     *made = Some(Made { order, is_replaced, own, setup, player });
                 }
@@ -92,7 +94,7 @@ impl Plan {
         }
     }
 
-    /// The set-up with all that a luthier has done to it; none before the first look at the parameters.
+    /// The set-up with all that a luthier has done to it, its strings by the notes that they sound; none before the first look at the parameters.
     pub fn setup(&self) -> Option<&Setup> {
         self.made.as_ref().map(|made| &made.setup)
     }

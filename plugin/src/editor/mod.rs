@@ -22,6 +22,7 @@ mod history;
 mod keys;
 mod link;
 mod noted;
+mod notes;
 pub mod panels;
 mod presets;
 mod shapes;

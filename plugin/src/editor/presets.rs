@@ -10,6 +10,7 @@ use nice_plug::prelude::{Enum, Param};
 use super::Given;
 use super::compare::{Values, change};
 use super::control::line;
+use super::notes::name_by_sound;
 use super::theme::{self, NEAR};
 use crate::params::{InstrumentChoice, LowActionParams};
 use crate::plugin::order::settled;
@@ -190,7 +191,8 @@ fn is_taken(given: &Given, name: &str) -> bool {
 fn save(given: &Given, name: &str) -> Result<(), String> {
     let own = given.plan.own().ok_or("there is nothing to save yet")?;
     let folder = setups::folder().ok_or("this system has no folder for a user's data")?;
-    let setup = Setup { name: name.into(), ..settled(given.params, own) };
+    let mut setup = Setup { name: name.into(), ..settled(given.params, own) };
+    name_by_sound(&mut setup, own);
     let file = setups::save(&setup, &folder).map_err(|error| format!("{error:#}"))?;
     let text = setups::read(&file.path).map_err(|error| format!("{error:#}"))?;
     let kept = given.params.shelf.add(file, text)?;

@@ -99,3 +99,21 @@ fn an_instrument_with_fewer_strings_still_shows_one() {
     desk.wait(0.1);
     assert_eq!(shown(&desk).as_deref(), Some("E1"));
 }
+
+/// The note is what is heard, whatever the string was called before.
+#[test]
+fn a_string_that_is_tuned_is_called_by_its_note() {
+    let mut desk = Desk::new();
+    desk.point(desk.at(0.5, 5.0));
+    desk.wait(0.3);
+    desk.open("Luthier");
+    let said = |desk: &Desk| {
+        let slider = desk.harness.get_by_label("String 6 tuning").value();
+        [shown(desk), slider].map(Option::unwrap_or_default)
+    };
+    for (semitones, note) in [(-2.0, "D2"), (0.0, "E2"), (0.3, "E2 +30")] {
+        ParamSetter::new(&*desk.host).set_parameter(&desk.params.strings[5].tuning, semitones);
+        desk.wait(0.1);
+        assert_eq!(said(&desk), [note.to_owned(), format!("String 6: {note}")]);
+    }
+}

@@ -25,7 +25,7 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
     let last = count.saturating_sub(1) as f32 / steps;
     // Not whether the value is another than it was: a host may move it meanwhile.
     let mut is_chosen_here = follow_keys(ui, given, param, &response, (Arrows::default(), last));
-    paint_name(ui, param, area, &response);
+    paint_name(ui, param.name(), area, &response, f32::INFINITY);
     paint_value(ui, &shown(given, param), area, &response);
     let chosen = given.value(param);
     Popup::menu(&response).width(area.width()).show(|ui| {

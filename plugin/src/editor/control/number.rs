@@ -1,6 +1,8 @@
 //! The number of a slider: read, or typed with or without its unit.
 
-use egui::{Align2, Frame, Id, Key, Margin, Rect, Response, Sense, TextEdit, Ui, pos2, vec2};
+use std::sync::Arc;
+
+use egui::{Align2, Frame, Galley, Id, Key, Margin, Rect, Response, Sense, TextEdit, Ui, pos2, vec2};
 use nice_plug::prelude::Param;
 
 use super::{set, shown};
@@ -13,7 +15,7 @@ pub(super) fn show<P: Param>(ui: &mut Ui, given: &Given, param: &P, row: Rect, s
         edit(ui, given, param, Field { row, id, text, slider });
         return;
     }
-    let galley = ui.painter().layout_no_wrap(shown(given, param), theme::SMALL, theme::TEXT);
+    let galley = laid_out(ui, given, param);
     let area = Align2::RIGHT_CENTER.anchor_size(row.right_center(), galley.size());
     // Not to be reached by Tab: Enter on the slider types as well.
     let number = ui.interact(area.expand2(vec2(4.0, 1.0)), id, Sense::CLICK);
@@ -29,6 +31,15 @@ pub(super) fn show<P: Param>(ui: &mut Ui, given: &Given, param: &P, row: Rect, s
         ui.data_mut(|data| data.insert_temp(id, shown(given, param)));
         ui.memory_mut(|memory| memory.request_focus(id.with("field")));
     }
+}
+
+/// Room that it takes while it is read, points.
+pub(super) fn width<P: Param>(ui: &Ui, given: &Given, param: &P) -> f32 {
+    laid_out(ui, given, param).size().x
+}
+
+fn laid_out<P: Param>(ui: &Ui, given: &Given, param: &P) -> Arc<Galley> {
+    ui.painter().layout_no_wrap(shown(given, param), theme::SMALL, theme::TEXT)
 }
 
 /// The value, 0 to 1, that a text means: as the parameter writes it, or with its unit in other letters and without the space,

@@ -6,7 +6,8 @@ use egui::{CursorIcon, Event, Id, MouseWheelUnit, Rect, Response, Sense, Stroke,
 use nice_plug::prelude::Param;
 
 use super::{Arrows, NAME, drag, explain, follow_keys, is_taken, number, paint_name, set, step, strength};
-use crate::editor::{Given, theme};
+use crate::editor::Given;
+use crate::editor::theme::{self, TIGHT};
 
 /// Points of a wheel without notches that are as much as a notch.
 const NOTCH: f32 = 24.0;
@@ -16,10 +17,19 @@ const SMOOTHED: f64 = 0.3;
 
 /// Shows it.
 pub fn slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect) -> Response {
+    titled_slider(ui, given, param, area, param.name())
+}
+
+/// Shows it under another name than that of its parameter.
+pub fn titled_slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, title: &str) -> Response {
     let id = ui.scope_id().with(param.name());
     let mut response = ui.interact(area, id, Sense::click_and_drag());
     let value = given.value(param);
-    response.widget_info(|| egui::WidgetInfo::slider(true, f64::from(value), param.name()));
+    response.widget_info(|| {
+        let mut info = egui::WidgetInfo::slider(true, f64::from(value), param.name());
+        info.current_text_value = Some(title.to_owned());
+        info
+    });
     let growth = vec2(1.0 / area.width().max(1.0), 0.0);
     drag(ui, given, param, &response, (value, growth), |held| {
         param.preview_normalized(param.preview_plain(held.clamp(0.0, 1.0)))
@@ -29,7 +39,7 @@ pub fn slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect) -> Re
     }
     step(given, param, (notches(ui, id, area), 1.0), ui.input(|input| input.modifiers.shift));
     follow_keys(ui, given, param, &response, (Arrows::default(), 1.0));
-    paint_name(ui, param, area, &response);
+    paint_name(ui, title, area, &response, area.width() - number::width(ui, given, param) - TIGHT);
     paint_line(ui, (param, value), area, &response);
     response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
     let response = explain(given, param, response);

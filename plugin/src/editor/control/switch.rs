@@ -16,7 +16,7 @@ pub fn switch(ui: &mut Ui, given: &Given, param: &BoolParam, area: Rect) -> Resp
         set(given, param, if on { 0.0 } else { 1.0 });
     }
     follow_keys(ui, given, param, &response, (Arrows::default(), 1.0));
-    paint_name(ui, param, area, &response);
+    paint_name(ui, param.name(), area, &response, f32::INFINITY);
     let painter = ui.painter();
     let slot = Rect::from_min_size(pos2(area.left(), area.top() + NAME + 1.0), vec2(28.0, 14.0));
     let fill = match on {

@@ -5,7 +5,7 @@ use nice_plug::prelude::{Enum, Param};
 
 use super::cells::Cells;
 use crate::editor::compare::change;
-use crate::editor::control::{choice, slider};
+use crate::editor::control::{choice, slider, titled_slider};
 use crate::editor::{Given, theme};
 use crate::params::InstrumentChoice;
 use crate::plugin::shelf::NONE;
@@ -48,11 +48,14 @@ pub fn show(ui: &mut Ui, given: &Given) {
         slider(ui, given, param, cells.next());
     }
     cells.group(ui, "OPEN STRINGS", 2);
-    let count = given.plan.setup().map_or(0, |setup| setup.string.len());
+    let strings = given.plan.setup().map_or(&[][..], |setup| &setup.string);
     for (index, string) in given.params.strings.iter().enumerate() {
         let place = cells.next();
-        slider(ui, given, &string.tuning, place);
-        if index >= count {
+        if let Some(sounding) = strings.get(index) {
+            let title = format!("String {}: {}", index + 1, sounding.name);
+            titled_slider(ui, given, &string.tuning, place, &title);
+        } else {
+            slider(ui, given, &string.tuning, place);
             // This instrument has no such string.
             let veil = place.expand2(vec2(theme::NEAR, 0.0));
             ui.painter().rect_filled(veil, 0.0, theme::faint(theme::SURFACE, 0.7));
