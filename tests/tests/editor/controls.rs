@@ -269,7 +269,7 @@ fn the_keyboard_stays_among_what_there_is_to_choose() {
         desk.wait(0.1);
     }
     let last = desk.params.shelf.count() as i32;
-    for key in [Key::End, Key::ArrowUp, Key::ArrowRight] {
+    for key in [Key::End, Key::ArrowDown, Key::ArrowRight] {
         desk.key(key);
         assert_eq!(desk.params.instrument.file.value(), last, "{key:?}");
     }

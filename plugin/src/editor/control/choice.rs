@@ -23,8 +23,10 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
     });
     let steps = param.step_count().unwrap_or(1).max(1) as f32;
     let last = count.saturating_sub(1) as f32 / steps;
+    // The next one stands below in the list.
+    let arrows = Arrows { up_is_less: true, ..Arrows::default() };
     // Not whether the value is another than it was: a host may move it meanwhile.
-    let mut is_chosen_here = follow_keys(ui, given, param, &response, (Arrows::default(), last));
+    let mut is_chosen_here = follow_keys(ui, given, param, &response, (arrows, last));
     paint_name(ui, param.name(), area, &response, f32::INFINITY);
     paint_value(ui, &shown(given, param), area, &response);
     let chosen = given.value(param);
