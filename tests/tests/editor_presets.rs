@@ -223,6 +223,26 @@ fn what_somebody_else_has_saved_is_not_replaced_unasked() {
     }
 }
 
+/// What is heard is another instrument, which is not what its name stands for.
+#[test]
+fn a_file_that_cannot_be_played_is_not_replaced_unasked() {
+    for (name, text) in [("Broken", "not a set-up"), ("Whole", "based_on = \"steel\"\n")] {
+        write(name, text);
+        let mut desk = Desk::new();
+        let number = number(&desk, name);
+        ParamSetter::new(&*desk.host).set_parameter(&desk.params.instrument.file, number as i32);
+        desk.wait(0.1);
+        desk.click(desk.named("Save"));
+        desk.wait(0.1);
+        let offered = desk.harness.get_by_role(egui::accesskit::Role::TextInput).value();
+        assert_eq!(offered.unwrap_or_default(), if name == "Whole" { name } else { "" });
+        desk.key(Key::Enter);
+        desk.wait(0.1);
+        let after = fs::read_to_string(folder().join(format!("{name}.toml"))).expect("it is there");
+        assert_eq!(after == text, name == "Broken", "{after}");
+    }
+}
+
 /// As in a project from a time when the folder had other files: the session's own has the number of another one.
 #[test]
 fn what_a_session_keeps_gives_way_to_what_is_chosen() {

@@ -63,7 +63,9 @@ impl Presets {
         let was_refused =
             self.problem.is_some() && Popup::is_id_open(ui.ctx(), Popup::default_response_id(&save));
         if save.clicked() && !was_refused {
-            self.name = given.params.shelf.name(number(given)).unwrap_or_default();
+            let (number, shelf) = (number(given), &given.params.shelf);
+            // A file in whose place another is played would be lost by it, unasked.
+            self.name = shelf.name(number).filter(|_| shelf.plays(number)).unwrap_or_default();
             self.problem = None;
         }
         Popup::menu(&save)

@@ -237,6 +237,12 @@ impl Shelf {
         Setup::from_toml(&text).map_err(|error| one_line(&format!("{name}: {error}")))
     }
 
+    /// Whether a number's own file is played when it is chosen, and nothing in its place.
+    #[cfg(feature = "editor")]
+    pub(crate) fn plays(&self, number: u32) -> bool {
+        self.replaced() != Some((number, self.edition())) && self.setup(number).is_ok()
+    }
+
     /// The file of a number, which is kept from now on.
     fn take_up(&self, number: u32) -> Result<Kept, String> {
         let mut kept = lock(&self.0.kept);
