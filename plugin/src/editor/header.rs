@@ -1,8 +1,10 @@
 //! The top of the window: what is played, what can be compared and undone, what is wrong, how loud it is.
 
+mod lights;
+
 use egui::containers::menu::menu_style;
 use egui::{
-    Align, Align2, Button, Frame, Layout, Popup, PopupCloseBehavior, Pos2, Rect, Role, Sense, Style, Ui,
+    Align, Align2, Button, Frame, Layout, Popup, PopupCloseBehavior, Rect, Role, Sense, Style, Ui,
     UiBuilder, WidgetInfo, pos2, vec2,
 };
 
@@ -81,11 +83,7 @@ impl Header {
             }
         });
         let rest = row.with_min_x(taken.response.rect.right() + GAP);
-        if !show_lights(ui, &messages, rest)
-            && let Some(more) = taken.inner
-        {
-            show_light(ui, more.right_top() + vec2(-2.0, 2.0));
-        }
+        lights::show(ui, &messages, rest, taken.inner);
     }
 
     /// Has the meter begin at its lowest.
@@ -140,28 +138,6 @@ impl Header {
              {highest:.1} dB. A click begins anew"
         ));
     }
-}
-
-/// Says what is wrong. As much as fits is read, and all of it under the mouse; `false` if something does not fit at all.
-fn show_lights(ui: &mut Ui, messages: &[String], area: Rect) -> bool {
-    let mut rest = area;
-    for text in messages {
-        let label = egui::Label::new(egui::RichText::new(text).color(theme::ALARM)).truncate();
-        let galley = ui.painter().layout_no_wrap(text.clone(), theme::BODY_FONT, theme::ALARM);
-        let width = galley.size().x.min(rest.width() - GAP);
-        if width < GAP {
-            return false;
-        }
-        let place = Rect::from_min_max(pos2(rest.right() - width, rest.top()), rest.max);
-        show_light(ui, pos2(place.left() - NEAR, place.center().y));
-        ui.put(place, label).on_hover_text(text);
-        rest.max.x = place.left() - GAP - NEAR;
-    }
-    true
-}
-
-fn show_light(ui: &Ui, at: Pos2) {
-    ui.painter().circle_filled(at, 4.0, theme::ALARM);
 }
 
 /// A button, and behind it what has no room beside it; it stays open, since one compares more than once. Gives back

@@ -52,6 +52,31 @@ fn a_narrow_window_says_it_in_its_menu() {
     assert!(!is_said(&desk, LATE) && !is_said(&desk, "set-up file 3"));
 }
 
+/// There is no menu then, and one of them takes all the room.
+#[test]
+fn two_messages_can_both_be_read_at_every_width() {
+    let other = "there is no set-up file 3; electric is played instead";
+    for width in [440, 560, 860, 880, 900, 960, 1120, 1400] {
+        let mut desk = Desk::new();
+        desk.harness.set_size(egui::vec2(width as f32, 760.0));
+        desk.meters.see_load(0.95, true);
+        desk.params.shelf.tell(Some(other.into()));
+        desk.wait(0.05);
+        if desk.harness.query_by_label("More").is_some() {
+            desk.click(desk.named("More"));
+        } else {
+            let place =
+                desk.harness.query_all_by_label_contains(LATE).next().map(|node| node.rect().center());
+            desk.point(place.unwrap_or_else(|| panic!("{width}: nothing is said")));
+        }
+        desk.wait(1.0);
+        for message in [LATE, other] {
+            let said = desk.harness.query_all_by_label_contains(message).next().is_some();
+            assert!(said, "{width}: {message} cannot be read");
+        }
+    }
+}
+
 #[test]
 fn what_was_loud_while_nobody_looked_is_not_shown() {
     let mut desk = Desk::new();
