@@ -4,8 +4,8 @@ mod lights;
 
 use egui::containers::menu::menu_style;
 use egui::{
-    Align, Align2, Button, Frame, Layout, Popup, PopupCloseBehavior, Rect, Role, Sense, Style, Ui,
-    UiBuilder, WidgetInfo, pos2, vec2,
+    Align, Align2, Button, Frame, Layout, Popup, PopupCloseBehavior, Rect, Role, Sense, Style, Ui, UiBuilder,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::Given;

@@ -112,10 +112,10 @@ impl Default for PlayerParams {
             pluck_release: shift("Pluck release", -1.0, 4.0, " ms", PART_STEP),
             velocity_curve: FloatParam::new("Velocity curve", 1.5, FloatRange::Linear { min: 0.0, max: 4.0 })
                 .with_step_size(PART_STEP)
-                .with_string_to_value(Arc::new(number)),
+                .with_string_to_value(reads("")),
             variation: part("Variation", EngineOptions::VARIATION as f32),
             take: IntParam::new("Take", 0, IntRange::Linear { min: 0, max: MOST_TAKES })
-                .with_string_to_value(Arc::new(whole)),
+                .with_string_to_value(Arc::new(|text| whole(text, ""))),
             finger_force: factor("Finger force", 0.02, 4.0).with_poly_modulation_id(poly::FINGER_FORCE),
             finger_hardness: factor("Finger hardness", 0.01, 10.0),
             finger_mass: factor("Finger mass", 0.1, 10.0),
@@ -136,7 +136,7 @@ impl Default for ControlParams {
             string_order: EnumParam::new("String order", StringOrder::FirstFirst),
             bend_range: IntParam::new("Bend range", range, reach)
                 .with_unit(" semitones")
-                .with_string_to_value(Arc::new(whole)),
+                .with_string_to_value(Arc::new(|text| whole(text, "semitones"))),
             ignore_rpn: BoolParam::new("Ignore announced bend range", false),
             tremolo_arm: shift("Tremolo arm", -12.0, 3.0, " semitones", PART_STEP),
             legato: EnumParam::new("Legato", LegatoChoice::Pedal),
@@ -156,7 +156,7 @@ impl Default for OutputParams {
                 .with_step_size(FINE_STEP)
                 .with_smoother(SmoothingStyle::Linear(LEVEL_RAMP))
                 .with_unit(" dB")
-                .with_string_to_value(Arc::new(number)),
+                .with_string_to_value(reads("dB")),
             bypass: BoolParam::new("Bypass", false).make_bypass(),
         }
     }
@@ -183,7 +183,7 @@ fn number_or(word: &'static str, name: &str, least: i32, most: i32) -> IntParam 
             number => number.to_string(),
         }))
         .with_string_to_value(Arc::new(move |text| {
-            if text.to_lowercase().contains(enough) { Some(least) } else { whole(text) }
+            if text.to_lowercase().contains(enough) { Some(least) } else { whole(text, "") }
         }))
 }
 
@@ -193,7 +193,7 @@ fn factor(name: &str, min: f32, max: f32) -> FloatParam {
         .with_step_size(PART_STEP)
         .with_unit(" %")
         .with_value_to_string(formatters::v2s_f32_percentage(0))
-        .with_string_to_value(Arc::new(|text| Some(number(text)? / 100.0)))
+        .with_string_to_value(Arc::new(|text| Some(number(text, "%")? / 100.0)))
 }
 
 /// A part from 0 to 1, shown as a percentage.
@@ -202,7 +202,7 @@ fn part(name: &str, default: f32) -> FloatParam {
         .with_step_size(PART_STEP)
         .with_unit(" %")
         .with_value_to_string(formatters::v2s_f32_percentage(0))
-        .with_string_to_value(Arc::new(|text| Some(number(text)? / 100.0)))
+        .with_string_to_value(Arc::new(|text| Some(number(text, "%")? / 100.0)))
 }
 
 /// Added to what the set-up has, 0 unless changed.
@@ -210,18 +210,35 @@ fn shift(name: &str, min: f32, max: f32, unit: &'static str, step: f32) -> Float
     FloatParam::new(name, 0.0, FloatRange::Linear { min, max })
         .with_step_size(step)
         .with_unit(unit)
-        .with_string_to_value(Arc::new(number))
+        .with_string_to_value(reads(unit))
 }
 
-/// The number that a text begins with, whatever unit follows it, with a point or a comma.
-pub(super) fn number(text: &str) -> Option<f32> {
-    let text = text.trim().trim_end_matches(|letter: char| !letter.is_ascii_digit());
-    text.replace(',', ".").replace('−', "-").parse().ok()
+/// Reads numbers of such a unit.
+fn reads(unit: &'static str) -> Arc<dyn Fn(&str) -> Option<f32> + Send + Sync> {
+    Arc::new(move |text| number(text, unit))
+}
+
+/// Pitches are written in either of these, of which one is a hundred of the other.
+const OF_PITCH: [[&str; 2]; 2] = [["cents", "cent"], ["semitones", "semitone"]];
+
+/// The number that a text is, with a point or a comma, and with its unit or without. Another unit is another number, which is
+/// known only of pitches.
+pub(super) fn number(text: &str, unit: &str) -> Option<f32> {
+    let text = text.trim().replace(',', ".").replace('−', "-").to_lowercase();
+    let unit = unit.trim();
+    let parse = |bare: &str| bare.trim_end().parse().ok().filter(|number: &f32| number.is_finite());
+    let before = |units: [&str; 2]| units.iter().find_map(|unit| text.strip_suffix(unit)).and_then(parse);
+    match OF_PITCH.map(|units| units.contains(&unit)) {
+        [true, _] => before(OF_PITCH[0]).or_else(|| before(OF_PITCH[1]).map(|semitones| 100.0 * semitones)),
+        [_, true] => before(OF_PITCH[1]).or_else(|| before(OF_PITCH[0]).map(|cents| cents / 100.0)),
+        _ => text.strip_suffix(unit.to_lowercase().as_str()).and_then(parse),
+    }
+    .or_else(|| parse(&text))
 }
 
 /// The same for whole numbers.
-fn whole(text: &str) -> Option<i32> {
-    number(text).filter(|number| number.fract() == 0.0).map(|number| number as i32)
+fn whole(text: &str, unit: &str) -> Option<i32> {
+    number(text, unit).filter(|number| number.fract() == 0.0).map(|number| number as i32)
 }
 
 /// The value of a parameter as the number its decimal notation means, so that 0.3 set in a host and
@@ -270,18 +287,40 @@ mod tests {
 
     #[test]
     fn numbers_are_taken_as_people_write_them() {
-        for (text, expected) in [
-            ("-3dB", -3.0),
-            ("12 mm", 12.0),
-            (" −0,5  mm", -0.5),
-            ("+1.25", 1.25),
-            ("90%", 90.0),
-            ("-0.00 ms", 0.0),
+        for (text, unit, expected) in [
+            ("-3dB", " dB", -3.0),
+            ("12 mm", " mm", 12.0),
+            (" −0,5  MM", " mm", -0.5),
+            ("+1.25", "", 1.25),
+            ("90%", "%", 90.0),
+            ("-0.00 ms", " ms", 0.0),
+            ("7", " ms", 7.0),
+            ("20 cents", " semitones", 0.2),
+            ("-1 cent", " semitones", -0.01),
+            ("1 semitone", " semitones", 1.0),
+            ("0,5 semitones", " cents", 50.0),
         ] {
-            assert_eq!(number(text), Some(expected), "{text}");
+            assert_eq!(number(text, unit), Some(expected), "{text}");
         }
-        for text in ["", "mm", "nan", "inf", "one", "1.2.3", "--3 dB"] {
-            assert_eq!(number(text), None, "{text}");
+        for text in ["", "mm", "nan", "inf", "one", "1.2.3", "--3 mm", "1e99 mm"] {
+            assert_eq!(number(text, " mm"), None, "{text}");
+        }
+    }
+
+    /// What is meant by it is another number.
+    #[test]
+    fn numbers_of_other_units_are_not_taken() {
+        for (text, unit) in [
+            ("1 cm", " mm"),
+            ("1 m", " mm"),
+            ("1 s", " ms"),
+            ("20 cents", " mm"),
+            ("2 mm", "%"),
+            ("3 dB", ""),
+            ("3 and more", ""),
+            ("20 %", " semitones"),
+        ] {
+            assert_eq!(number(text, unit), None, "{text}");
         }
     }
 }

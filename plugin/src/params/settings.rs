@@ -71,12 +71,15 @@ pub(super) fn apply(params: &LowActionParams, settings: &[Setting]) {
     }
 }
 
-/// What a parameter makes of a text, 0 to 1; in its place what it takes. A number out of the range would become the nearest in it.
-fn value(param: ParamPtr, text: &str) -> Result<f32, String> {
+/// What a parameter makes of a text, 0 to 1. Where it does not take that, as where a number is out of the range and would become
+/// the nearest in it, what it takes.
+pub(crate) fn value(param: ParamPtr, text: &str) -> Result<f32, String> {
     // SAFETY: whoever calls this has the parameters.
     let show = |normalized: f32| unsafe { param.normalized_value_to_string(normalized, true) };
     // SAFETY: as above.
-    let (read, steps) = unsafe { (param.string_to_normalized_value(text), param.step_count()) };
+    let (read, steps, unit) =
+        unsafe { (param.string_to_normalized_value(text), param.step_count(), param.unit()) };
+    let number = |text: &str| number(text, unit);
     if let ParamPtr::BoolParam(_) | ParamPtr::EnumParam(_) = param {
         let count = steps.unwrap_or(1);
         let words: Vec<String> = (0..=count).map(|step| show(step as f32 / count as f32)).collect();

@@ -234,6 +234,35 @@ fn what_is_no_number_is_not_taken() {
     assert_eq!(desk.params.output.level.value(), 0.0);
 }
 
+/// It would be something else than what was typed.
+#[test]
+fn another_unit_and_what_is_out_of_range_are_not_taken() {
+    let mut desk = Desk::new();
+    for (name, text, range) in [
+        ("Action", "500", "10 % to 300 %"),
+        ("Action", "5", "10 % to 300 %"),
+        ("Relief", "1 cm", "-0.50 mm to 2.00 mm"),
+        ("String 6 tuning", "20 mm", "-12.00 semitones to 7.00 semitones"),
+    ] {
+        let number = at(&mut desk, "Luthier", &format!("Type {name}"));
+        desk.click(number);
+        desk.wait(0.05);
+        write(&mut desk, text);
+        desk.wait(0.1);
+        assert!(
+            desk.harness.query_by_label_contains(range).is_some(),
+            "{text} in {name}: it tells the range"
+        );
+        desk.key(Key::Enter);
+        assert_eq!(desk.host.take(), [], "{text} in {name}");
+        desk.wait(1.0);
+    }
+    desk.enter("Luthier", "String 6 tuning", "-20 cents");
+    assert!((desk.params.strings[5].tuning.value() + 0.2).abs() < 1e-6);
+    desk.enter("Sound", "Tuning", "0.5 semitones");
+    assert_eq!(desk.params.setup.tuning.value(), 50.0);
+}
+
 #[test]
 fn the_keyboard_does_all_of_it() {
     let mut desk = Desk::new();

@@ -7,6 +7,7 @@ use nice_plug::prelude::Param;
 
 use super::{set, shown};
 use crate::editor::{Given, theme};
+use crate::params::settings;
 
 /// Shows it at the right end of a row, beside the slider that answers with `slider`.
 pub(super) fn show<P: Param>(ui: &mut Ui, given: &Given, param: &P, row: Rect, slider: &Response) {
@@ -42,18 +43,6 @@ fn laid_out<P: Param>(ui: &Ui, given: &Given, param: &P) -> Arc<Galley> {
     ui.painter().layout_no_wrap(shown(given, param), theme::SMALL, theme::TEXT)
 }
 
-/// The value, 0 to 1, that a text means: as the parameter writes it, or with its unit in other letters and without the space,
-/// and with a comma for the point. What is no number, though it can be parsed as one, is none.
-fn read<P: Param>(param: &P, text: &str) -> Option<f32> {
-    let plain = text.trim().replace(',', ".").replace('−', "-").to_lowercase();
-    let unit = param.unit().trim().to_lowercase();
-    let bare = plain.strip_suffix(unit.as_str()).unwrap_or(&plain).trim_end();
-    if bare.parse::<f32>().is_ok_and(|number| !number.is_finite()) {
-        return None;
-    }
-    param.string_to_normalized_value(text).or_else(|| param.string_to_normalized_value(bare))
-}
-
 /// A number that is being typed.
 struct Field<'a> {
     row: Rect,
@@ -64,18 +53,21 @@ struct Field<'a> {
 
 fn edit<P: Param>(ui: &mut Ui, given: &Given, param: &P, field: Field) {
     let Field { row, id, mut text, slider } = field;
-    let value = read(param, &text);
+    let value = settings::value(param.as_ptr(), &text);
     let area = Rect::from_min_max(pos2(row.center().x, row.top()), row.right_bottom() + vec2(4.0, 0.0));
     let own = id.with("field");
     let known = TextEdit::load_state(ui.ctx(), own).is_some();
     let edit = TextEdit::singleline(&mut text)
         .id(own)
         .font(theme::SMALL)
-        .text_color(if value.is_some() { theme::TEXT } else { theme::ALARM })
+        .text_color(if value.is_ok() { theme::TEXT } else { theme::ALARM })
         .align(Align2::RIGHT_CENTER)
         .frame(Frame::new().fill(theme::GROUND).corner_radius(3.0))
         .margin(Margin::symmetric(4, 1));
     let response = ui.put(area, edit);
+    if let Err(range) = &value {
+        response.show_tooltip_text(range);
+    }
     if !known && let Some(mut state) = TextEdit::load_state(ui.ctx(), own) {
         // All of it is replaced by what is typed first.
         let end = egui::text::CCursor::new(text.chars().count());
@@ -97,8 +89,10 @@ fn edit<P: Param>(ui: &mut Ui, given: &Given, param: &P, field: Field) {
         return;
     }
     let (left, entered) = ui.input(|input| (input.key_pressed(Key::Escape), input.key_pressed(Key::Enter)));
-    if let Some(value) = value.filter(|_| !left) {
-        set(given, param, value.clamp(0.0, 1.0));
+    if let Ok(value) = value
+        && !left
+    {
+        set(given, param, value);
     }
     if left || entered {
         slider.request_focus();
