@@ -10,9 +10,14 @@ use super::shapes::{band, fit_text};
 use super::theme::{self, GAP, LEFT, NEAR, RIGHT, TIGHT};
 use crate::display::{POINTS, StringSeen};
 
-/// The highest and the lowest that is seen, m over the string at rest.
+/// The highest and the lowest that is seen, m over the string at rest. Where the board lies farther down, so is the lowest, with
+/// so much of the board.
 const TOP: f32 = 2.5e-3;
 const BOTTOM: f32 = -4.5e-3;
+const BOARD: f32 = 0.5e-3;
+
+/// Pieces of what is curved.
+const PIECES: u32 = 48;
 
 /// Where things are.
 #[derive(Debug, Clone, Copy)]
@@ -23,9 +28,12 @@ struct Profile {
 }
 
 impl Profile {
-    fn new(area: Rect, scale: f32) -> Self {
-        let along = (area.width() - LEFT - RIGHT).max(1.0) / scale;
-        Self { area, along, lift: area.height() / (TOP - BOTTOM) }
+    /// A picture that fills `area` of strings over a neck as it comes: what a luthier does to that moves in it.
+    fn new(area: Rect, own: &Neck) -> Self {
+        let along = (area.width() - LEFT - RIGHT).max(1.0) / own.scale_length as f32;
+        let board = |piece| own.board_line(own.board_end() * f64::from(piece) / f64::from(PIECES)) as f32;
+        let bottom = (0..=PIECES).map(|piece| board(piece) - BOARD).fold(BOTTOM, f32::min);
+        Self { area, along, lift: area.height() / (TOP - bottom) }
     }
 
     fn at(&self, place: f32, height: f32) -> Pos2 {
@@ -39,7 +47,8 @@ pub fn show(ui: &mut Ui, given: &Given, string: usize) {
     ui.painter().rect_filled(area, theme::ROUND, theme::SURFACE);
     let Some(setup) = given.plan.setup() else { return };
     let scale = setup.neck.scale_length as f32;
-    let profile = Profile::new(area.shrink2(vec2(0.0, TIGHT)), scale);
+    let own = &given.plan.own().unwrap_or(setup).neck;
+    let profile = Profile::new(area.shrink2(vec2(0.0, TIGHT)), own);
     let painter = ui.painter_at(area);
     let seen = given.snapshot.strings().get(string);
     paint_neck(&painter, &profile, setup);
@@ -108,7 +117,6 @@ fn paint_ground(
     curve: impl Fn(f64) -> f32,
     [above, below]: [egui::Color32; 2],
 ) {
-    const PIECES: u32 = 48;
     painter.add(band((0..=PIECES).map(|piece| {
         let place = from + (to - from) * f64::from(piece) / f64::from(PIECES);
         let top = profile.at(place as f32, curve(place));
@@ -192,4 +200,25 @@ fn show_contact(response: egui::Response, profile: &Profile, seen: &StringSeen) 
     };
     let text = format!("Fret {}: {depth}\n{:.2} N now, {:.2} N at most", index + 1, fret.force, fret.hit);
     response.on_hover_text_at_pointer(text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::setups::SHIPPED;
+
+    #[test]
+    fn every_board_and_all_its_frets_are_in_the_picture() {
+        let area = Rect::from_min_max(pos2(0.0, 500.0), pos2(1000.0, 640.0));
+        for name in SHIPPED {
+            let neck = Setup::shipped(name).expect("it comes with the program").neck;
+            let profile = Profile::new(area, &neck);
+            let board = (0..=100).map(|part| neck.board_end() * f64::from(part) / 100.0);
+            let board = board.map(|place| [place, neck.board_line(place)]);
+            for [place, height] in board.chain(neck.crowns(&neck.equal_places())) {
+                let at = profile.at(place as f32, height as f32);
+                assert!(area.shrink(2.0).contains(at), "{name}: {at} at {place} m");
+            }
+        }
+    }
 }
