@@ -89,6 +89,25 @@ fn a_click_beyond_the_board_plucks() {
     assert!(peak(&desk.sound) > 0.01);
 }
 
+/// The press plucks it, and the way over it does not do so once more.
+#[test]
+fn a_strum_that_begins_on_a_string_plucks_it_once() {
+    for (way, expected) in [
+        (&[0.9, 3.5][..], &[1, 2, 3][..]),
+        (&[1.1, 3.5], &[1, 2, 3]),
+        (&[1.1, -0.5], &[1, 0]),
+        // But on the way back.
+        (&[0.9, 1.5, 0.5], &[1, 1]),
+        (&[1.1, 1.5, 0.5], &[1, 1]),
+    ] {
+        let mut desk = Desk::new();
+        let way: Vec<_> = way.iter().map(|string| desk.at(BEYOND, *string)).collect();
+        desk.drag(&way, 0.2);
+        let strings: Vec<u8> = plucks(&desk).iter().map(|pluck| pluck.0).collect();
+        assert_eq!(strings, expected);
+    }
+}
+
 /// As a touch pad's, or any where pictures are slow.
 #[test]
 fn a_tap_between_two_pictures_plays() {

@@ -33,8 +33,8 @@ enum Doing {
     /// Nothing.
     #[default]
     Nothing,
-    /// Plucks what it crosses; where it was.
-    Strumming(Pos2),
+    /// Plucks what it crosses; where it was, and the string that was plucked where it was pressed and that it is still on.
+    Strumming { before: Pos2, plucked: Option<usize> },
     /// Is a finger on a string, at a place (m from the nut).
     Pressing { string: usize, place: f32 },
 }
@@ -128,7 +128,7 @@ impl Play {
         let string = sight.nearest(at.y);
         let place = sight.place(at.x);
         if !on_string(at, sight) {
-            self.doing = Doing::Strumming(at);
+            self.doing = Doing::Strumming { before: at, plucked: None };
             return None;
         }
         if over_board(place, setup) {
@@ -139,7 +139,7 @@ impl Play {
             }
             self.deed(given, string, StringDeed::Press { position: place });
         } else {
-            self.doing = Doing::Strumming(at);
+            self.doing = Doing::Strumming { before: at, plucked: Some(string) };
             self.pluck(given, string, place, CLICK);
         }
         Some(string)
@@ -148,22 +148,20 @@ impl Play {
     fn go_on(&mut self, at: Pos2, seconds: f32, sight: &Sight, setup: &Setup, given: &Given) {
         match &mut self.doing {
             Doing::Nothing => {}
-            Doing::Strumming(before) => {
+            Doing::Strumming { before, plucked } => {
                 let from = std::mem::replace(before, at);
+                let mut pressed = plucked.take();
                 let speed = (at.y - from.y).abs() / sight.spacing / seconds.max(LEAST_TIME);
                 let force = (speed / FAST).powf(CURVE).clamp(SOFTEST, HARDEST);
-                // In the order in which they are crossed.
-                let count = setup.string.len();
-                let down = at.y > from.y;
-                for step in 0..count {
-                    let string = if down { step } else { count - 1 - step };
-                    let y = sight.y(string);
-                    if (from.y < y) != (at.y < y) {
-                        let part = (y - from.y) / (at.y - from.y);
-                        let place = sight.place(from.x + part * (at.x - from.x));
-                        self.pluck(given, string, place, force);
+                for (string, x) in crossed(from, at, sight, setup.string.len()) {
+                    // The press has plucked it already.
+                    if pressed.take_if(|pressed| *pressed == string).is_none() {
+                        self.pluck(given, string, sight.place(x), force);
                     }
                 }
+                // When it comes back from another place it is plucked again.
+                let pressed = pressed.filter(|string| is_on(at, sight, *string));
+                self.doing = Doing::Strumming { before: at, plucked: pressed };
             }
             Doing::Pressing { string, place } => {
                 // The finger stays over the board.
@@ -199,7 +197,21 @@ impl Play {
 }
 
 fn on_string(at: Pos2, sight: &Sight) -> bool {
-    (at.y - sight.y(sight.nearest(at.y))).abs() < ON_STRING * sight.spacing
+    is_on(at, sight, sight.nearest(at.y))
+}
+
+fn is_on(at: Pos2, sight: &Sight, string: usize) -> bool {
+    (at.y - sight.y(string)).abs() < ON_STRING * sight.spacing
+}
+
+/// The strings, of so many, that lie between two places, in the order in which they are crossed, and where each is.
+fn crossed(from: Pos2, to: Pos2, sight: &Sight, count: usize) -> impl Iterator<Item = (usize, f32)> {
+    let down = to.y > from.y;
+    (0..count).map(move |step| if down { step } else { count - 1 - step }).filter_map(move |string| {
+        let y = sight.y(string);
+        let part = (y - from.y) / (to.y - from.y);
+        ((from.y < y) != (to.y < y)).then(|| (string, from.x + part * (to.x - from.x)))
+    })
 }
 
 fn over_board(place: f32, setup: &Setup) -> bool {
