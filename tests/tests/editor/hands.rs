@@ -222,17 +222,27 @@ fn a_finger_leaves_when_the_window_is_closed() {
     assert_eq!(desk.close(), []);
 }
 
+/// At once, however long the button is held, and then each that it crosses.
 #[test]
 fn strings_are_silenced() {
     let mut desk = Desk::new();
-    let at = desk.at(BEYOND, 1.0);
-    desk.point(at);
-    for pressed in [true, false] {
+    let other = |desk: &mut Desk, at, pressed| {
         let (button, modifiers) = (PointerButton::Secondary, Modifiers::NONE);
         desk.harness.event(Event::PointerButton { pos: at, button, pressed, modifiers });
         desk.picture();
-    }
-    assert_eq!(desk.played, [PlayerEvent::Touched { string: 1, deed: StringDeed::Damp }]);
+    };
+    let damp = |string| PlayerEvent::Touched { string, deed: StringDeed::Damp };
+    let at = desk.at(BEYOND, 1.0);
+    desk.point(at);
+    other(&mut desk, at, true);
+    assert_eq!(desk.played, [damp(1)], "before it is let go");
+    desk.wait(1.0);
+    let to = desk.at(BEYOND, 3.5);
+    desk.point(to);
+    assert_eq!(desk.played, [1, 2, 3].map(damp));
+    other(&mut desk, to, false);
+    desk.point(desk.at(BEYOND, 5.5));
+    assert_eq!(desk.played, [1, 2, 3].map(damp));
     desk.harness.key_press(Key::Escape);
     desk.wait(0.05);
     assert_eq!(desk.played.last(), Some(&PlayerEvent::AllNotesOff));

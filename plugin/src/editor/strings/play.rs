@@ -2,7 +2,7 @@
 //!
 //! Dragged across strings it plucks each where it crosses it, the harder the faster. Pressed on a string over the board
 //! it is a finger: it slides along while it is held and leaves when it is let go, or stays if Shift was down, so that
-//! the other strings can be stopped too and all be strummed. The other button silences a string.
+//! the other strings can be stopped too and all be strummed. The other button silences what it is pressed on and crosses.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -66,6 +66,8 @@ impl Default for Finger {
 #[derive(Debug, Default)]
 pub(super) struct Play {
     doing: Doing,
+    /// Where the other button was while it silences.
+    silencing: Option<Pos2>,
     finger: Finger,
 }
 
@@ -77,7 +79,7 @@ impl Play {
 
     /// Whether the mouse is playing.
     pub fn is_busy(&self) -> bool {
-        self.doing != Doing::Nothing
+        self.doing != Doing::Nothing || self.silencing.is_some()
     }
 
     /// Takes what the mouse has done since the last picture. Gives back the string that it has begun to play, if it has.
@@ -112,11 +114,7 @@ impl Play {
         if !held {
             self.end(given);
         }
-        if response.clicked_by(PointerButton::Secondary)
-            && let Some(at) = at
-        {
-            self.deed(given, sight.nearest(at.y), StringDeed::Damp);
-        }
+        self.silence(ui, response, at, sight, setup, given);
         if let Some(at) = response.hover_pos() {
             hint(ui, at, sight, setup);
         }
@@ -180,6 +178,32 @@ impl Play {
         if let Some(string) = self.finger.take() {
             self.deed(given, string.into(), StringDeed::Lift);
         }
+    }
+
+    /// The other button silences at once, and while it is held all that it crosses.
+    fn silence(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        at: Option<Pos2>,
+        sight: &Sight,
+        setup: &Setup,
+        given: &Given,
+    ) {
+        let button = PointerButton::Secondary;
+        let (pressed, held) =
+            ui.input(|input| (input.pointer.button_pressed(button), input.pointer.button_down(button)));
+        let is_own = response.is_pointer_button_down_on() || response.clicked_by(button);
+        let from = self.silencing.take();
+        let Some(at) = at else { return };
+        if pressed && is_own {
+            self.deed(given, sight.nearest(at.y), StringDeed::Damp);
+        } else if let Some(from) = from {
+            for (string, _) in crossed(from, at, sight, setup.string.len()) {
+                self.deed(given, string, StringDeed::Damp);
+            }
+        }
+        self.silencing = Some(at).filter(|_| held && (from.is_some() || (pressed && is_own)));
     }
 
     /// Plucks with a part of the hardest note's force.
