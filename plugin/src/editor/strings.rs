@@ -4,6 +4,7 @@ mod board;
 mod caps;
 mod glow;
 mod handles;
+mod hint;
 mod motion;
 mod play;
 mod sight;

@@ -7,11 +7,11 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 
-use egui::{Align2, PointerButton, Pos2, Response, Stroke, Ui, pos2, vec2};
+use egui::{PointerButton, Pos2, Response, Ui};
 use low_action_dsp::Setup;
 
-use super::Sight;
-use crate::editor::{Given, theme};
+use super::{Sight, hint};
+use crate::editor::Given;
 use crate::performance::{PlayerEvent, StringDeed};
 
 /// How near to a string the mouse is on it, as a part of the distance between strings.
@@ -116,7 +116,7 @@ impl Play {
         }
         self.silence(ui, response, at, sight, setup, given);
         if let Some(at) = response.hover_pos() {
-            hint(ui, at, sight, setup);
+            hint::show(ui, at, sight, setup);
         }
         begun
     }
@@ -220,7 +220,8 @@ impl Play {
     }
 }
 
-fn on_string(at: Pos2, sight: &Sight) -> bool {
+/// Whether the mouse is on a string there.
+pub(super) fn on_string(at: Pos2, sight: &Sight) -> bool {
     is_on(at, sight, sight.nearest(at.y))
 }
 
@@ -238,35 +239,7 @@ fn crossed(from: Pos2, to: Pos2, sight: &Sight, count: usize) -> impl Iterator<I
     })
 }
 
-fn over_board(place: f32, setup: &Setup) -> bool {
+/// Whether a place (m from the nut) is over the board.
+pub(super) fn over_board(place: f32, setup: &Setup) -> bool {
     (0.0..setup.neck.board_end() as f32).contains(&place)
-}
-
-/// Says beside the mouse what it would do there.
-fn hint(ui: &Ui, at: Pos2, sight: &Sight, setup: &Setup) {
-    let place = sight.place(at.x);
-    let scale = setup.neck.scale_length as f32;
-    if !(0.0..scale).contains(&place) {
-        return;
-    }
-    let string = &setup.string[sight.nearest(at.y)];
-    let stops = on_string(at, sight) && over_board(place, setup);
-    let text = if stops {
-        let frets = setup.neck.equal_places();
-        let before = frets.partition_point(|fret| (*fret as f32) < place);
-        match (before + 1).min(frets.len()) {
-            0 => string.name.clone(),
-            fret => format!("{}, fret {fret}", string.name),
-        }
-    } else {
-        format!("{:.0} mm from the saddle", 1e3 * (scale - place))
-    };
-    let painter = ui.painter();
-    let colour = if stops { theme::FINGER } else { theme::PLUCK };
-    painter.circle_stroke(pos2(at.x, at.y), 4.0, Stroke::new(1.0, colour));
-    let place = at + vec2(10.0, -10.0);
-    let galley = painter.layout_no_wrap(text, theme::SMALL, theme::TEXT);
-    let rect = Align2::LEFT_BOTTOM.anchor_size(place, galley.size());
-    painter.rect_filled(rect.expand2(vec2(6.0, 3.0)), 4.0, theme::faint(theme::GROUND, 0.85));
-    painter.galley(rect.min, galley, theme::TEXT);
 }
