@@ -146,6 +146,13 @@ fn follow_keys<P: Param>(
     is_another
 }
 
+/// Scrolls a panel that has no room for all of its controls to the one that has got the focus.
+fn come_into_sight(response: &Response) {
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
+}
+
 /// A musician's words for it, under the mouse.
 fn explain<P: Param>(given: &Given, param: &P, response: Response) -> Response {
     response.on_hover_ui(|ui| {

@@ -82,6 +82,30 @@ fn the_menu_needs_no_mouse() {
     assert!(!is_seen(&desk, "Undo"), "the menu is still open");
 }
 
+/// What has no room in a narrow panel is scrolled to.
+#[test]
+fn tab_shows_where_it_goes() {
+    let mut desk = desk();
+    let names = desk.names();
+    for tab in ["Player", "Luthier"] {
+        desk.open(tab);
+        let room = Rect::from_min_max(pos2(16.0, desk.named(tab).y), pos2(544.0, 380.0));
+        let mut reached = 0;
+        for _ in 0..60 {
+            desk.key(Key::Tab);
+            desk.wait(0.4);
+            let Some(node) = desk.harness.query_by(|node| node.is_focused()) else { continue };
+            let (name, place) = (node.accesskit_node().label(), node.rect().center());
+            // Not a mark in the picture of the strings.
+            if let Some(name) = name.filter(|name| names.contains(name) && place.y > room.top()) {
+                assert!(room.contains(place), "{name} is at {place}");
+                reached += 1;
+            }
+        }
+        assert!(reached > 10, "{tab}: only {reached}");
+    }
+}
+
 /// The smallest window has few points where they are large.
 #[test]
 fn panels_open_and_close_however_little_room_there_is() {

@@ -5,7 +5,7 @@ use egui::{
 };
 use nice_plug::prelude::Param;
 
-use super::{Arrows, NAME, explain, follow_keys, is_taken, paint_name, set, shown};
+use super::{Arrows, NAME, come_into_sight, explain, follow_keys, is_taken, paint_name, set, shown};
 use crate::editor::shapes::fit_text;
 use crate::editor::{Given, theme};
 
@@ -27,6 +27,7 @@ pub fn choice<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect, count
     let arrows = Arrows { up_is_less: true, ..Arrows::default() };
     // Not whether the value is another than it was: a host may move it meanwhile.
     let mut is_chosen_here = follow_keys(ui, given, param, &response, (arrows, last));
+    come_into_sight(&response);
     paint_name(ui, param.name(), area, &response, f32::INFINITY);
     paint_value(ui, &shown(given, param), area, &response);
     let chosen = given.value(param);

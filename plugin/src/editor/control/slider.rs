@@ -5,7 +5,10 @@
 use egui::{CursorIcon, Event, Id, MouseWheelUnit, Rect, Response, Sense, Stroke, Ui, Vec2, pos2, vec2};
 use nice_plug::prelude::Param;
 
-use super::{Arrows, NAME, drag, explain, follow_keys, is_taken, number, paint_name, set, step, strength};
+use super::{
+    Arrows, NAME, come_into_sight, drag, explain, follow_keys, is_taken, number, paint_name, set, step,
+    strength,
+};
 use crate::editor::Given;
 use crate::editor::theme::{self, TIGHT};
 
@@ -39,6 +42,7 @@ pub fn titled_slider<P: Param>(ui: &mut Ui, given: &Given, param: &P, area: Rect
     }
     step(given, param, (notches(ui, id, area), 1.0), ui.input(|input| input.modifiers.shift));
     follow_keys(ui, given, param, &response, (Arrows::default(), 1.0));
+    come_into_sight(&response);
     paint_name(ui, title, area, &response, area.width() - number::width(ui, given, param) - TIGHT);
     paint_line(ui, (param, value), area, &response);
     response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);

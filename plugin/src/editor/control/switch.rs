@@ -3,7 +3,9 @@
 use egui::{Align2, CursorIcon, Rect, Response, Sense, Ui, pos2, vec2};
 use nice_plug::prelude::{BoolParam, Param};
 
-use super::{Arrows, NAME, explain, follow_keys, is_taken, paint_name, set, shown, strength};
+use super::{
+    Arrows, NAME, come_into_sight, explain, follow_keys, is_taken, paint_name, set, shown, strength,
+};
 use crate::editor::{Given, theme};
 
 /// Shows it. A click turns it over.
@@ -16,6 +18,7 @@ pub fn switch(ui: &mut Ui, given: &Given, param: &BoolParam, area: Rect) -> Resp
         set(given, param, if on { 0.0 } else { 1.0 });
     }
     follow_keys(ui, given, param, &response, (Arrows::default(), 1.0));
+    come_into_sight(&response);
     paint_name(ui, param.name(), area, &response, f32::INFINITY);
     let painter = ui.painter();
     let slot = Rect::from_min_size(pos2(area.left(), area.top() + NAME + 1.0), vec2(28.0, 14.0));
