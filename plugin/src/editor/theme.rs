@@ -111,7 +111,7 @@ fn visuals() -> Visuals {
     visuals.extreme_bg_color = GROUND;
     visuals.faint_bg_color = SURFACE;
     visuals.selection.bg_fill = ACCENT.gamma_multiply(0.35);
-    visuals.selection.stroke = Stroke::new(1.0, ACCENT);
+    visuals.selection.stroke = Stroke::new(1.0, TEXT);
     visuals.hyperlink_color = ACCENT;
     let widget = |fill: Color32, line: Color32, text: Color32| WidgetVisuals {
         bg_fill: fill,

@@ -3,7 +3,7 @@
 
 use egui::{Color32, Key, Modifiers, Pos2};
 use egui_kittest::kittest::{NodeT, Queryable};
-use low_action::editor::theme;
+use low_action::editor::{Editor, theme};
 use low_action_tests::desk::Desk;
 use nice_plug::prelude::Params;
 
@@ -42,6 +42,14 @@ fn text_can_be_read() {
     // What can be taken hold of bears nothing but plain text.
     for behind in [theme::RAISED, theme::LIFTED] {
         assert!(contrast(theme::TEXT, behind) >= 4.5);
+    }
+    // What is chosen, or marked to be written over, lies over all of them.
+    let context = egui::Context::default();
+    Editor::dress(&context);
+    let selection = context.global_style().visuals.selection.clone();
+    for behind in [theme::GROUND, theme::SURFACE, theme::RAISED, theme::LIFTED] {
+        let contrast = contrast(selection.stroke.color, behind.blend(selection.bg_fill));
+        assert!(contrast >= 4.5, "what is chosen on {behind:?}: {contrast:.2}");
     }
 }
 
