@@ -15,6 +15,9 @@ use crate::plugin::meters::Meters;
 use crate::plugin::order::{self, Order};
 use crate::pointer::Pointer;
 
+/// By how much a string's length, as a part of it, may be off from that of its set-up: no more than rounding.
+const SAME_LENGTH: f32 = 1e-4;
+
 /// What every view is given.
 pub struct Given<'a> {
     /// Everything that can be set.
@@ -99,6 +102,15 @@ impl Plan {
         self.made.as_ref().map(|made| &made.setup)
     }
 
+    /// Whether a snapshot is of its strings. While a host does not process it may be of those before.
+    pub fn is_of(&self, snapshot: &Snapshot) -> bool {
+        let Some(setup) = self.setup() else { return false };
+        let length = setup.neck.scale_length as f32;
+        let strings = snapshot.strings();
+        strings.len() == setup.string.len()
+            && strings.iter().all(|string| (string.length / length - 1.0).abs() < SAME_LENGTH)
+    }
+
     /// The set-up as it comes; none before the first look at the parameters.
     pub fn own(&self) -> Option<&Setup> {
         self.made.as_ref().map(|made| &made.own)
@@ -107,5 +119,40 @@ impl Plan {
     /// The hands as they act now.
     pub fn player(&self) -> Option<&Player> {
         self.made.as_ref().map(|made| &made.player)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nice_plug::prelude::Enum;
+
+    use super::*;
+    use crate::display::StringSeen;
+    use crate::params::{InstrumentChoice, Start};
+    use crate::plugin::shelf::Shelf;
+    use crate::setups::SHIPPED;
+
+    #[test]
+    fn a_snapshot_is_of_as_many_strings_as_long() {
+        let params = |name: &str| {
+            let place = SHIPPED.iter().position(|known| *known == name).expect("it comes with the program");
+            let start = Start { instrument: InstrumentChoice::from_index(place), ..Start::default() };
+            LowActionParams::new(Shelf::new(Vec::new()), &start)
+        };
+        let of = |name: &str| {
+            let setup = Setup::shipped(name).expect("it comes with the program");
+            let mut string = StringSeen::default();
+            string.length = setup.neck.scale_length as f32;
+            Snapshot::of(vec![string; setup.string.len()])
+        };
+        let names = ["electric", "classical", "bass", "ukulele"];
+        for planned in names {
+            let mut plan = Plan::default();
+            assert!(!plan.is_of(&of(planned)), "nothing is planned");
+            plan.follow(&params(planned));
+            for seen in names {
+                assert_eq!(plan.is_of(&of(seen)), planned == seen, "{seen} on the neck of {planned}");
+            }
+        }
     }
 }

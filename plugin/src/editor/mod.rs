@@ -41,7 +41,7 @@ use nice_plug_egui::NiceEguiApp;
 #[cfg(all(feature = "standalone", unix))]
 use nice_plug_egui::RepaintNotifier;
 
-use crate::display::Reader;
+use crate::display::{Reader, Snapshot};
 use crate::params::LowActionParams;
 use crate::params::words::Words;
 use crate::plugin::layout::{SIZES, Seen};
@@ -66,6 +66,8 @@ pub struct Editor {
     #[cfg(all(feature = "standalone", unix))]
     repaint: Option<RepaintNotifier>,
     plan: Plan,
+    /// What is seen of strings that nobody has seen yet.
+    nothing: Snapshot,
     words: Words,
     history: Arc<History>,
     keys: keys::Keys,
@@ -95,6 +97,7 @@ impl Editor {
             #[cfg(all(feature = "standalone", unix))]
             repaint: None,
             plan: Plan::default(),
+            nothing: Snapshot::default(),
             header: header::Header::default(),
             strings: strings::Strings::default(),
             panels: panels::Panels::default(),
@@ -119,6 +122,7 @@ impl Editor {
             ui.ctx().request_repaint();
         }
         self.plan.follow(&self.params);
+        let is_seen = self.plan.is_of(self.reader.latest());
         let noted = Noted { gui: gui.clone(), history: self.history.clone() };
         if self.opening == Opening::Zoom {
             closing::end_gestures(ui.ctx(), noted.clone(), self.strings.finger(), self.pointer.clone());
@@ -128,8 +132,8 @@ impl Editor {
             params: &self.params,
             setter: ParamSetter::new(&noted),
             meters: &self.meters,
-            snapshot: self.reader.latest(),
-            fresh,
+            snapshot: if is_seen { self.reader.latest() } else { &self.nothing },
+            fresh: fresh && is_seen,
             pointer: &self.pointer,
             plan: &self.plan,
             words: &self.words,

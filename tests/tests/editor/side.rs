@@ -4,6 +4,7 @@
 use egui_kittest::kittest::{NodeT, Queryable};
 use low_action::params::InstrumentChoice;
 use low_action::performance::PlayerEvent;
+use low_action_dsp::Setup;
 use low_action_tests::desk::Desk;
 use nice_plug::prelude::{Enum, ParamSetter};
 
@@ -116,4 +117,26 @@ fn a_string_that_is_tuned_is_called_by_its_note() {
         desk.wait(0.1);
         assert_eq!(said(&desk), [note.to_owned(), format!("String 6: {note}")]);
     }
+}
+
+/// As while a host does not process: what it played last is another instrument.
+#[test]
+fn strings_of_another_neck_are_not_seen_on_this_one() {
+    let mut desk = Desk::new();
+    let electric = 0.6477;
+    let read = |desk: &mut Desk, scale: f32| {
+        let area = desk.harness.get_by_label("Side view").rect();
+        let place = electric * (1.0 - (-3.0_f32 / 12.0).exp2());
+        // Room for names to the left and right of the string.
+        let along = (area.width() - 48.0 - 32.0) / scale;
+        desk.point(egui::pos2(area.left() + 48.0 + place * along, area.center().y));
+        desk.wait(1.5);
+        desk.harness.query_by_label_contains("Fret 3:").is_some()
+    };
+    assert!(read(&mut desk, electric));
+    ParamSetter::new(&*desk.host)
+        .set_parameter(&desk.params.instrument.instrument, InstrumentChoice::from_index(3));
+    desk.wait(0.1);
+    let bass = Setup::builtin("bass").expect("it is built in").neck.scale_length as f32;
+    assert!(!read(&mut desk, bass), "the frets of a guitar are read on a bass");
 }
