@@ -94,8 +94,12 @@ impl Header {
 
     /// What a player should know of: too little time, a file that is missing.
     fn messages(given: &Given) -> Vec<String> {
-        let late = given.meters.relaxed().then(|| "Over budget: contacts are solved less exactly".to_owned());
-        [late, given.params.shelf.message()].into_iter().flatten().collect()
+        let late = match () {
+            () if given.meters.relaxed() => Some("Over budget: contacts are solved less exactly"),
+            () if given.meters.load() > 1.0 => Some("Over budget: the sound breaks up"),
+            () => None,
+        };
+        [late.map(str::to_owned), given.params.shelf.message()].into_iter().flatten().collect()
     }
 
     /// Both channels, one over the other.

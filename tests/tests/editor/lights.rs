@@ -18,6 +18,18 @@ fn too_little_time() {
     assert!(desk.harness.query_by_label(LATE).is_none());
 }
 
+/// `Relax when late` is off.
+#[test]
+fn too_little_time_for_what_is_not_relaxed() {
+    let mut desk = Desk::new();
+    for (load, relaxed, is_told) in [(1.3, false, true), (0.95, false, false), (1.3, true, false)] {
+        desk.meters.see_load(load, relaxed);
+        desk.picture();
+        let told = desk.harness.query_by_label("Over budget: the sound breaks up").is_some();
+        assert_eq!(told, is_told, "{load} {relaxed}");
+    }
+}
+
 #[test]
 fn a_file_that_is_not_played() {
     let mut desk = Desk::new();
