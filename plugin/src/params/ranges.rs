@@ -205,12 +205,21 @@ fn part(name: &str, default: f32) -> FloatParam {
         .with_string_to_value(Arc::new(|text| Some(number(text, "%")? / 100.0)))
 }
 
-/// Added to what the set-up has, 0 unless changed.
+/// Added to what the set-up has, 0 unless changed. Its sign says that it is no place or height by itself.
 fn shift(name: &str, min: f32, max: f32, unit: &'static str, step: f32) -> FloatParam {
+    let decimals = (-step.log10()).round().max(0.0) as usize;
     FloatParam::new(name, 0.0, FloatRange::Linear { min, max })
         .with_step_size(step)
         .with_unit(unit)
+        .with_value_to_string(Arc::new(move |value| signed(value, decimals)))
         .with_string_to_value(reads(unit))
+}
+
+/// A number with its sign, which nothing has with a plus.
+fn signed(value: f32, decimals: usize) -> String {
+    let text = format!("{value:+.decimals$}");
+    // What is rounded to nothing has a sign of its own.
+    if text.contains(|letter: char| ('1'..='9').contains(&letter)) { text } else { text.replace('-', "+") }
 }
 
 /// Reads numbers of such a unit.
@@ -262,7 +271,16 @@ fn exactly(param: &FloatParam, value: f32) -> f64 {
 mod tests {
     use nice_plug::prelude::Params;
 
-    use super::{LowActionParams, Shelf, Start, number};
+    use super::{LowActionParams, Shelf, Start, number, signed};
+
+    #[test]
+    fn what_is_added_has_its_sign() {
+        for (value, decimals, text) in
+            [(0.5, 2, "+0.50"), (-2.0, 0, "-2"), (0.0, 2, "+0.00"), (-0.0, 1, "+0.0"), (-0.004, 2, "+0.00")]
+        {
+            assert_eq!(signed(value, decimals), text);
+        }
+    }
 
     /// Hosts have fields of their own for them. Words for one of a few things are the framework's, which takes them as they are.
     #[test]

@@ -241,8 +241,8 @@ fn another_unit_and_what_is_out_of_range_are_not_taken() {
     for (name, text, range) in [
         ("Action", "500", "10 % to 300 %"),
         ("Action", "5", "10 % to 300 %"),
-        ("Relief", "1 cm", "-0.50 mm to 2.00 mm"),
-        ("String 6 tuning", "20 mm", "-12.00 semitones to 7.00 semitones"),
+        ("Relief", "1 cm", "-0.50 mm to +2.00 mm"),
+        ("String 6 tuning", "20 mm", "-12.00 semitones to +7.00 semitones"),
     ] {
         let number = at(&mut desk, "Luthier", &format!("Type {name}"));
         desk.click(number);
