@@ -146,6 +146,21 @@ fn follow_keys<P: Param>(
     is_another
 }
 
+/// Shows a control, and veils it where nothing comes of it at present, for a reason that is told under the mouse. It can be set
+/// all the same: another instrument may ask for it.
+pub fn unless_idle(
+    ui: &mut Ui,
+    area: Rect,
+    reason: Option<&str>,
+    show: impl FnOnce(&mut Ui, Rect) -> Response,
+) -> Response {
+    let response = show(ui, area);
+    let Some(reason) = reason else { return response };
+    let veil = area.expand2(vec2(theme::NEAR, 0.0));
+    ui.painter().rect_filled(veil, 0.0, theme::faint(theme::SURFACE, 0.7));
+    response.on_hover_text(reason)
+}
+
 /// Scrolls a panel that has no room for all of its controls to the one that has got the focus.
 fn come_into_sight(response: &Response) {
     if response.gained_focus() {

@@ -5,8 +5,10 @@ use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, 
 use egui_kittest::kittest::Queryable;
 use low_action::engine::Quality;
 use low_action::params::words::heard_of;
+use low_action::params::{InputChoice, InstrumentChoice};
+use low_action::setups::SHIPPED;
 use low_action_tests::desk::{Desk, Told, is_gesture};
-use nice_plug::prelude::ParamSetter;
+use nice_plug::prelude::{Enum, ParamSetter};
 
 /// Opens a panel and points at one of its controls.
 fn at(desk: &mut Desk, tab: &str, name: &str) -> egui::Pos2 {
@@ -354,4 +356,34 @@ fn a_list_says_what_each_of_it_is() {
     desk.point(line);
     desk.wait(1.0);
     assert!(says(&desk, Quality::Reference), "the one under the mouse");
+}
+
+#[test]
+fn what_nothing_comes_of_says_why() {
+    let mut desk = Desk::new();
+    let why = |desk: &mut Desk, tab: &str, name: &str, reason: &str| {
+        let place = at(desk, tab, name);
+        desk.point(place);
+        desk.wait(1.0);
+        desk.harness.query_by_label_contains(reason).is_some()
+    };
+    let reasons = [
+        ("Luthier", "Pickup position", "without a coil"),
+        ("Luthier", "String 5 tuning", "no such string"),
+        ("Sound", "Idle hands", "no body"),
+        ("Player", "First channel", "channel per string"),
+        ("Player", "String order", "channel per string"),
+    ];
+    // An electric guitar has a coil, but no body, and is played by one keyboard.
+    for ((tab, name, reason), expected) in reasons.into_iter().zip([false, false, true, true, true]) {
+        assert_eq!(why(&mut desk, tab, name, reason), expected, "{name}");
+    }
+    let ukulele = SHIPPED.iter().position(|name| *name == "ukulele").expect("it comes with the program");
+    let host = desk.host.clone();
+    let setter = ParamSetter::new(&*host);
+    setter.set_parameter(&desk.params.instrument.instrument, InstrumentChoice::from_index(ukulele));
+    setter.set_parameter(&desk.params.control.input_mode, InputChoice::Strings);
+    for ((tab, name, reason), expected) in reasons.into_iter().zip([true, true, false, false, false]) {
+        assert_eq!(why(&mut desk, tab, name, reason), expected, "{name} of a ukulele");
+    }
 }

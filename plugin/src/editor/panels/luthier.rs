@@ -1,11 +1,12 @@
 //! What a luthier changes: the instrument, action, relief, frets, pickup and the tuning of the strings.
 
-use egui::{Ui, text::LayoutJob, vec2};
+use egui::{Ui, text::LayoutJob};
+use low_action_dsp::setup::Pickup;
 use nice_plug::prelude::{Enum, Param};
 
 use super::cells::Cells;
 use crate::editor::compare::change;
-use crate::editor::control::{choice, slider, titled_slider};
+use crate::editor::control::{choice, slider, titled_slider, unless_idle};
 use crate::editor::{Given, theme};
 use crate::params::InstrumentChoice;
 use crate::plugin::shelf::NONE;
@@ -44,21 +45,19 @@ pub fn show(ui: &mut Ui, given: &Given) {
         slider(ui, given, param, cells.next());
     }
     cells.group(ui, "PICKUP", 1);
-    for param in [&setup.pickup_position, &setup.pickup_blend] {
-        slider(ui, given, param, cells.next());
-    }
+    let has_coil = given.plan.setup().is_none_or(|setup| matches!(setup.pickup, Pickup::Magnetic { .. }));
+    let reason = (!has_coil).then_some("This instrument is heard without a coil.");
+    unless_idle(ui, cells.next(), reason, |ui, area| slider(ui, given, &setup.pickup_position, area));
+    slider(ui, given, &setup.pickup_blend, cells.next());
     cells.group(ui, "OPEN STRINGS", 2);
     let strings = given.plan.setup().map_or(&[][..], |setup| &setup.string);
     for (index, string) in given.params.strings.iter().enumerate() {
-        let place = cells.next();
-        if let Some(sounding) = strings.get(index) {
-            let title = format!("String {}: {}", index + 1, sounding.name);
-            titled_slider(ui, given, &string.tuning, place, &title);
-        } else {
-            slider(ui, given, &string.tuning, place);
-            // This instrument has no such string.
-            let veil = place.expand2(vec2(theme::NEAR, 0.0));
-            ui.painter().rect_filled(veil, 0.0, theme::faint(theme::SURFACE, 0.7));
-        }
+        let sounding = strings.get(index);
+        let title = sounding.map(|sounding| format!("String {}: {}", index + 1, sounding.name));
+        let reason = sounding.is_none().then_some("This instrument has no such string.");
+        unless_idle(ui, cells.next(), reason, |ui, area| match &title {
+            Some(title) => titled_slider(ui, given, &string.tuning, area, title),
+            None => slider(ui, given, &string.tuning, area),
+        });
     }
 }

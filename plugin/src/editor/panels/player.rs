@@ -4,7 +4,7 @@ use egui::{Align2, Button, Rect, RichText, Ui, pos2, vec2};
 use nice_plug::prelude::Enum;
 
 use super::cells::Cells;
-use crate::editor::control::{NAME, choice, slider, switch};
+use crate::editor::control::{NAME, choice, slider, switch, unless_idle};
 use crate::editor::{Given, theme};
 use crate::params::{ControlParams, InputChoice, LegatoChoice, PlayerParams, StringOrder};
 use crate::plugin::layout::{KeyMap, Keyboard};
@@ -59,8 +59,11 @@ pub fn show(ui: &mut Ui, given: &Given) {
     slider(ui, given, hand_position, cells.next());
     cells.group(ui, "NOTES", 2);
     choice(ui, given, input_mode, cells.next(), InputChoice::variants().len());
-    slider(ui, given, first_channel, cells.next());
-    choice(ui, given, string_order, cells.next(), StringOrder::variants().len());
+    let by_strings = given.plain(input_mode) == InputChoice::Strings;
+    let reason = (!by_strings).then_some("Only where the input mode is a channel per string.");
+    unless_idle(ui, cells.next(), reason, |ui, area| slider(ui, given, first_channel, area));
+    let count = StringOrder::variants().len();
+    unless_idle(ui, cells.next(), reason, |ui, area| choice(ui, given, string_order, area, count));
     slider(ui, given, bend_range, cells.next());
     switch(ui, given, ignore_rpn, cells.next());
     slider(ui, given, keyswitches, cells.next());

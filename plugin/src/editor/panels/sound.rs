@@ -4,7 +4,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 use low_action_dsp::Setup;
 
 use super::cells::Cells;
-use crate::editor::control::{slider, switch};
+use crate::editor::control::{slider, switch, unless_idle};
 use crate::editor::theme::{self, GAP};
 use crate::editor::{Given, panels::bar};
 
@@ -27,7 +27,10 @@ pub fn show(ui: &mut Ui, given: &Given) {
     cells.group(ui, "LOSSES", 1);
     slider(ui, given, &setup.loss_0, cells.next());
     slider(ui, given, &setup.loss_1, cells.next());
-    slider(ui, given, &given.params.player.idle_hands, cells.next());
+    let has_body = given.plan.setup().is_none_or(|setup| setup.body.is_some());
+    let reason = (!has_body).then_some("This instrument has no body by which strings could sing along.");
+    let idle_hands = &given.params.player.idle_hands;
+    unless_idle(ui, cells.next(), reason, |ui, area| slider(ui, given, idle_hands, area));
     cells.group(ui, "HOW LONG OPEN STRINGS RING", 3);
     if let Some(setup) = given.plan.setup() {
         show_times(ui, cells.rest(), setup);
