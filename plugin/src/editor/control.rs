@@ -74,6 +74,8 @@ fn drag<P: Param>(
     let (id, setter) = (response.id, &given.setter);
     let growth = if ui.input(|input| input.modifiers.shift) { FINE * growth } else { growth };
     if response.drag_started() {
+        // Arrows go on where the drag has left it.
+        response.request_focus();
         setter.begin_set_parameter(param);
         // What it moved until it was known to be a drag counts too.
         let before = response.total_drag_delta().unwrap_or_default() - response.drag_delta();

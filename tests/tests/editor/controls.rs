@@ -70,6 +70,25 @@ fn a_drag_is_one_gesture_and_shift_is_finer() {
 }
 
 #[test]
+fn arrows_go_on_where_a_drag_has_ended() {
+    let mut desk = Desk::new();
+    let value = |desk: &Desk| desk.params.player.variation.value();
+    let from = at(&mut desk, "Player", "Variation");
+    desk.drag(&[from, from + vec2(40.0, 0.0)], 0.2);
+    let dragged = value(&desk);
+    desk.host.take();
+    desk.key(Key::ArrowUp);
+    assert!(value(&desk) > dragged);
+    assert!(is_gesture(&desk.host.take(), "variation"));
+    // A mark in the picture as well.
+    let from = desk.named("Pluck position");
+    desk.drag(&[from, from - vec2(40.0, 0.0)], 0.2);
+    desk.host.take();
+    desk.key(Key::ArrowLeft);
+    assert!(is_gesture(&desk.host.take(), "pluck_position"));
+}
+
+#[test]
 fn nothing_leaves_its_range_and_a_double_click_brings_back() {
     let mut desk = Desk::new();
     let from = at(&mut desk, "Player", "Pluck force");
