@@ -378,3 +378,28 @@ fn what_the_luthier_chooses_is_played_in_place_of_a_file() {
         assert_eq!(desk.params.instrument.file.value(), file, "one step back");
     }
 }
+
+/// As where two instances of a plugin are open.
+#[test]
+fn what_is_saved_in_one_window_is_in_the_lists_of_another() {
+    let (mut one, mut other) = (Desk::new(), Desk::new());
+    let before = other.params.shelf.names();
+    save(&mut one, "Aa of another");
+    other.click(other.named("Electric"));
+    other.wait(0.1);
+    assert!(other.harness.query_by_label("Aa of another").is_some(), "it is not in the list at the top");
+    // Those that were there keep their numbers.
+    let after = other.params.shelf.names();
+    assert_eq!(after[..before.len()], before);
+    other.key(Key::Escape);
+    save(&mut one, "Ab of another");
+    other.open("Luthier");
+    other.click(other.control("Instrument file").expect("it is there"));
+    other.wait(0.1);
+    let number = number(&other, "Ab of another");
+    let title = format!("{number}: Ab of another");
+    assert!(other.harness.query_by_label(&title).is_some(), "it is not in the luthier's list");
+    ParamSetter::new(&*other.host).set_parameter(&other.params.instrument.file, number as i32);
+    other.wait(0.1);
+    assert_eq!(kept(&other)["name"], json!("Ab of another"));
+}

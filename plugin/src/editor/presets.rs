@@ -52,6 +52,9 @@ impl Presets {
         let size = vec2(width, ui.spacing().interact_size.y);
         let button = ui.add_sized(size, Button::new(title.as_str()).truncate());
         let button = button.on_hover_text("Instruments: those of the program and your own");
+        if button.clicked() {
+            given.params.shelf.look_again();
+        }
         Popup::menu(&button).width(LIST).show(|ui| {
             ScrollArea::vertical().max_height(HIGHEST).show(ui, |ui| list(ui, given, chosen));
         });

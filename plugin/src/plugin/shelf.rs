@@ -1,6 +1,7 @@
 //! The user's own set-ups as one plugin sees them, and the one its session keeps.
 //!
-//! The files of the user's folder are numbered, in the order of their names, as they are when the plugin is loaded.
+//! The files of the user's folder are numbered, in the order of their names, as they are when the plugin is loaded; others that are
+//! found when a list of them opens come after those.
 //! One that is chosen by its number is read and from then on kept, text and all: the session saves the text, and so
 //! the project sounds the same on another machine and after the file was changed. Choosing another number lets go of
 //! it, as does choosing anything in the editor's list. The audio thread sees nothing but numbers.
@@ -86,6 +87,20 @@ impl Shelf {
     /// Why what was chosen is not played, in one line, if it is not.
     pub fn message(&self) -> Option<String> {
         lock(&self.0.message).clone()
+    }
+
+    /// Takes in, after those that are known, files that somebody else has put into the user's folder since: another window, or
+    /// `low-action instruments`.
+    #[cfg(feature = "editor")]
+    pub(crate) fn look_again(&self) {
+        let found = setups::installed();
+        let mut files = lock(&self.0.files);
+        for file in found {
+            let is_known = files.iter().any(|known| setups::is_same_name(&known.name, &file.name));
+            if !is_known && files.len() < MOST_FILES {
+                files.push(file);
+            }
+        }
     }
 
     /// How many files can be chosen.

@@ -26,7 +26,11 @@ pub fn show(ui: &mut Ui, given: &Given) {
     });
     given.history.together(|| {
         let count = 1 + given.params.shelf.count();
-        if choice(ui, given, &instrument.file, cells.next(), count).changed() {
+        let files = choice(ui, given, &instrument.file, cells.next(), count);
+        if files.clicked() {
+            given.params.shelf.look_again();
+        }
+        if files.changed() {
             // The one in the folder as it is now, also where the session keeps another under its number.
             let number = given.history.number();
             let value = instrument.file.preview_normalized(number as i32);
