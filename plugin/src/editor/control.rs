@@ -31,9 +31,11 @@ pub const NAME: f32 = 16.0;
 /// How much finer a drag is with Shift.
 const FINE: f32 = 0.1;
 
-/// Sets a parameter in one gesture, 0 to 1; not while it is dragged, which is one gesture already.
+/// Sets a parameter in one gesture, 0 to 1; not while it is dragged, which is one gesture already, nor to what it is.
 fn set<P: Param>(given: &Given, param: &P, normalized: f32) {
-    if given.history.is_under_way(param.as_ptr()) {
+    // What hosts round is the same again as a plain value.
+    let is_there = param.preview_plain(normalized) == given.plain(param);
+    if is_there || given.history.is_under_way(param.as_ptr()) {
         return;
     }
     given.setter.begin_set_parameter(param);

@@ -102,6 +102,35 @@ fn nothing_leaves_its_range_and_a_double_click_brings_back() {
     assert!(is_gesture(&desk.host.take(), "pluck_force"));
 }
 
+/// Hosts would write automation of it.
+#[test]
+fn what_changes_nothing_is_no_gesture() {
+    let mut desk = Desk::new();
+    let place = at(&mut desk, "Luthier", "Action");
+    desk.click(place);
+    for key in [Key::Delete, Key::Backspace] {
+        desk.key(key);
+    }
+    desk.enter("Luthier", "Action", "100");
+    assert_eq!(desk.host.take(), [], "it has its usual value");
+    desk.click(place);
+    desk.key(Key::End);
+    assert!(is_gesture(&desk.host.take(), "action"));
+    for key in [Key::ArrowUp, Key::End] {
+        desk.key(key);
+    }
+    desk.harness.event(wheel(MouseWheelUnit::Line, vec2(0.0, 1.0)));
+    desk.picture();
+    assert_eq!(desk.host.take(), [], "it is at its end");
+    let list = at(&mut desk, "Luthier", "Instrument");
+    desk.click(list);
+    desk.wait(0.1);
+    let chosen = desk.harness.query_all_by_label("Electric").map(|node| node.rect().center()).last();
+    desk.click(chosen.expect("the list is open"));
+    desk.wait(0.1);
+    assert_eq!(desk.host.take(), [], "it is chosen already");
+}
+
 fn wheel(unit: MouseWheelUnit, delta: egui::Vec2) -> Event {
     let (phase, source) = (TouchPhase::Move, MouseWheelSource::Wheel);
     Event::MouseWheel { unit, delta, phase, source, modifiers: Modifiers::NONE }
