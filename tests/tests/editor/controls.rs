@@ -284,6 +284,20 @@ fn what_is_no_number_is_not_taken() {
     assert_eq!(desk.params.output.level.value(), 0.0);
 }
 
+#[test]
+fn a_number_that_is_left_is_taken() {
+    let mut desk = Desk::new();
+    write_level(&mut desk, "-6");
+    desk.key(Key::Tab);
+    assert_eq!(desk.params.output.level.value(), -6.0);
+    desk.wait(1.0);
+    write_level(&mut desk, "-9");
+    desk.click(egui::pos2(600.0, 24.0));
+    desk.wait(0.05);
+    assert_eq!(desk.params.output.level.value(), -9.0);
+    assert!(is_gesture(&desk.host.take(), "level"));
+}
+
 /// It would be something else than what was typed.
 #[test]
 fn another_unit_and_what_is_out_of_range_are_not_taken() {
