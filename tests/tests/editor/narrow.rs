@@ -2,7 +2,7 @@
 //! is in a menu, which mouse and keyboard open and use alike; so can the tabs of the panels at its bottom.
 
 use egui::accesskit::Role;
-use egui::{Key, Pos2, Rect, pos2, vec2};
+use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, Rect, TouchPhase, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use low_action_tests::desk::Desk;
 
@@ -191,4 +191,27 @@ fn a_number_that_went_out_of_sight_is_not_typed_in_any_more() {
         desk.wait(0.1);
     }
     assert!(field(&desk).is_some());
+}
+
+#[test]
+fn the_wheel_moves_a_value_and_not_the_low_panel_that_it_is_in() {
+    let mut desk = desk();
+    desk.harness.set_size(vec2(1120.0, 190.0));
+    desk.open("Player");
+    let place = |desk: &Desk| desk.control("Pluck force").expect("it is there");
+    let turn = |desk: &mut Desk, at: Pos2| {
+        desk.point(at);
+        let (unit, delta) = (MouseWheelUnit::Line, vec2(0.0, -1.0));
+        let (phase, source, modifiers) = (TouchPhase::Move, MouseWheelSource::Wheel, Modifiers::NONE);
+        desk.harness.event(Event::MouseWheel { unit, delta, phase, source, modifiers });
+        desk.wait(0.5);
+    };
+    let before = place(&desk);
+    turn(&mut desk, before);
+    assert!(desk.params.player.pluck_force.value() < 1.0);
+    assert_eq!(place(&desk), before);
+    // Between the controls it scrolls.
+    let width = desk.harness.get_all_by_label("Pluck force").map(|node| node.rect().width()).last();
+    turn(&mut desk, before + vec2(0.5 * width.unwrap_or_default() + 8.0, 0.0));
+    assert_ne!(place(&desk), before);
 }

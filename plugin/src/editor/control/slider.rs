@@ -76,8 +76,8 @@ fn notches(ui: &Ui, id: Id, area: Rect) -> i32 {
     turned.trunc() as i32
 }
 
-/// With Shift all that the wheel does over a slider is the slider's: a narrow window's panel stays where it is, also while the
-/// last notch would still move it.
+/// Up and down the wheel is the slider's, and with Shift whatever it does: the panel stays where it is, also while the last notch
+/// would still move it.
 fn keep_from_scrolling(ui: &Ui, id: Id) {
     let id = id.with("fine");
     let (now, shift, is_turned) = ui.input(|input| {
@@ -92,9 +92,12 @@ fn keep_from_scrolling(ui: &Ui, id: Id) {
         ui.data_mut(|data| data.insert_temp(id, now));
     }
     let turned = ui.data(|data| data.get_temp::<f64>(id));
-    if shift || turned.is_some_and(|turned| now - turned < SMOOTHED) {
-        ui.input_mut(|input| input.smooth_scroll_delta.x = 0.0);
-    }
+    ui.input_mut(|input| {
+        input.smooth_scroll_delta.y = 0.0;
+        if shift || turned.is_some_and(|turned| now - turned < SMOOTHED) {
+            input.smooth_scroll_delta.x = 0.0;
+        }
+    });
 }
 
 /// The line, full from the usual value to the present one, and where a host's modulation has it.
