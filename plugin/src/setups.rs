@@ -190,7 +190,8 @@ pub fn check(path: &Path) -> Result<Checked> {
 ///
 /// # Errors
 /// When the name is empty, longer than [`LONGEST_NAME`], has anything but letters, digits, spaces, - and _ in it, is a device's on
-/// Windows or that of one that comes with the program, a value is out of its range, or the file cannot be written.
+/// Windows or that of one that comes with the program, a value is out of its range, it cannot be [played](playable), or the file
+/// cannot be written.
 pub fn save(setup: &Setup, folder: &Path) -> Result<SetupFile> {
     let name = setup.name.trim();
     let usable = |letter: char| letter.is_alphanumeric() || " -_".contains(letter);
@@ -201,14 +202,32 @@ pub fn save(setup: &Setup, folder: &Path) -> Result<SetupFile> {
     ensure!(!SHIPPED.contains(&name), "{name} comes with the program: give yours another name");
     ensure!(!is_device(name), "an instrument cannot be named {name:?}: Windows has it for a device");
     setup.check().with_context(|| name.to_owned())?;
+    let text = setup.to_toml()?;
+    playable(&text).with_context(|| name.to_owned())?;
     let file = SetupFile { name: name.to_owned(), path: place(name, folder) };
-    files::put(&file.path, &setup.to_toml()?)?;
+    files::put(&file.path, &text)?;
     Ok(file)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// It would be saved in place of one that can be, and something else be played.
+    #[test]
+    fn what_cannot_be_played_is_not_saved() {
+        let folder = tempfile::tempdir().expect("there is room");
+        let electric = Setup::builtin("electric").expect("it is built in");
+        let mut setup = Setup { name: "Mine".into(), ..electric };
+        let file = save(&setup, folder.path()).expect("it can be played");
+        let before = read(&file.path).expect("it is there");
+        // In all ranges, but too stiff to sound so low.
+        (setup.string[0].pitch, setup.string[0].core_radius) = (20.0, 0.005);
+        setup.check().expect("all is in its range");
+        let error = format!("{:#}", save(&setup, folder.path()).expect_err("no such string can be"));
+        assert!(error.starts_with("Mine: string[1]") && !error.contains('\n'), "{error}");
+        assert_eq!(read(&file.path).expect("it is there"), before);
+    }
 
     #[test]
     fn what_was_installed_before_an_error_is_named() {
