@@ -1,5 +1,5 @@
-//! Promise: everything that can be set has one control in the panels. It is dragged, turned with the wheel, typed with or
-//! without its unit and moved by the keyboard, and the host is told of one whole gesture each time.
+//! Promise: everything that can be set has one control in the panels. It is dragged, turned with the
+//! wheel, typed and moved by the keyboard, and the host is told of one whole gesture each time.
 
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, vec2};
 use egui_kittest::kittest::Queryable;
@@ -7,28 +7,21 @@ use low_action::engine::Quality;
 use low_action::params::words::heard_of;
 use low_action::params::{InputChoice, InstrumentChoice};
 use low_action::setups::SHIPPED;
-use low_action_tests::desk::{Desk, Told, is_gesture};
+use low_action_tests::desk::{Desk, is_gesture};
 use nice_plug::prelude::{Enum, ParamSetter};
 
 /// Opens a panel and points at one of its controls.
-fn at(desk: &mut Desk, tab: &str, name: &str) -> egui::Pos2 {
+pub fn at(desk: &mut Desk, tab: &str, name: &str) -> egui::Pos2 {
     desk.open(tab);
     let place = desk.control(name).unwrap_or_else(|| panic!("{name} is not in {tab}"));
     desk.host.take();
     place
 }
 
-fn write(desk: &mut Desk, text: &str) {
+/// Writes into what has the keyboard.
+pub fn write(desk: &mut Desk, text: &str) {
     desk.harness.event(Event::Text(text.into()));
     desk.wait(0.05);
-}
-
-/// Clicks on the number of the level and writes over it.
-fn write_level(desk: &mut Desk, text: &str) {
-    let number = at(desk, "Sound", "Type Level");
-    desk.click(number);
-    desk.wait(0.05);
-    write(desk, text);
 }
 
 #[test]
@@ -131,96 +124,10 @@ fn what_changes_nothing_is_no_gesture() {
     assert_eq!(desk.host.take(), [], "it is chosen already");
 }
 
-fn wheel(unit: MouseWheelUnit, delta: egui::Vec2) -> Event {
+/// A turn of the wheel.
+pub fn wheel(unit: MouseWheelUnit, delta: egui::Vec2) -> Event {
     let (phase, source) = (TouchPhase::Move, MouseWheelSource::Wheel);
     Event::MouseWheel { unit, delta, phase, source, modifiers: Modifiers::NONE }
-}
-
-/// A host sets what it is told at the end of a block, which may be some pictures later.
-#[test]
-fn no_step_is_lost_on_the_way() {
-    let mut desk = Desk::new();
-    let place = at(&mut desk, "Sound", "Level");
-    desk.point(place);
-    let value = |desk: &Desk| desk.params.output.level.value();
-    let notch = |desk: &mut Desk| {
-        desk.harness.event(wheel(MouseWheelUnit::Line, vec2(0.0, -1.0)));
-        desk.picture();
-    };
-    notch(&mut desk);
-    let one = value(&desk);
-    assert!(one < 0.0);
-    desk.host.be_late();
-    for _ in 0..2 {
-        notch(&mut desk);
-        // The longest block there is takes a second.
-        desk.wait(1.0);
-        notch(&mut desk);
-        notch(&mut desk);
-        desk.host.catch_up();
-    }
-    assert!((value(&desk) - 7.0 * one).abs() < 0.01, "{} dB, {one} dB each", value(&desk));
-    // What a host does not grant is not waited for.
-    notch(&mut desk);
-    desk.wait(2.0);
-    notch(&mut desk);
-    let asked = desk.host.take().into_iter().filter(|told| matches!(told, Told::Set(..)));
-    let asked: Vec<Told> = asked.collect();
-    assert_eq!(asked[asked.len() - 1], asked[asked.len() - 2]);
-    // And what it has moved itself stays so.
-    ParamSetter::new(&*desk.host).set_parameter(&desk.params.output.level, -20.0);
-    desk.host.catch_up();
-    desk.wait(0.1);
-    notch(&mut desk);
-    desk.host.catch_up();
-    assert!((value(&desk) - (one - 20.0)).abs() < 0.01, "{} dB", value(&desk));
-}
-
-/// In a narrow window the panel is scrolled so.
-#[test]
-fn a_swipe_to_the_side_sets_nothing() {
-    let mut desk = Desk::sized(0.8, 1.0);
-    let place = at(&mut desk, "Sound", "Level");
-    desk.point(place);
-    desk.host.take();
-    desk.harness.event(wheel(MouseWheelUnit::Point, vec2(60.0, 0.0)));
-    desk.wait(0.1);
-    assert_eq!(desk.host.take(), []);
-}
-
-/// Systems turn the wheel to the side then, as a swipe is.
-#[test]
-fn with_shift_the_wheel_moves_the_value_and_not_the_panel() {
-    let mut desk = Desk::sized(0.5, 1.0);
-    desk.open("Player");
-    let place = |desk: &Desk| desk.control("Pluck force").expect("it is there");
-    let (before, middle) = (place(&desk), desk.params.player.pluck_force.value());
-    desk.point(before);
-    for delta in [vec2(0.0, -3.0), vec2(-3.0, 0.0)] {
-        desk.harness.event_modifiers(wheel(MouseWheelUnit::Line, delta), Modifiers::SHIFT);
-        desk.wait(0.5);
-        assert_eq!(place(&desk), before, "{delta:?}");
-    }
-    assert!(desk.params.player.pluck_force.value() < middle);
-    desk.harness.event(wheel(MouseWheelUnit::Line, vec2(-3.0, 0.0)));
-    desk.wait(0.5);
-    assert_ne!(place(&desk), before, "without Shift it is scrolled");
-}
-
-#[test]
-fn the_wheel_moves_by_steps() {
-    let mut desk = Desk::new();
-    let place = at(&mut desk, "Sound", "Level");
-    desk.point(place);
-    let notch = |lines: f32| wheel(MouseWheelUnit::Line, vec2(0.0, lines));
-    desk.harness.event(notch(-2.0));
-    desk.picture();
-    let down = desk.params.output.level.value();
-    assert!((-4.0..-1.0).contains(&down), "{down} dB");
-    assert!(is_gesture(&desk.host.take(), "level"));
-    desk.harness.event(notch(2.0));
-    desk.picture();
-    assert_eq!(desk.params.output.level.value(), 0.0);
 }
 
 /// A host would be told of a second gesture within the first, and the end of one would be taken for that of both.
@@ -248,83 +155,6 @@ fn nothing_else_moves_what_is_dragged() {
     assert!((0.15..0.4).contains(&(value(&desk) - before)), "{}", value(&desk));
     desk.undo();
     assert_eq!(value(&desk), before);
-}
-
-#[test]
-fn numbers_are_typed_with_or_without_unit() {
-    let mut desk = Desk::new();
-    for (text, decibels) in
-        [("-6", -6.0), ("-12 dB", -12.0), ("-7dB", -7.0), ("-8 db", -8.0), (" -9,5 ", -9.5), ("−3DB", -3.0)]
-    {
-        write_level(&mut desk, text);
-        assert!(desk.host.take().is_empty(), "nothing is set before it is entered");
-        desk.key(Key::Enter);
-        assert_eq!(desk.params.output.level.value(), decibels);
-        assert!(is_gesture(&desk.host.take(), "level"));
-        desk.wait(1.0);
-    }
-}
-
-#[test]
-fn what_is_no_number_is_not_taken() {
-    let mut desk = Desk::new();
-    write_level(&mut desk, "loud");
-    desk.key(Key::Enter);
-    write(&mut desk, "and more");
-    assert!(desk.host.take().is_empty());
-    for text in ["nan", "NaN dB", "inf", "-infinity"] {
-        write_level(&mut desk, text);
-        desk.key(Key::Enter);
-        assert!(desk.host.take().is_empty(), "{text}");
-        desk.wait(1.0);
-    }
-    write_level(&mut desk, "-6");
-    desk.key(Key::Escape);
-    assert!(desk.host.take().is_empty());
-    assert_eq!(desk.params.output.level.value(), 0.0);
-}
-
-#[test]
-fn a_number_that_is_left_is_taken() {
-    let mut desk = Desk::new();
-    write_level(&mut desk, "-6");
-    desk.key(Key::Tab);
-    assert_eq!(desk.params.output.level.value(), -6.0);
-    desk.wait(1.0);
-    write_level(&mut desk, "-9");
-    desk.click(egui::pos2(600.0, 24.0));
-    desk.wait(0.05);
-    assert_eq!(desk.params.output.level.value(), -9.0);
-    assert!(is_gesture(&desk.host.take(), "level"));
-}
-
-/// It would be something else than what was typed.
-#[test]
-fn another_unit_and_what_is_out_of_range_are_not_taken() {
-    let mut desk = Desk::new();
-    for (name, text, range) in [
-        ("Action", "500", "10 % to 300 %"),
-        ("Action", "5", "10 % to 300 %"),
-        ("Relief", "1 cm", "-0.50 mm to +2.00 mm"),
-        ("String 6 tuning", "20 mm", "-12.00 semitones to +7.00 semitones"),
-    ] {
-        let number = at(&mut desk, "Luthier", &format!("Type {name}"));
-        desk.click(number);
-        desk.wait(0.05);
-        write(&mut desk, text);
-        desk.wait(0.1);
-        assert!(
-            desk.harness.query_by_label_contains(range).is_some(),
-            "{text} in {name}: it tells the range"
-        );
-        desk.key(Key::Enter);
-        assert_eq!(desk.host.take(), [], "{text} in {name}");
-        desk.wait(1.0);
-    }
-    desk.enter("Luthier", "String 6 tuning", "-20 cents");
-    assert!((desk.params.strings[5].tuning.value() + 0.2).abs() < 1e-6);
-    desk.enter("Sound", "Tuning", "0.5 semitones");
-    assert_eq!(desk.params.setup.tuning.value(), 50.0);
 }
 
 #[test]

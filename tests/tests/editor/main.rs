@@ -8,4 +8,6 @@ mod history;
 mod keys;
 mod lights;
 mod narrow;
+mod numbers;
 mod side;
+mod wheel;

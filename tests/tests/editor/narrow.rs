@@ -2,9 +2,11 @@
 //! is in a menu, which mouse and keyboard open and use alike; so can the tabs of the panels at its bottom.
 
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, Rect, TouchPhase, pos2, vec2};
+use egui::{Key, MouseWheelUnit, Pos2, Rect, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use low_action_tests::desk::Desk;
+
+use crate::controls::wheel;
 
 /// What has no room in a narrow window.
 const MOVED: [&str; 5] = ["A", "B", "A to B", "Undo", "Redo"];
@@ -201,9 +203,7 @@ fn the_wheel_moves_a_value_and_not_the_low_panel_that_it_is_in() {
     let place = |desk: &Desk| desk.control("Pluck force").expect("it is there");
     let turn = |desk: &mut Desk, at: Pos2| {
         desk.point(at);
-        let (unit, delta) = (MouseWheelUnit::Line, vec2(0.0, -1.0));
-        let (phase, source, modifiers) = (TouchPhase::Move, MouseWheelSource::Wheel, Modifiers::NONE);
-        desk.harness.event(Event::MouseWheel { unit, delta, phase, source, modifiers });
+        desk.harness.event(wheel(MouseWheelUnit::Line, vec2(0.0, -1.0)));
         desk.wait(0.5);
     };
     let before = place(&desk);
