@@ -4,8 +4,8 @@ mod lights;
 
 use egui::containers::menu::menu_style;
 use egui::{
-    Align, Align2, Button, Frame, Layout, Popup, PopupCloseBehavior, Rect, Role, Sense, Style, Ui, UiBuilder,
-    WidgetInfo, pos2, vec2,
+    Align, Align2, Button, Frame, Label, Layout, Popup, PopupCloseBehavior, Rect, RichText, Role, Sense,
+    Style, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use super::Given;
@@ -41,6 +41,8 @@ const FOR_TITLE: f32 = 440.0;
 const FLOOR: f32 = -60.0;
 /// Width of the end that says that full scale was reached, points.
 const CLIPPED: f32 = 4.0;
+/// Size of the number of the highest level, points.
+const HIGHEST: egui::Vec2 = vec2(48.0, 14.0);
 /// How fast the meter falls, dB a second.
 const FALL: f32 = 24.0;
 
@@ -137,11 +139,23 @@ impl Header {
             info
         });
         let highest = self.highest[0].max(self.highest[1]);
+        show_highest(ui, highest, area);
         response.on_hover_text(format!(
             "Level of both channels, from 60 dB below full scale; red at full scale, and the end stays so. Highest so far: \
              {highest:.1} dB. A click begins anew"
         ));
     }
+}
+
+/// The highest level under the right end of the meter, once there was one.
+fn show_highest(ui: &mut Ui, highest: f32, meter: Rect) {
+    if highest <= FLOOR {
+        return;
+    }
+    let colour = if highest >= 0.0 { theme::ALARM } else { theme::SOFT_TEXT };
+    let text = RichText::new(format!("{highest:.1} dB")).font(theme::SMALL).color(colour);
+    let corner = pos2(meter.right() - HIGHEST.x, meter.bottom() + 2.0);
+    ui.put(Rect::from_min_size(corner, HIGHEST), Label::new(text));
 }
 
 /// A button, and behind it what has no room beside it; it stays open, since one compares more than once. Gives back

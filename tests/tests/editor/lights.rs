@@ -114,8 +114,10 @@ fn full_scale_is_told_until_it_was_seen() {
     desk.meters.see_output(&[0.5, 2.0], &[0.1]);
     desk.wait(4.0);
     assert!(says(&mut desk, "6.0"), "long after");
+    assert!(desk.harness.query_by_label("6.0 dB").is_some(), "under the meter, without the mouse");
     desk.click(meter);
     desk.point(egui::pos2(2.0, 2.0));
     desk.wait(0.1);
     assert!(says(&mut desk, "-60.0"));
+    assert!(desk.harness.query_by_label("6.0 dB").is_none());
 }
