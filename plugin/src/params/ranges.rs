@@ -117,7 +117,7 @@ impl Default for PlayerParams {
             pluck_release: shift("Pluck release", -1.0, 4.0, " ms", PART_STEP),
             velocity_curve: FloatParam::new("Velocity curve", 1.5, FloatRange::Linear { min: 0.0, max: 4.0 })
                 .with_step_size(PART_STEP)
-                .with_string_to_value(reads("")),
+                .with_string_to_value(Arc::new(reads(""))),
             variation: part("Variation", EngineOptions::VARIATION as f32),
             take: IntParam::new("Take", 0, IntRange::Linear { min: 0, max: MOST_TAKES })
                 .with_string_to_value(Arc::new(|text| whole(text, ""))),
@@ -161,7 +161,7 @@ impl Default for OutputParams {
                 .with_step_size(FINE_STEP)
                 .with_smoother(SmoothingStyle::Linear(LEVEL_RAMP))
                 .with_unit(" dB")
-                .with_string_to_value(reads("dB")),
+                .with_string_to_value(Arc::new(reads("dB"))),
             bypass: BoolParam::new("Bypass", false).make_bypass(),
         }
     }
@@ -217,7 +217,7 @@ fn shift(name: &str, min: f32, max: f32, unit: &'static str, step: f32) -> Float
         .with_step_size(step)
         .with_unit(unit)
         .with_value_to_string(Arc::new(move |value| signed(value, decimals)))
-        .with_string_to_value(reads(unit))
+        .with_string_to_value(Arc::new(reads(unit)))
 }
 
 /// The value of a parameter as the number its decimal notation means, so that 0.3 set in a host and

@@ -118,7 +118,7 @@ fn what_changes_nothing_is_no_gesture() {
     let list = at(&mut desk, "Luthier", "Instrument");
     desk.click(list);
     desk.wait(0.1);
-    let chosen = desk.harness.query_all_by_label("Electric").map(|node| node.rect().center()).last();
+    let chosen = desk.harness.query_all_by_label("Electric").map(|node| node.rect().center()).next_back();
     desk.click(chosen.expect("the list is open"));
     desk.wait(0.1);
     assert_eq!(desk.host.take(), [], "it is chosen already");

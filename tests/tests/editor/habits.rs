@@ -46,7 +46,7 @@ fn text_can_be_read() {
     // What is chosen, or marked to be written over, lies over all of them.
     let context = egui::Context::default();
     Editor::dress(&context);
-    let selection = context.global_style().visuals.selection.clone();
+    let selection = context.global_style().visuals.selection;
     for behind in [theme::GROUND, theme::SURFACE, theme::RAISED, theme::LIFTED] {
         let contrast = contrast(selection.stroke.color, behind.blend(selection.bg_fill));
         assert!(contrast >= 4.5, "what is chosen on {behind:?}: {contrast:.2}");

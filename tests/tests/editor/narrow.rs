@@ -211,7 +211,7 @@ fn the_wheel_moves_a_value_and_not_the_low_panel_that_it_is_in() {
     assert!(desk.params.player.pluck_force.value() < 1.0);
     assert_eq!(place(&desk), before);
     // Between the controls it scrolls.
-    let width = desk.harness.get_all_by_label("Pluck force").map(|node| node.rect().width()).last();
+    let width = desk.harness.get_all_by_label("Pluck force").map(|node| node.rect().width()).next_back();
     turn(&mut desk, before + vec2(0.5 * width.unwrap_or_default() + 8.0, 0.0));
     assert_ne!(place(&desk), before);
 }

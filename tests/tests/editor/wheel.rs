@@ -1,6 +1,6 @@
 //! Promise: the wheel moves the value that it is over by steps, none of which is lost, and scrolls a narrow panel only to the side.
 
-use egui::{Event, Modifiers, MouseWheelUnit, vec2};
+use egui::{Modifiers, MouseWheelUnit, vec2};
 use low_action_tests::desk::{Desk, Told, is_gesture};
 use nice_plug::prelude::ParamSetter;
 

@@ -235,7 +235,7 @@ fn crossed(from: Pos2, to: Pos2, sight: &Sight, count: usize) -> impl Iterator<I
     (0..count).map(move |step| if down { step } else { count - 1 - step }).filter_map(move |string| {
         let y = sight.y(string);
         let part = (y - from.y) / (to.y - from.y);
-        ((from.y < y) != (to.y < y)).then(|| (string, from.x + part * (to.x - from.x)))
+        ((from.y < y) != (to.y < y)).then_some((string, from.x + part * (to.x - from.x)))
     })
 }
 

@@ -1,7 +1,5 @@
 //! How numbers are read, as people write them, and how some are shown.
 
-use std::sync::Arc;
-
 /// A number with its sign, which nothing has with a plus.
 pub(super) fn signed(value: f32, decimals: usize) -> String {
     let text = format!("{value:+.decimals$}");
@@ -10,8 +8,8 @@ pub(super) fn signed(value: f32, decimals: usize) -> String {
 }
 
 /// Reads numbers of such a unit.
-pub(super) fn reads(unit: &'static str) -> Arc<dyn Fn(&str) -> Option<f32> + Send + Sync> {
-    Arc::new(move |text| number(text, unit))
+pub(super) fn reads(unit: &'static str) -> impl Fn(&str) -> Option<f32> + Send + Sync {
+    move |text| number(text, unit)
 }
 
 /// Pitches are written in either of these, of which one is a hundred of the other.
