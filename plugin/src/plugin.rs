@@ -1,4 +1,4 @@
-//! The CLAP and VST3 plugin: a host's notes go into the [`Engine`], its samples
+//! The CLAP and VST3 plugin: a host's notes go into the [`Engine`](crate::engine::Engine), its samples
 //! come out.
 //!
 //! Nothing is computed here but the output level, which leaves the samples untouched at 0 dB: a host

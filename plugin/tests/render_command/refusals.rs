@@ -5,7 +5,9 @@ use std::fs;
 use midly::num::u24;
 use midly::{MetaMessage, TrackEventKind};
 
-use crate::room::{Room, message, midi_of, peak, song};
+#[cfg(unix)]
+use crate::room::peak;
+use crate::room::{Room, message, midi_of, song};
 
 #[test]
 fn wrong_usage_is_code_2() {
