@@ -188,8 +188,8 @@ mod tests {
     /// Every instruction set gives the same bits in every pass there is, for every number of points in the last rows.
     #[test]
     fn every_instruction_set_gives_the_same_bits() {
-        if Instructions::all().into_iter().all(Instructions::is_any) {
-            println!("passed over: this machine has no instructions but those of any processor");
+        if !Instructions::best().are_wide() {
+            println!("passed over: this machine has no instructions but those of two lanes");
         }
         let passes = [0, 1, 2].into_iter().flat_map(|reach| {
             [(false, false), (false, true), (true, false), (true, true)]
@@ -237,7 +237,7 @@ mod tests {
             let bits: Vec<u64> = w.iter().chain(&*d_next).chain(&*u_next).map(|x| x.to_bits()).collect();
             (format!("{products:?} {clearances:?}"), bits)
         };
-        let expected = run(Instructions::any());
+        let expected = run(Instructions::Any);
         for instructions in Instructions::all() {
             assert_eq!(
                 run(instructions),

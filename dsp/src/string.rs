@@ -84,10 +84,10 @@ impl Scratch {
         }
     }
 
-    /// Has the string stepped by instructions that any processor has, from now on. The bits are the same; this
-    /// is for whoever measures what vectors are worth.
+    /// Has the string stepped by the instructions of a processor without wide vectors (AVX2), from now on. The bits are the same;
+    /// this is for whoever measures what they are worth.
     pub fn leave_vectors(&mut self) {
-        self.instructions = Instructions::any();
+        self.instructions = Instructions::narrow();
     }
 
     /// Back to the state of new room, without allocating. What is not set here a step writes before it reads it: the prediction,
