@@ -1,4 +1,4 @@
-//! The promise: whole steps give the same bits by the instructions that any processor has as by the widest of this machine, with
+//! The promise: whole steps give the same bits by the two lanes of an old processor as by the widest of this machine, with
 //! many contacts and with few.
 
 use low_action_dsp::{Scene, Simulation};
