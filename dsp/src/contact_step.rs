@@ -1,7 +1,7 @@
 //! One step of a string that may touch something: find the contacts, solve for their forces, advance, and look
 //! whether the string was driven into others.
 
-use pulp::Simd;
+use crate::instructions::Vectors;
 
 use crate::active::Active;
 use crate::drive::Drive;
@@ -25,9 +25,9 @@ const CREATED_AT_MOST: f64 = 1e-12;
 impl State {
     /// The part of a step that follows the prediction.
     #[inline(always)]
-    pub(crate) fn contact_step<S: Simd>(
+    pub(crate) fn contact_step<V: Vectors>(
         &mut self,
-        simd: S,
+        simd: V,
         model: &Model,
         drive: &Drive,
         predicted: Stretching,

@@ -7,9 +7,7 @@
 //! other one lies half way between two steps, and has the same response read there. Nothing but sums of products in
 //! a fixed order: the same bits in blocks of any size.
 
-use pulp::{Simd, WithSimd};
-
-use crate::instructions::Instructions;
+use crate::instructions::{Instructions, Pass, Vectors};
 use crate::ratio::Ratio;
 
 /// How late everything is heard, samples of the host's.
@@ -138,11 +136,11 @@ struct Give<'a> {
     out: &'a mut [f64],
 }
 
-impl WithSimd for Give<'_> {
+impl Pass for Give<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn by<V: Vectors>(self, _: V) {
         self.decimator.give_into(self.out);
     }
 }

@@ -4,11 +4,11 @@
 
 mod advance;
 mod clear;
-mod lanes;
+mod rows;
 mod sweep;
 mod weights;
 
-use pulp::{Simd, WithSimd};
+use crate::instructions::{Pass, Vectors};
 
 use crate::field::{Ends, Field};
 use crate::grid::Grid;
@@ -18,7 +18,6 @@ use crate::skyline::Clearance;
 use advance::LastPass;
 pub(crate) use advance::{Advance, Moved, STILL};
 use clear::Clear;
-pub(crate) use lanes::{part_of, vectors};
 use sweep::Predict;
 pub(crate) use weights::Weights;
 
@@ -84,34 +83,38 @@ impl Kernel {
     /// The prediction w from u, d and v a step ago, and v of this step in the place of that; how the string is bent, and what
     /// its stretching depends on.
     #[inline(always)]
-    pub fn predict<S: Simd>(&self, simd: S, prediction: Prediction) -> Stretching {
+    pub fn predict<V: Vectors>(&self, simd: V, prediction: Prediction) -> Stretching {
         match self.reach {
-            0 => self.predict_reaching::<S, 0>(simd, prediction),
-            1 => self.predict_reaching::<S, 1>(simd, prediction),
-            _ => self.predict_reaching::<S, 2>(simd, prediction),
+            0 => self.predict_reaching::<V, 0>(simd, prediction),
+            1 => self.predict_reaching::<V, 1>(simd, prediction),
+            _ => self.predict_reaching::<V, 2>(simd, prediction),
         }
     }
 
     #[inline(always)]
-    fn predict_reaching<S: Simd, const REACH: usize>(&self, simd: S, prediction: Prediction) -> Stretching {
-        match (self.stretch, self.loss) {
-            (false, false) => self.sweep::<S, REACH, false, false>(simd, prediction),
-            (false, true) => self.sweep::<S, REACH, false, true>(simd, prediction),
-            (true, false) => self.sweep::<S, REACH, true, false>(simd, prediction),
-            (true, true) => self.sweep::<S, REACH, true, true>(simd, prediction),
-        }
-    }
-
-    #[inline(always)]
-    fn sweep<S: Simd, const REACH: usize, const STRETCH: bool, const LOSS: bool>(
+    fn predict_reaching<V: Vectors, const REACH: usize>(
         &self,
-        simd: S,
+        simd: V,
+        prediction: Prediction,
+    ) -> Stretching {
+        match (self.stretch, self.loss) {
+            (false, false) => self.sweep::<V, REACH, false, false>(simd, prediction),
+            (false, true) => self.sweep::<V, REACH, false, true>(simd, prediction),
+            (true, false) => self.sweep::<V, REACH, true, false>(simd, prediction),
+            (true, true) => self.sweep::<V, REACH, true, true>(simd, prediction),
+        }
+    }
+
+    #[inline(always)]
+    fn sweep<V: Vectors, const REACH: usize, const STRETCH: bool, const LOSS: bool>(
+        &self,
+        simd: V,
         Prediction { weights, stretch, from, to, shape }: Prediction,
     ) -> Stretching {
         // The last difference, to the bridge, belongs to no point that moves.
         let last = if STRETCH { 0.0 } else { from.0[self.ends.last()] };
         let sweep = Predict::<REACH, STRETCH, LOSS> { weights, stretch, from, to, shape, keep: &self.keep };
-        let stretching = simd.vectorize(sweep);
+        let stretching = simd.run(sweep);
         if !STRETCH {
             shape.steepness += last * last;
         }
@@ -120,24 +123,24 @@ impl Kernel {
 
     /// The next motion and displacement.
     #[inline(always)]
-    pub fn advance<S: Simd>(&self, simd: S, pass: Advance) -> Moved {
+    pub fn advance<V: Vectors>(&self, simd: V, pass: Advance) -> Moved {
         if self.stretch {
-            LastPass::<true> { pass, ends: &self.ends }.with_simd(simd)
+            LastPass::<true> { pass, ends: &self.ends }.by(simd)
         } else {
-            LastPass::<false> { pass, ends: &self.ends }.with_simd(simd)
+            LastPass::<false> { pass, ends: &self.ends }.by(simd)
         }
     }
 
     /// How far groups of points are over a skyline.
     #[inline(always)]
-    pub fn clear<S: Simd>(
+    pub fn clear<V: Vectors>(
         &self,
-        simd: S,
+        simd: V,
         displacement: &Field,
         skyline: &Field,
         clearances: &mut [Clearance],
     ) {
-        simd.vectorize(Clear { displacement, skyline, clearances });
+        simd.run(Clear { displacement, skyline, clearances });
     }
 }
 
@@ -168,11 +171,11 @@ mod tests {
         clearances: &'a mut [Clearance],
     }
 
-    impl WithSimd for Passes<'_> {
+    impl Pass for Passes<'_> {
         type Output = (Stretching, Shape, Moved);
 
         #[inline(always)]
-        fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        fn by<V: Vectors>(self, simd: V) -> Self::Output {
             let Passes { kernel, weights, from: (u, d), to: [v, w, d_next, u_next], clearances } = self;
             let mut shape = Shape::default();
             let prediction =
@@ -188,7 +191,7 @@ mod tests {
     /// Every instruction set gives the same bits in every pass there is, for every number of points in the last rows.
     #[test]
     fn every_instruction_set_gives_the_same_bits() {
-        if !Instructions::best().are_wide() {
+        if Instructions::all().len() == 2 {
             println!("passed over: this machine has no instructions but those of two lanes");
         }
         let passes = [0, 1, 2].into_iter().flat_map(|reach| {

@@ -1,12 +1,10 @@
 //! One step of one string: predict without contacts, solve the contacts, advance.
 
-use pulp::{Simd, WithSimd};
-
 use crate::active::Rows;
 use crate::drive::{Drive, Push};
 use crate::field::Field;
 use crate::finger::FingerBefore;
-use crate::instructions::Instructions;
+use crate::instructions::{Instructions, Pass, Vectors};
 use crate::kernel::{Advance, Kernel, Moved, Prediction, Shape, Stretching, Weights};
 use crate::model::{Coasting, Model, Stiffness};
 use crate::roomy::Roomy;
@@ -179,11 +177,11 @@ struct Step<'a> {
     scratch: &'a mut Scratch,
 }
 
-impl WithSimd for Step<'_> {
+impl Pass for Step<'_> {
     type Output = Convergence;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Convergence {
+    fn by<V: Vectors>(self, simd: V) -> Convergence {
         self.state.step_by(simd, self.model, self.drive, self.scratch)
     }
 }
@@ -215,9 +213,9 @@ impl State {
     }
 
     #[inline(always)]
-    fn step_by<S: Simd>(
+    fn step_by<V: Vectors>(
         &mut self,
-        simd: S,
+        simd: V,
         model: &Model,
         drive: &Drive,
         scratch: &mut Scratch,
@@ -257,7 +255,12 @@ impl State {
 
     /// The motion to n + 1 without contacts and stretching, and what stretching depends on.
     #[inline(always)]
-    pub(crate) fn predict<S: Simd>(&mut self, simd: S, drive: &Drive, scratch: &mut Scratch) -> Stretching {
+    pub(crate) fn predict<V: Vectors>(
+        &mut self,
+        simd: V,
+        drive: &Drive,
+        scratch: &mut Scratch,
+    ) -> Stretching {
         let Coasting { mobility, stretch, .. } = scratch.coasting;
         let Scratch { kernel, weights, prediction, shape, .. } = &mut *scratch;
         let from = (&self.displacement, &self.motion);
@@ -296,7 +299,7 @@ impl State {
 
     /// The motion to n + 1 from the prediction; returns the largest of a point, m.
     #[inline(always)]
-    pub(crate) fn advance<S: Simd>(&self, simd: S, stretching: f64, scratch: &mut Scratch) -> f64 {
+    pub(crate) fn advance<V: Vectors>(&self, simd: V, stretching: f64, scratch: &mut Scratch) -> f64 {
         scratch.stretching = stretching;
         let pull = scratch.pull(stretching);
         let Scratch { kernel, prediction, motion, displacement, .. } = scratch;

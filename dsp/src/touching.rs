@@ -1,6 +1,6 @@
 //! Which contacts act in a step: those the string touches at n − 1 or n, or would at n + 1.
 
-use pulp::Simd;
+use crate::instructions::Vectors;
 
 use crate::active::Active;
 use crate::contact::Before;
@@ -183,9 +183,9 @@ impl State {
     /// added to it. Keeps watch of the fixed contacts that may be touched next. No grid point has moved by more than
     /// `largest`, m. `again` where this step has been taken and looked at before.
     #[inline(always)]
-    pub(crate) fn find_missed<S: Simd>(
+    pub(crate) fn find_missed<V: Vectors>(
         &mut self,
-        simd: S,
+        simd: V,
         model: &Model,
         largest: f64,
         again: bool,
@@ -229,9 +229,9 @@ impl State {
 
     /// Looks through all fixed contacts for those that are close, were the string to go on as in this step.
     #[inline(always)]
-    fn look_around<S: Simd>(
+    fn look_around<V: Vectors>(
         &mut self,
-        simd: S,
+        simd: V,
         model: &Model,
         nearer: f64,
         largest: f64,

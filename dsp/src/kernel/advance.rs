@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use pulp::{Simd, WithSimd};
+use crate::instructions::{Pass, Vectors};
 
-use super::lanes::{Row, add_product, part_of, rows, rows_mut, vectors};
+use super::rows::{Row, rows, rows_mut};
 use crate::field::{BESIDE_NUT, Ends, Field, LANES, total};
 
 /// Motion below this, m, is none: what runs ahead of a wave on a silent string would otherwise become a
@@ -40,11 +40,11 @@ pub(super) struct LastPass<'a, 'b, const STRETCH: bool> {
     pub ends: &'a Ends,
 }
 
-impl<const STRETCH: bool> WithSimd for LastPass<'_, '_, STRETCH> {
+impl<const STRETCH: bool> Pass for LastPass<'_, '_, STRETCH> {
     type Output = Moved;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Moved {
+    fn by<V: Vectors>(self, simd: V) -> Moved {
         let LastPass { pass: Advance { pull, from: (w, v, u), to: (d_next, u_next) }, ends } = self;
         let (count, last) = (rows(w).len(), ends.beside_bridge);
         let mut rows = Rows::<STRETCH> {
@@ -76,28 +76,33 @@ struct Rows<'a, const STRETCH: bool> {
 impl<const STRETCH: bool> Rows<'_, STRETCH> {
     /// Moves some of them.
     #[inline(always)]
-    fn advance<S: Simd>(&mut self, simd: S, range: Range<usize>, (d_next, u_next): (&mut Field, &mut Field)) {
+    fn advance<V: Vectors>(
+        &mut self,
+        simd: V,
+        range: Range<usize>,
+        (d_next, u_next): (&mut Field, &mut Field),
+    ) {
         let [w, v, u] = self.from.map(|rows| &rows[range.clone()]);
         let count = w.len();
         let (v, u) = (&v[..count], &u[..count]);
         let [d_next, u_next] = [d_next, u_next].map(|field| &mut rows_mut(field)[range.clone()][..count]);
-        let (pull, still) = (simd.splat_f64s(self.pull), simd.splat_f64s(STILL));
-        for part in 0..vectors::<S>() {
-            let mut largest = part_of::<S>(&self.sizes, part);
-            let mut squares = part_of::<S>(&self.squares, part);
+        let (pull, still) = (simd.splat(self.pull), simd.splat(STILL));
+        for part in 0..V::PARTS {
+            let mut largest = simd.part(&self.sizes, part);
+            let mut squares = simd.part(&self.squares, part);
             for at in 0..count {
-                let d = part_of::<S>(&w[at], part);
-                let v = part_of::<S>(&v[at], part);
-                let d = if STRETCH { simd.sub_f64s(d, simd.mul_f64s(pull, v)) } else { d };
-                let size = simd.abs_f64s(d);
-                let d = simd.select_f64s(simd.less_than_f64s(size, still), simd.splat_f64s(0.0), d);
-                S::as_mut_simd_f64s(&mut d_next[at]).0[part] = d;
-                S::as_mut_simd_f64s(&mut u_next[at]).0[part] = simd.add_f64s(part_of::<S>(&u[at], part), d);
-                largest = simd.max_f64s(size, largest);
-                add_product(simd, &mut squares, d, d);
+                let d = simd.part(&w[at], part);
+                let v = simd.part(&v[at], part);
+                let d = if STRETCH { simd.sub(d, simd.mul(pull, v)) } else { d };
+                let size = simd.abs(d);
+                let d = simd.clear_below(d, size, still);
+                simd.put(&mut d_next[at], part, d);
+                simd.put(&mut u_next[at], part, simd.add(simd.part(&u[at], part), d));
+                largest = simd.max(size, largest);
+                squares = simd.add_product(squares, d, d);
             }
-            S::as_mut_simd_f64s(&mut self.sizes).0[part] = largest;
-            S::as_mut_simd_f64s(&mut self.squares).0[part] = squares;
+            simd.put(&mut self.sizes, part, largest);
+            simd.put(&mut self.squares, part, squares);
         }
     }
 }

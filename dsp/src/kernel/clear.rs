@@ -1,8 +1,8 @@
 //! How far a string is over a skyline.
 
-use pulp::{Simd, WithSimd};
+use crate::instructions::{Pass, Vectors};
 
-use super::lanes::{part_of, rows, vectors};
+use super::rows::rows;
 use crate::field::Field;
 use crate::skyline::{CLEARED, Clearance};
 
@@ -13,23 +13,23 @@ pub(super) struct Clear<'a> {
     pub clearances: &'a mut [Clearance],
 }
 
-impl WithSimd for Clear<'_> {
+impl Pass for Clear<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
+    fn by<V: Vectors>(self, simd: V) {
         let groups = rows(self.displacement).chunks(CLEARED).zip(rows(self.skyline).chunks(CLEARED));
         for (clearance, (points, tops)) in self.clearances.iter_mut().zip(groups) {
-            for part in 0..vectors::<S>() {
-                let far = simd.splat_f64s(f64::INFINITY);
+            for part in 0..V::PARTS {
+                let far = simd.splat(f64::INFINITY);
                 let (mut over, mut lowest) = (far, far);
                 for (point, top) in points.iter().zip(tops) {
-                    let point = part_of::<S>(point, part);
-                    over = simd.min_f64s(over, simd.sub_f64s(point, part_of::<S>(top, part)));
-                    lowest = simd.min_f64s(lowest, point);
+                    let point = simd.part(point, part);
+                    over = simd.min(over, simd.sub(point, simd.part(top, part)));
+                    lowest = simd.min(lowest, point);
                 }
-                S::as_mut_simd_f64s(&mut clearance.over).0[part] = over;
-                S::as_mut_simd_f64s(&mut clearance.lowest).0[part] = lowest;
+                simd.put(&mut clearance.over, part, over);
+                simd.put(&mut clearance.lowest, part, lowest);
             }
         }
     }

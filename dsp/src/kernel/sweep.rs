@@ -1,75 +1,80 @@
 //! The sweep of a prediction: rows one after another, with what is needed of their neighbours in registers.
 
-use pulp::{Simd, WithSimd};
+use crate::instructions::{Pass, Vectors};
 
-use super::lanes::{Row, add_product, part_of, rows, rows_after, rows_before, rows_mut, vectors};
+use super::rows::{Row, rows, rows_after, rows_before, rows_mut};
 use super::{Shape, Stretching, Weights};
 use crate::field::{Field, LANES, total};
 
 /// Sums of a sweep in each lane.
 #[derive(Clone, Copy)]
-struct Sums<S: Simd> {
+struct Sums<V: Vectors> {
     /// |δu|².
-    steepness: S::f64s,
+    steepness: V::Vector,
     /// vᵀ(u + w).
-    along: S::f64s,
+    along: V::Vector,
     /// vᵀv.
-    curvature: S::f64s,
+    curvature: V::Vector,
 }
 
-impl<S: Simd> Sums<S> {
+impl<V: Vectors> Sums<V> {
     /// Adds the differences of a row to the one before, where it moves.
     #[inline(always)]
-    fn add_slope(&mut self, simd: S, keep: S::f64s, slope: S::f64s) {
-        let slope = simd.mul_f64s(keep, slope);
-        add_product(simd, &mut self.steepness, slope, slope);
+    fn add_slope(&mut self, simd: V, keep: V::Vector, slope: V::Vector) {
+        let slope = simd.mul(keep, slope);
+        self.steepness = simd.add_product(self.steepness, slope, slope);
     }
 }
 
 /// Weights in every lane.
-struct Splat<S: Simd> {
-    motion: S::f64s,
-    near: [S::f64s; 3],
-    before: S::f64s,
+struct Splat<V: Vectors> {
+    motion: V::Vector,
+    near: [V::Vector; 3],
+    before: V::Vector,
 }
 
 /// What a prediction reads in its own row.
-struct Here<S: Simd> {
-    u: S::f64s,
-    d: S::f64s,
+struct Here<V: Vectors> {
+    u: V::Vector,
+    d: V::Vector,
     /// v a step ago.
-    v_before: S::f64s,
+    v_before: V::Vector,
     /// 1 where it moves, 0 elsewhere.
-    keep: S::f64s,
+    keep: V::Vector,
 }
 
 /// What a sweep knows of the rows around the present one.
-struct Around<S: Simd> {
+struct Around<V: Vectors> {
     /// u two rows ahead.
-    ahead: S::f64s,
+    ahead: V::Vector,
     /// Its difference to the row before.
-    slope: S::f64s,
+    slope: V::Vector,
     /// v from two rows before to one ahead.
-    v: [S::f64s; 4],
+    v: [V::Vector; 4],
 }
 
-impl<S: Simd> Around<S> {
+impl<V: Vectors> Around<V> {
     /// Around the first row, of the three rows of u before it and the three from it on, and where the first three move.
     /// Adds up their slopes, which say how a string is stretched that does not pull itself tight.
     #[inline(always)]
-    fn first<const STRETCH: bool>(simd: S, u: [S::f64s; 6], keep: [S::f64s; 3], sums: &mut Sums<S>) -> Self {
+    fn first<const STRETCH: bool>(
+        simd: V,
+        u: [V::Vector; 6],
+        keep: [V::Vector; 3],
+        sums: &mut Sums<V>,
+    ) -> Self {
         let slopes = [
-            simd.sub_f64s(u[1], u[0]),
-            simd.sub_f64s(u[2], u[1]),
-            simd.sub_f64s(u[3], u[2]),
-            simd.sub_f64s(u[4], u[3]),
-            simd.sub_f64s(u[5], u[4]),
+            simd.sub(u[1], u[0]),
+            simd.sub(u[2], u[1]),
+            simd.sub(u[3], u[2]),
+            simd.sub(u[4], u[3]),
+            simd.sub(u[5], u[4]),
         ];
         let v = [
-            simd.sub_f64s(slopes[1], slopes[0]),
-            simd.sub_f64s(slopes[2], slopes[1]),
-            simd.sub_f64s(slopes[3], slopes[2]),
-            simd.sub_f64s(slopes[4], slopes[3]),
+            simd.sub(slopes[1], slopes[0]),
+            simd.sub(slopes[2], slopes[1]),
+            simd.sub(slopes[3], slopes[2]),
+            simd.sub(slopes[4], slopes[3]),
         ];
         if !STRETCH {
             sums.add_slope(simd, keep[0], slopes[2]);
@@ -87,35 +92,35 @@ impl<S: Simd> Around<S> {
     #[inline(always)]
     fn step<const REACH: usize, const STRETCH: bool, const LOSS: bool>(
         &mut self,
-        simd: S,
-        weights: &Splat<S>,
-        (ahead, moving): (S::f64s, Option<S::f64s>),
-        Here { u, d, v_before, keep }: Here<S>,
-        sums: &mut Sums<S>,
-    ) -> [S::f64s; 2] {
-        let slope = simd.sub_f64s(ahead, self.ahead);
-        let v = [self.v[0], self.v[1], self.v[2], self.v[3], simd.sub_f64s(slope, self.slope)];
+        simd: V,
+        weights: &Splat<V>,
+        (ahead, moving): (V::Vector, Option<V::Vector>),
+        Here { u, d, v_before, keep }: Here<V>,
+        sums: &mut Sums<V>,
+    ) -> [V::Vector; 2] {
+        let slope = simd.sub(ahead, self.ahead);
+        let v = [self.v[0], self.v[1], self.v[2], self.v[3], simd.sub(slope, self.slope)];
         if !STRETCH && let Some(moving) = moving {
             sums.add_slope(simd, moving, slope);
         }
-        let mut value = simd.mul_f64s(weights.near[0], v[2]);
+        let mut value = simd.mul(weights.near[0], v[2]);
         if REACH > 0 {
-            let beside = simd.add_f64s(v[1], v[3]);
-            value = simd.add_f64s(value, simd.mul_f64s(weights.near[1], beside));
+            let beside = simd.add(v[1], v[3]);
+            value = simd.add(value, simd.mul(weights.near[1], beside));
         }
         if REACH > 1 {
-            let far = simd.add_f64s(v[0], v[4]);
-            value = simd.add_f64s(value, simd.mul_f64s(weights.near[2], far));
+            let far = simd.add(v[0], v[4]);
+            value = simd.add(value, simd.mul(weights.near[2], far));
         }
         if LOSS {
-            value = simd.sub_f64s(value, simd.mul_f64s(weights.before, v_before));
+            value = simd.sub(value, simd.mul(weights.before, v_before));
         }
-        value = simd.add_f64s(value, simd.mul_f64s(weights.motion, d));
-        let w = simd.mul_f64s(keep, value);
-        let curvature = simd.mul_f64s(keep, v[2]);
+        value = simd.add(value, simd.mul(weights.motion, d));
+        let w = simd.mul(keep, value);
+        let curvature = simd.mul(keep, v[2]);
         if STRETCH {
-            add_product(simd, &mut sums.along, curvature, simd.add_f64s(u, w));
-            add_product(simd, &mut sums.curvature, curvature, curvature);
+            sums.along = simd.add_product(sums.along, curvature, simd.add(u, w));
+            sums.curvature = simd.add_product(sums.curvature, curvature, curvature);
         }
         *self = Around { ahead, slope, v: [v[1], v[2], v[3], v[4]] };
         [curvature, w]
@@ -123,21 +128,21 @@ impl<S: Simd> Around<S> {
 }
 
 /// Some lanes of all rows, on the way through them.
-struct Lanes<'a, S: Simd> {
-    simd: S,
+struct Lanes<'a, V: Vectors> {
+    simd: V,
     part: usize,
-    weights: &'a Splat<S>,
+    weights: &'a Splat<V>,
     keep: &'a [Row],
     /// u and d.
     from: [&'a [Row]; 2],
-    around: Around<S>,
-    sums: Sums<S>,
+    around: Around<V>,
+    sums: Sums<V>,
     /// Where the sweep has not yet been, v a step ago.
     v: &'a mut [Row],
     w: &'a mut [Row],
 }
 
-impl<S: Simd> Lanes<'_, S> {
+impl<V: Vectors> Lanes<'_, V> {
     /// Predicts a row, given u three rows ahead.
     #[inline(always)]
     fn predict<const REACH: usize, const STRETCH: bool, const LOSS: bool>(
@@ -145,20 +150,20 @@ impl<S: Simd> Lanes<'_, S> {
         at: usize,
         (ahead, moving): (&Row, Option<&Row>),
     ) {
-        let part = self.part;
-        let moving = moving.map(|moving| part_of::<S>(moving, part));
-        let ahead = part_of::<S>(ahead, part);
+        let (simd, part) = (self.simd, self.part);
+        let moving = moving.map(|moving| simd.part(moving, part));
+        let ahead = simd.part(ahead, part);
         let here = Here {
-            u: part_of::<S>(&self.from[0][at], part),
-            d: part_of::<S>(&self.from[1][at], part),
-            v_before: part_of::<S>(&self.v[at], part),
-            keep: part_of::<S>(&self.keep[at], part),
+            u: simd.part(&self.from[0][at], part),
+            d: simd.part(&self.from[1][at], part),
+            v_before: simd.part(&self.v[at], part),
+            keep: simd.part(&self.keep[at], part),
         };
         let sums = &mut self.sums;
         let [v, w] =
-            self.around.step::<REACH, STRETCH, LOSS>(self.simd, self.weights, (ahead, moving), here, sums);
-        S::as_mut_simd_f64s(&mut self.v[at]).0[part] = v;
-        S::as_mut_simd_f64s(&mut self.w[at]).0[part] = w;
+            self.around.step::<REACH, STRETCH, LOSS>(simd, self.weights, (ahead, moving), here, sums);
+        simd.put(&mut self.v[at], part, v);
+        simd.put(&mut self.w[at], part, w);
     }
 }
 
@@ -177,38 +182,35 @@ pub(super) struct Predict<'a, const REACH: usize, const STRETCH: bool, const LOS
     pub keep: &'a Field,
 }
 
-impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> WithSimd
-    for Predict<'_, REACH, STRETCH, LOSS>
-{
+impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> Pass for Predict<'_, REACH, STRETCH, LOSS> {
     /// (All else waits for these two: they are handed on in registers.)
     type Output = Stretching;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Stretching {
+    fn by<V: Vectors>(self, simd: V) -> Stretching {
         let Predict { weights, stretch, from: (u, d), to: (v, w), shape, keep } = self;
-        let splat = Splat::<S> {
-            motion: simd.splat_f64s(weights.motion),
-            near: weights.near.map(|weight| simd.splat_f64s(weight)),
-            before: simd.splat_f64s(weights.before),
+        let splat = Splat::<V> {
+            motion: simd.splat(weights.motion),
+            near: weights.near.map(|weight| simd.splat(weight)),
+            before: simd.splat(weights.before),
         };
         let (before, after) = (rows_before::<3>(u), rows_after::<3>(u));
         let (u, d, keep, v, w) = (rows(u), rows(d), rows(keep), rows_mut(v), rows_mut(w));
         let count = u.len();
         let (d, keep, v, w) = (&d[..count], &keep[..count], &mut v[..count], &mut w[..count]);
         let mut totals = [[0.0; LANES]; 3];
-        for part in 0..vectors::<S>() {
-            let zero = simd.splat_f64s(0.0);
+        for part in 0..V::PARTS {
+            let zero = simd.splat(0.0);
             let mut sums = Sums { steepness: zero, along: zero, curvature: zero };
             let first = [
-                part_of::<S>(&before[0], part),
-                part_of::<S>(&before[1], part),
-                part_of::<S>(&before[2], part),
-                part_of::<S>(&u[0], part),
-                part_of::<S>(&u[1], part),
-                part_of::<S>(&u[2], part),
+                simd.part(&before[0], part),
+                simd.part(&before[1], part),
+                simd.part(&before[2], part),
+                simd.part(&u[0], part),
+                simd.part(&u[1], part),
+                simd.part(&u[2], part),
             ];
-            let moving =
-                [part_of::<S>(&keep[0], part), part_of::<S>(&keep[1], part), part_of::<S>(&keep[2], part)];
+            let moving = [simd.part(&keep[0], part), simd.part(&keep[1], part), simd.part(&keep[2], part)];
             let around = Around::first::<STRETCH>(simd, first, moving, &mut sums);
             let from = [u, d];
             let mut lanes = Lanes { simd, part, weights: &splat, keep, from, around, sums, v, w };
@@ -220,7 +222,7 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> WithSimd
             lanes.predict::<REACH, STRETCH, LOSS>(count - 1, (&after[2], None));
             let Sums { steepness, along, curvature } = lanes.sums;
             for (total, sum) in totals.iter_mut().zip([steepness, along, curvature]) {
-                S::as_mut_simd_f64s(total).0[part] = sum;
+                simd.put(total, part, sum);
             }
         }
         if !STRETCH {

@@ -1,10 +1,8 @@
 //! The contact forces of a sample in which many contacts act.
 
-use pulp::{Simd, WithSimd};
-
 use super::{ARRAYS, Convergence, Demands, Room, Solver, solve, solve_few};
 use crate::active::Active;
-use crate::instructions::Instructions;
+use crate::instructions::{Instructions, Pass, Vectors};
 
 /// More contacts than the step itself has code for: rare, and apart from it, as the code of all sizes in one place slows
 /// down the few. Compiled for each instruction set, as a step is.
@@ -23,11 +21,11 @@ impl Many<'_> {
     }
 }
 
-impl WithSimd for Many<'_> {
+impl Pass for Many<'_> {
     type Output = f64;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
+    fn by<V: Vectors>(self, _: V) -> f64 {
         let Many { solver, rows, pull_factor, demands, convergence } = self;
         match rows.len() {
             7 => solve_few::<7>(rows, pull_factor, demands, convergence),

@@ -1,6 +1,4 @@
-//! Rows of a field, and parts of them as wide as an instruction set's vectors.
-
-use pulp::Simd;
+//! Rows of a field.
 
 use crate::field::LANES;
 
@@ -17,18 +15,6 @@ pub(super) fn rows(field: &[f64]) -> &[Row] {
 #[inline(always)]
 pub(super) fn rows_mut(field: &mut [f64]) -> &mut [Row] {
     field.as_chunks_mut().0
-}
-
-/// Some lanes of a row: the `part`-th vector of an instruction set in it.
-#[inline(always)]
-pub(crate) fn part_of<S: Simd>(row: &Row, part: usize) -> S::f64s {
-    S::as_simd_f64s(row).0[part]
-}
-
-/// Vectors in a row.
-#[inline(always)]
-pub(crate) fn vectors<S: Simd>() -> usize {
-    LANES / S::F64_LANES
 }
 
 /// The rows that precede the first one, nearest last: the last rows, each lane moved to the next. (The first lane gets
@@ -49,9 +35,4 @@ fn row_from(field: &[f64], start: usize) -> Row {
     let mut row = [0.0; LANES];
     row.copy_from_slice(&field[start..start + LANES]);
     row
-}
-
-#[inline(always)]
-pub(super) fn add_product<S: Simd>(simd: S, sum: &mut S::f64s, a: S::f64s, b: S::f64s) {
-    *sum = simd.add_f64s(*sum, simd.mul_f64s(a, b));
 }

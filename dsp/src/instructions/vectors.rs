@@ -1,0 +1,48 @@
+//! What the passes ask of an instruction set.
+
+use super::Pass;
+use crate::field::LANES;
+
+/// Vectors of an instruction set, and what can be done with them, number by number.
+pub(crate) trait Vectors: Copy {
+    /// Some lanes of a row, side by side.
+    type Vector: Copy;
+
+    /// How many of them a row has.
+    const PARTS: usize;
+
+    /// Runs what was compiled for these instructions, in a function of its own.
+    fn run<P: Pass>(self, pass: P) -> P::Output;
+
+    /// The `part`-th vector of a row.
+    fn part(self, row: &[f64; LANES], part: usize) -> Self::Vector;
+
+    /// Puts it there.
+    fn put(self, row: &mut [f64; LANES], part: usize, vector: Self::Vector);
+
+    /// The same number in every lane.
+    fn splat(self, value: f64) -> Self::Vector;
+
+    fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+
+    fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+
+    fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+
+    fn abs(self, a: Self::Vector) -> Self::Vector;
+
+    /// The larger one, or `b` where there is none.
+    fn max(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+
+    /// The smaller one, or `b` where there is none.
+    fn min(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+
+    /// `value`, but 0 where `size` is less than `least`.
+    fn clear_below(self, value: Self::Vector, size: Self::Vector, least: Self::Vector) -> Self::Vector;
+
+    /// The sum with a product, rounded twice.
+    #[inline(always)]
+    fn add_product(self, sum: Self::Vector, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        self.add(sum, self.mul(a, b))
+    }
+}
