@@ -167,6 +167,11 @@ impl Simulation {
         self.body.is_some()
     }
 
+    /// How far the bridge of a body was up at the sample that the last step led from, m; 0 without a body.
+    pub fn lift(&self) -> f64 {
+        self.body.as_ref().map_or(0.0, |body| body.lift)
+    }
+
     /// One string, 0 for the first.
     ///
     /// # Panics
@@ -178,13 +183,11 @@ impl Simulation {
     /// What is heard after the last step: the sum over strings of the velocity at the listening point
     /// (m/s) or of the force on the bridge (N), or the sound pressure before the body (Pa).
     pub fn output(&self) -> f64 {
-        match (self.listening, &self.body) {
-            (ListeningPoint::Air, body) => body.as_ref().map_or(0.0, |body| body.pressure),
-            (_, body) => {
-                let lift = body.as_ref().map_or(0.0, |body| body.lift);
-                self.strings.iter().map(|string| string.output(lift)).sum()
-            }
+        if self.listening == ListeningPoint::Air {
+            return self.body.as_ref().map_or(0.0, |body| body.pressure);
         }
+        let lift = self.lift();
+        self.strings.iter().map(|string| string.output(lift)).sum()
     }
 }
 

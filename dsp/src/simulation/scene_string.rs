@@ -218,8 +218,13 @@ impl SceneString {
     pub(super) fn output(&self, lift: f64) -> f64 {
         match &self.listening {
             Some(reading) => self.state.velocity_at(&self.model, reading),
-            None => bridge_force(&self.model, &self.scratch, lift),
+            None => self.bridge_force(lift),
         }
+    }
+
+    /// The force of the string on a bridge that is `lift` m up, N, upward, at the sample that the last step led from.
+    pub fn bridge_force(&self, lift: f64) -> f64 {
+        bridge_force(&self.model, &self.scratch, lift)
     }
 
     /// The most tension that may be asked for, N: what the grid bears, less what a body takes of it.

@@ -166,7 +166,9 @@ the energies half a sample later.
   t                            s
   x_S, u_S                     m; places, and displacements over time and there
   u_finger_N, x_finger_N       m; heights, and places
+  u_bridge                     m; how far the bridge is up, if there is a body
   tension_S                    N; what stretching adds included
+  force_bridge_S               N; of a string on the bridge, upwards
   force_board_S, force_fret_S_F,
   force_finger_N               N
   force_pluck_N                N; the push of each pluck

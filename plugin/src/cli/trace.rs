@@ -122,7 +122,10 @@ impl Trace {
         let mut iterations = 0;
         for (index, string) in simulation.strings().iter().enumerate() {
             iterations += string.convergence.iterations;
-            self.keep_forces(index, string)?;
+            self.keep_forces(index, string, simulation.lift())?;
+        }
+        if let Some(lift) = self.plan.lift {
+            self.npz.add(lift, &[simulation.lift()])?;
         }
         for (arrays, ledger) in self.plan.strings.iter().zip(simulation.ledgers()) {
             if let Some(stored) = arrays.stored {
@@ -140,10 +143,11 @@ impl Trace {
         Ok(())
     }
 
-    fn keep_forces(&mut self, index: usize, string: &SceneString) -> io::Result<()> {
+    fn keep_forces(&mut self, index: usize, string: &SceneString, lift: f64) -> io::Result<()> {
         let arrays = &self.plan.strings[index];
         let tension = string.scratch.stiffness().tension + stretch_tension(&string.model, &string.scratch);
         self.npz.add(arrays.tension, &[tension])?;
+        self.npz.add(arrays.on_bridge, &[string.bridge_force(lift)])?;
         if let Some(bridge) = arrays.bridge {
             self.npz.add(bridge, &[string.bridge_power()])?;
         }

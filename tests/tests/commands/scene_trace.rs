@@ -195,6 +195,46 @@ fn what_strings_and_a_body_give_each_other_is_told() {
     assert!(!found.contains_key("power_bridge_1"));
 }
 
+/// The bridge moves, and what strings do to it on its way is what they lose to it; of several strings each is told, and what is heard
+/// there is all together.
+#[test]
+fn how_strings_move_the_bridge_is_told() {
+    let place = workplace();
+    let body = "[body]\nfrequency = 170.0\nmass = 0.1\narea = 0.05\nquality = 20.0\nspacing = 50.0\nvolume = 0.0145\n\
+                hole = 0.0055\n";
+    let string =
+        |shape: &str| format!("[[string]]\nlength = 0.65\nlinear_density = 5.25e-3\ntension = 60.0\n{shape}");
+    let strings = [string("shape = [[0.0, 0.0], [0.5, 0.003], [0.65, 0.0]]\n"), string("")].concat();
+    let output = "[output]\nposition = \"bridge\"\n";
+    for (body, has_body) in [(body, true), ("", false)] {
+        place.write("scene.toml", format!("sample_rate = 44100\nduration = 0.3\n{strings}{body}{output}"));
+        let done = place.run(&["scene", "scene.toml", "--trace", "out.npz"]);
+        assert_eq!((done.code, done.error.as_str()), (0, ""));
+        let found = arrays(&place.path("out.npz"));
+        let numbers = |name: &str| &found[name].numbers;
+        let [first, second] = ["force_bridge_1", "force_bridge_2"].map(numbers);
+        let heard = numbers("output");
+        assert!((0..heard.len()).all(|row| first[row] + second[row] == heard[row]));
+        assert!(first.iter().any(|force| force.abs() > 0.1));
+        assert_eq!(found.contains_key("u_bridge"), has_body);
+        if !has_body {
+            assert!(second.iter().all(|force| *force == 0.0));
+            continue;
+        }
+        let lift = numbers("u_bridge");
+        let work = |force: &[f64]| -> f64 {
+            (1..lift.len() - 1).map(|row| force[row] * 0.5 * (lift[row + 1] - lift[row - 1])).sum()
+        };
+        let taken = |name: &str| -> f64 { -numbers(name).iter().sum::<f64>() / RATE };
+        let (done, taken) = (work(heard), taken("power_bridge_1") + taken("power_bridge_2"));
+        // (The force that is heard has what stretching pulls, too, some per cent of it here.)
+        assert!(
+            (done / taken - 1.0).abs() < 0.02,
+            "{done} J are done at the bridge, {taken} J taken of the strings"
+        );
+    }
+}
+
 /// A string that nobody plays has nothing but what the bridge of the body gives it, and loses it to itself alone.
 #[test]
 fn what_each_string_stores_is_told_apart() {

@@ -11,6 +11,8 @@ use crate::cli::npz::{Array, Kind};
 pub(super) struct StringArrays {
     pub displacement: usize,
     pub tension: usize,
+    /// Of it on the bridge.
+    pub on_bridge: usize,
     /// What is stored in it, where that is not all there is.
     pub stored: Option<usize>,
     /// Of the bridge of a body.
@@ -42,6 +44,8 @@ pub(super) struct Plan {
     /// The force of each pluck.
     pub plucks: Vec<usize>,
     pub fingers: Vec<FingerArrays>,
+    /// Where the bridge of a body is.
+    pub lift: Option<usize>,
     pub output: usize,
     pub iterations: usize,
     pub ledger: usize,
@@ -73,16 +77,17 @@ impl Plan {
             array(format!("x_{number}"), Kind::Real, &[points]);
             let displacement = array(format!("u_{number}"), Kind::Real, &[rows, points]);
             let tension = array(format!("tension_{number}"), Kind::Real, &[rows]);
+            let on_bridge = array(format!("force_bridge_{number}"), Kind::Real, &[rows]);
             let stored = has_others.then(|| array(format!("stored_{number}"), Kind::Real, &[rows]));
             let bridge = has_body.then(|| array(format!("power_bridge_{number}"), Kind::Real, &[rows]));
             let board =
                 string.has_board().then(|| array(format!("force_board_{number}"), Kind::Real, &[rows]));
             let before = [stored, bridge, board].into_iter().flatten().count();
-            let frets = tension + 1 + before;
+            let frets = on_bridge + 1 + before;
             for fret in 1..=string.fret_count() {
                 array(format!("force_fret_{number}_{fret}"), Kind::Real, &[rows]);
             }
-            strings.push(StringArrays { displacement, tension, stored, bridge, board, frets });
+            strings.push(StringArrays { displacement, tension, on_bridge, stored, bridge, board, frets });
             pluck_count += string.plucks().count();
             finger_numbers.extend(string.fingers().map(|finger| finger.number));
         }
@@ -96,13 +101,14 @@ impl Plan {
             force: array(format!("force_finger_{}", index + 1), Kind::Real, &[rows]),
         });
         let fingers = fingers.collect();
+        let lift = has_body.then(|| array("u_bridge".into(), Kind::Real, &[rows]));
         let output = array("output".into(), Kind::Real, &[rows]);
         let iterations = array("iterations".into(), Kind::Count, &[rows]);
         let ledger = iterations + 1;
         for (name, _) in LEDGER.iter().chain(&WORK) {
             array((*name).into(), Kind::Real, &[rows]);
         }
-        Plan { arrays, strings, plucks, fingers, output, iterations, ledger, rows, every }
+        Plan { arrays, strings, plucks, fingers, lift, output, iterations, ledger, rows, every }
     }
 
     /// How many samples apart rows must be for all numbers to take at most so many bytes.
