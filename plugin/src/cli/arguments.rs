@@ -92,9 +92,9 @@ pub struct RenderArgs {
     /// sounds its string, fret, pitch, times and technique, and every gesture of the hands, as JSON. The sound is the same.
     #[arg(long, value_name = "FILE")]
     pub labels: Option<PathBuf>,
-    /// Render nothing where the sound and all else that is asked for are there already and whole, and --labels say that they are
-    /// of this song and these options (without it, whatever they were made of): a loop over many songs goes on where it was
-    /// broken off.
+    /// Render nothing where the sound and all else that is asked for are there already, whole and of the form asked for, and --labels
+    /// say that they are of this song and these options, and how long (without it, whatever they were made of): a loop over many
+    /// songs goes on where it was broken off.
     #[arg(long)]
     pub skip_existing: bool,
     /// Say nothing of how far it has come, nor at the end: only warnings, errors, and why what is there is rendered again.

@@ -5,6 +5,7 @@ mod heard;
 mod labels;
 mod options;
 mod rendering;
+mod there;
 mod timeline;
 mod tuning;
 mod warnings;
@@ -33,6 +34,7 @@ use labels::Source;
 pub use options::{Seed, Tail};
 pub(super) use options::{parse_bend, parse_choice, parse_minutes, parse_rate, parse_variation};
 use rendering::{Rendered, Rendering};
+use there::There;
 use warnings::level;
 use written::Written;
 
@@ -54,19 +56,32 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let output = output_path(arguments)?;
     refuse_others("-o", &output)?;
     check_paths(arguments, setup_file.as_deref(), &output, &names)?;
-    let is_there = arguments.skip_existing && files::are_there(arguments, &output, &names);
-    if is_there && arguments.labels.is_none() {
-        return skip(arguments, &output);
+    let (there, mut again) = match arguments.skip_existing.then(|| There::look(arguments, &output, &names)) {
+        Some(Ok(there)) => (Some(there), None),
+        Some(Err(reason)) => (None, reason),
+        None => (None, None),
+    };
+    // (Files without labels may be of anything.)
+    if let Some(there) = there.as_ref().filter(|_| arguments.labels.is_none()) {
+        again = there.difference(arguments, None);
+        if again.is_none() {
+            return skip(arguments, &output);
+        }
     }
     let written = Written::read(arguments)?;
     options.seed = written.seed(arguments.seed);
     let source = Source { arguments, setup: &options.setup, written: &written };
-    // (Files without labels may be of anything.)
-    if let Some(labels) = arguments.labels.as_deref().filter(|_| is_there) {
-        match labels::difference(labels, &source) {
-            None => return skip(arguments, &output),
-            Some(difference) => say(&shown(&output), &format!("rendered again: {difference}")),
+    if let Some((there, labels)) = there.as_ref().zip(arguments.labels.as_deref()) {
+        again = match labels::samples_of(labels, &source) {
+            Ok(samples) => there.difference(arguments, Some(samples)),
+            Err(difference) => Some(difference),
+        };
+        if again.is_none() {
+            return skip(arguments, &output);
         }
+    }
+    if let Some(reason) = again {
+        say(&shown(&output), &format!("rendered again: {reason}"));
     }
     let song = written.song(arguments)?;
     let longest_tail = arguments.tail.longest(options.tail());

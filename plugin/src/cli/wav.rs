@@ -1,11 +1,12 @@
 //! WAV files of the three sample formats, and what is known of the sound once it is written.
 
+mod form;
 mod header;
 mod room;
 
 use std::fmt;
 use std::fs::File;
-use std::io::{self, BufWriter, Read};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -15,6 +16,7 @@ use hound::{SampleFormat, WavSpec, WavWriter};
 use super::names::shown;
 use super::output::Draft;
 use super::{Failure, Outcome};
+pub(super) use form::Form;
 use room::WithRoom;
 
 /// Bytes a WAV file can hold: sizes are 32-bit, and the header takes some.
@@ -37,18 +39,6 @@ pub(super) fn refuse_others(option: &str, path: &Path) -> Outcome {
         "{option} {path} is refused: low-action writes WAV, so it must not end in .{}",
         ending.display()
     )))
-}
-
-/// Whether a file is as long as it says. It may have been copied, and the copy broken off.
-pub(super) fn is_whole(path: &Path) -> bool {
-    let says = || -> io::Result<bool> {
-        let mut file = File::open(path)?;
-        let mut begins = [0; 8];
-        file.read_exact(&mut begins)?;
-        let size = u32::from_le_bytes([begins[4], begins[5], begins[6], begins[7]]);
-        Ok(begins.starts_with(b"RIFF") && u64::from(size) + 8 == file.metadata()?.len())
-    };
-    says().unwrap_or(false)
 }
 
 /// How samples are stored.

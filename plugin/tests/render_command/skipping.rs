@@ -23,7 +23,7 @@ fn a_song_is_rendered_again_as_long_as_any_of_its_files_is_missing() {
     let room = Room::new();
     let all = &ALL[..];
     let first = room.renders(all);
-    assert!(first.contains("times faster than real time"), "{first}");
+    assert!(!first.contains("again") && first.contains("times faster than real time"), "{first}");
     let skipped = "song.wav: skipped: all that is asked for is there already\n";
     for missing in ["song.wav", "song.json", "stems/3-G3.wav"] {
         // Nothing is written, and what is there need not be what would be written.
@@ -33,6 +33,8 @@ fn a_song_is_rendered_again_as_long_as_any_of_its_files_is_missing() {
         assert_eq!(fs::read_to_string(room.path("song.json")).unwrap(), old);
         fs::remove_file(room.path(missing)).unwrap();
         let said = room.renders(all);
+        let reason = format!("song.wav: rendered again: {missing} is not there\n");
+        assert!(said.starts_with(&reason), "{missing}: {said}");
         assert!(said.contains("times faster than real time"), "{missing}: {said}");
         assert!(
             room.path(missing).exists() && fs::read_to_string(room.path("song.json")).unwrap() != old,
@@ -82,6 +84,61 @@ fn what_labels_say_is_of_something_else_is_rendered_again() {
     assert!(room.renders(&["moved.mid", "-o", "song.wav", "--skip-existing"]).contains("skipped"));
 }
 
+/// Whatever labels lie beside it.
+#[test]
+fn a_sound_of_another_form_or_length_is_rendered_again() {
+    let room = Room::new();
+    room.renders(&ALL);
+    let whole = fs::read(room.path("song.wav")).unwrap();
+    let length = labelled_samples(&room);
+    for (options, expected) in [
+        (["--bit-depth", "16"], "16 bit and not 24 bit".to_owned()),
+        (["--bit-depth", "32f"], "32f bit and not 24 bit".into()),
+        (["--sample-rate", "8000"], "8000 Hz and not 48000 Hz".into()),
+        (["--tail", "0.5"], format!("{} samples and not {length} samples", length + 24_000)),
+    ] {
+        let brief = ["song.mid", "-q", "draft", "--tail", "none"];
+        let brief = if options[0] == "--tail" { &brief[..3] } else { &brief[..] };
+        room.renders(&[brief, &options[..]].concat());
+        // Without labels that is known of what the options say.
+        let said = room.renders(&[&ALL[..5], &["--skip-existing"]].concat());
+        assert_eq!(said.contains("rendered again"), options[0] != "--tail", "{options:?}: {said}");
+        room.renders(&[brief, &options[..]].concat());
+        let said = room.renders(&ALL);
+        assert!(
+            said.starts_with(&format!("song.wav: rendered again: song.wav is of {expected}\n")),
+            "{options:?}: {said}"
+        );
+        assert!(fs::read(room.path("song.wav")).unwrap() == whole, "{options:?}");
+    }
+    fs::copy(room.path("stems/3-G3.wav"), room.path("song.wav")).unwrap();
+    let said = room.renders(&ALL);
+    assert!(said.starts_with("song.wav: rendered again: song.wav is of 1 channel and not 2"), "{said}");
+}
+
+/// Two songs that are given one folder for their strings.
+#[test]
+fn strings_of_another_song_are_rendered_again() {
+    let room = Room::new();
+    fs::write(room.path("long.mid"), midi(&[(0, &[0x90, 45, 90]), (96, &[0x80, 45, 0])])).unwrap();
+    for labels in [&[][..], &["--labels", "song.json"]] {
+        let all = [&ALL[..7], &["--skip-existing"], labels].concat();
+        room.renders(&all);
+        assert!(room.renders(&all).contains("skipped"));
+        room.renders(&[&["long.mid"], &ALL[1..7]].concat());
+        let said = room.renders(&all);
+        assert!(said.starts_with("song.wav: rendered again: stems/1-E4.wav is of "), "{said}");
+        assert!(room.renders(&all).contains("skipped"));
+    }
+}
+
+/// How many samples the labels say there are.
+fn labelled_samples(room: &Room) -> u64 {
+    let labels = fs::read_to_string(room.path("song.json")).unwrap();
+    let (_, samples) = labels.split_once("\"samples\":").unwrap();
+    samples.split(',').next().unwrap().trim().parse().unwrap()
+}
+
 #[test]
 fn what_is_no_file_is_never_there() {
     let room = Room::new();
@@ -103,6 +160,8 @@ fn what_is_not_whole_is_not_there() {
         for length in [0, 7, whole.len() / 2, whole.len() - 1] {
             fs::write(room.path(name), &whole[..length]).unwrap();
             let said = room.renders(&ALL);
+            let reason = format!("song.wav: rendered again: {name} is not whole\n");
+            assert!(said.starts_with(&reason), "{length} bytes of {name}: {said}");
             assert!(said.contains("times faster than real time"), "{length} bytes of {name}: {said}");
             assert!(fs::read(room.path(name)).unwrap() == whole, "{length} bytes of {name}");
         }

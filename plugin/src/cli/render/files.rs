@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use super::labels::{self, LabelFile, Labelled};
+use super::labels::{LabelFile, Labelled};
 use super::warn;
 use crate::cli::RenderArgs;
 use crate::cli::names::shown;
-use crate::cli::output::{is_there, publish_all};
+use crate::cli::output::publish_all;
 use crate::cli::unfinished::NewFolders;
-use crate::cli::wav::{self, WavFile};
+use crate::cli::wav::WavFile;
 
 /// The files of one rendering.
 pub(super) struct Files {
@@ -58,14 +58,6 @@ impl Files {
         drop(self.folder);
         Ok(())
     }
-}
-
-/// Whether every file of a rendering is there already, and whole.
-pub(super) fn are_there(arguments: &RenderArgs, output: &Path, strings: &[&str]) -> bool {
-    let stems = stem_paths(arguments, strings);
-    let mut sounds = stems.iter().map(PathBuf::as_path).chain([output]);
-    sounds.all(|path| is_there(path) && wav::is_whole(path))
-        && arguments.labels.as_deref().is_none_or(|path| is_there(path) && labels::are_whole(path))
 }
 
 /// Where the strings' own sounds go, if they are wanted.

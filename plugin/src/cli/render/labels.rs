@@ -63,9 +63,10 @@ impl LabelFile {
     }
 }
 
-/// How labels that are there differ from those that would be made from a source, in words; nothing if they are of the same.
-pub(super) fn difference(path: &Path, source: &Source) -> Option<String> {
-    header::difference(path, &source.about(0))
+/// How many samples the sound has that labels which are there are of; or how they differ from those that would be made from a
+/// source, in words.
+pub(super) fn samples_of(path: &Path, source: &Source) -> Result<u64, String> {
+    header::samples_of(path, &source.about(0))
 }
 
 /// Whether a file of labels has its end.

@@ -19,19 +19,23 @@ const FIRST_BEHIND: &str = "peak";
 /// What a sound was made from, by its keys.
 struct Header(Map<String, Value>);
 
-/// How labels that are there differ from those of a rendering, in words; nothing if they are of the same.
-pub(super) fn difference(path: &Path, about: &About) -> Option<String> {
+/// How many samples the sound has that labels which are there are of; or how they differ from those of a rendering, in words.
+pub(super) fn samples_of(path: &Path, about: &About) -> Result<u64, String> {
     // (As a number is read from its text, so that equal texts are equal numbers.)
     let wanted = serde_json::to_string(about).map_err(Into::into).and_then(|text| read(text.as_bytes()));
     let there = fs::read(path).map_err(Into::into).and_then(|text| read(&text));
     let (Header(there), Header(wanted)) = match (there, wanted) {
         (Ok(there), Ok(wanted)) => (there, wanted),
-        (Err(error), _) | (_, Err(error)) => return Some(format!("its labels cannot be read: {error:#}")),
+        (Err(error), _) | (_, Err(error)) => return Err(format!("its labels cannot be read: {error:#}")),
     };
     let compared = wanted.iter().filter(|(key, _)| !NOT_COMPARED.contains(&key.as_str()));
     let mut different = compared.filter(|(key, wanted)| there.get(*key) != Some(wanted));
-    let first = different.next().map(|(key, wanted)| told(key, there.get(key), wanted))?;
-    Some(match different.count() {
+    let Some((key, wanted)) = different.next() else {
+        let samples = there.get("samples").and_then(Value::as_u64);
+        return samples.ok_or_else(|| "its labels do not say how many samples it has".to_owned());
+    };
+    let first = told(key, there.get(key), wanted);
+    Err(match different.count() {
         0 => first,
         others => format!("{first}, and {others} more"),
     })
