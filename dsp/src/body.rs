@@ -69,8 +69,8 @@ impl Body {
         self.modes.lift()
     }
 
-    /// What a bridge that is `lift` m up does to the string in the step to come, what is heard of the body, and its own step by what
-    /// the string does to it. To be asked before the string moves.
+    /// Takes the body's own step, under what the string does to a bridge that is `lift` m up, and gives back what that bridge does to
+    /// the string in the step to come, and what is heard of the body. To be called before the string moves.
     #[inline]
     pub fn step(&mut self, model: &Model, state: &State, tension: f64, lift: f64) -> (Push, Heard) {
         self.end.pull_at(model, tension);

@@ -92,9 +92,10 @@ impl State {
         convergence
     }
 
-    /// Takes the string as it has come out for the place from which forces are solved for: they and the pull of the
-    /// stretched string, each of which may have moved it much farther than both together did, are exact from here on but for
-    /// what is added to them. Returns vᵀu⁺ as it has come out.
+    /// Makes the string as the solution has left it the new starting point, from which only corrections to the forces are solved
+    /// for. The forces found so far and the pull of the stretched string may each have moved it much farther than both together, and
+    /// what rounding lost in that difference is so left behind: only the corrections are rounded from here on. Returns vᵀu⁺ of the
+    /// new starting point.
     #[cold]
     fn recentre(&self, scratch: &mut Scratch) -> f64 {
         for active in scratch.active.iter_mut() {

@@ -25,7 +25,7 @@ pub fn at_most(value: f64) -> f64 {
     if high <= value { high } else { low }
 }
 
-/// A number without what was lost in computing it, if it had fifteen digits or fewer.
+/// A computed number rounded to fifteen digits: if it has so few, what rounding errors put behind them is gone.
 pub(crate) fn cleared(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }

@@ -20,16 +20,6 @@ pub enum Error {
     /// Text that is not TOML of the expected form.
     #[error("{0}")]
     Syntax(String),
-    /// A name that nothing goes by.
-    #[error("{kind} `{name}` is unknown: {accepted}")]
-    Unknown {
-        /// What kind of thing was looked for.
-        kind: &'static str,
-        /// The name given, as one line of printable characters.
-        name: String,
-        /// The names there are.
-        accepted: String,
-    },
 }
 
 impl Error {
@@ -42,9 +32,9 @@ impl Error {
         Error::OutOfRange { name: name.into(), value: value.to_string(), accepted: accepted.into() }
     }
 
-    /// A name that nothing goes by. (It may stand in a file, which may hold anything.)
-    pub(crate) fn unknown(kind: &'static str, name: &str, accepted: String) -> Self {
-        Error::Unknown { kind, name: printable(name), accepted }
+    /// A text that is none of those accepted. (It may stand in a file, which may hold anything.)
+    pub(crate) fn text(name: &str, value: &str, accepted: String) -> Self {
+        Error::range(name, format!("\"{}\"", printable(value)), accepted)
     }
 
     /// The same error with the place it arose in before the name; of a fretboard, neck, bridge, body or hand that several

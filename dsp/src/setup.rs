@@ -130,7 +130,9 @@ impl Setup {
         let base = |name: &str| {
             let found = FILES.iter().find(|(known, _)| *known == name);
             found.map(|(_, text)| *text).ok_or_else(|| {
-                Error::unknown("set-up", name, format!("it must be {}", Self::BUILTIN.join(", ")))
+                let [others @ .., last] = Self::BUILTIN;
+                let accepted = format!("a set-up can only be based on {} or {last}", others.join(", "));
+                Error::text("based_on", name, accepted)
             })
         };
         let setup: Setup = crate::preset::read(text, base)?;

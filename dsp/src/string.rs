@@ -82,8 +82,8 @@ impl Scratch {
         }
     }
 
-    /// Has the string stepped by the instructions of a processor without wide vectors (AVX2), from now on. The bits are the same;
-    /// this is for whoever measures what they are worth.
+    /// From now on the string is stepped with the instructions that a processor without wide vectors (AVX2) has. The result is the
+    /// same bits; this is for measuring how much faster wide vectors are.
     pub fn leave_vectors(&mut self) {
         self.instructions = Instructions::narrow();
     }

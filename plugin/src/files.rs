@@ -114,7 +114,7 @@ pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
             Err(_) => return Ok(place),
         }
     }
-    Err(io::Error::other(format!("it is a link by more than {MOST_LINKS} others")))
+    Err(io::Error::other(format!("more than {MOST_LINKS} links lead on from it")))
 }
 
 /// A file in the same folder as another, so that renaming it is one step; gone when dropped. It has the permissions of the

@@ -10,6 +10,7 @@ mod messages;
 mod sequences;
 mod sized;
 mod timing;
+mod unplayed;
 
 use midly::{EventIter, MetaMessage, MidiMessage, TrackEventKind};
 
@@ -19,6 +20,8 @@ use chunks::Chunks;
 pub use messages::{CutOff, MidiFileError, SongWarning};
 pub use timing::SongTime;
 use timing::{Clock, Division};
+use unplayed::unplayed;
+pub use unplayed::{LeftOut, WhyLeftOut};
 
 /// Largest MIDI file read, bytes. Ordinary songs take some tens of kilobytes.
 pub const LARGEST_FILE: usize = 32 << 20;
@@ -60,6 +63,8 @@ pub struct Song {
     /// first that has any stands what lets go of the one before, and of that [`PlayerEvent::AllNotesOff`] last: how far wheels
     /// reach is then whoever plays it to put back.
     pub events: Vec<SongEvent>,
+    /// Notes that are not among them though they were read, sequence by sequence in order of time.
+    pub left_out: Vec<LeftOut>,
     /// What the user should know.
     pub warnings: Vec<SongWarning>,
 }
@@ -79,7 +84,7 @@ impl Song {
         }
         let (division, song) = (chunks.division, Song::empty());
         let mut reader =
-            Reader { selection, division, cut: chunks.cut, no_tempos: 0, drums: 0, found: Vec::new(), song };
+            Reader { selection, division, cut: chunks.cut, no_tempos: 0, found: Vec::new(), song };
         // Of a sequence that is not played nothing is missed.
         let missed = chunks.cut.filter(|cut| !chunks.sequential || reader.selects(cut.track - 1));
         reader.song.warnings.extend(missed.map(SongWarning::CutOff));
@@ -111,7 +116,7 @@ impl Song {
 
     /// A song without events.
     fn empty() -> Self {
-        Self { events: Vec::new(), warnings: Vec::new() }
+        Self { events: Vec::new(), left_out: Vec::new(), warnings: Vec::new() }
     }
 
     /// Time of the last event, s; 0 without events.
@@ -147,8 +152,6 @@ struct Reader {
     cut: Option<CutOff>,
     /// Changes to a tempo that is none, passed over.
     no_tempos: usize,
-    /// Notes of the drum channel, left out.
-    drums: usize,
     /// Everything that is for a player in what plays together, in order of time, and whether it is selected.
     found: Vec<(SongEvent, bool)>,
     song: Song,
@@ -251,18 +254,18 @@ impl Reader {
 
     /// Takes over into the song what plays together, from `start` on.
     fn take(&mut self, start: SongTime) {
-        let Self { selection, found, song: Song { events, .. }, .. } = self;
+        let Self { selection, found, song: Song { events, left_out, .. }, .. } = self;
         let mut found = std::mem::take(found);
         let members = announced_members(found.iter().map(|(event, _)| event.event));
+        let percussion = selection.channel.is_some() || selection.tenth || members.has(DRUM_CHANNEL);
+        left_out.extend(unplayed(&found, !percussion));
         // What is announced when all that is selected is over makes the song no longer.
         let end = found.iter().rposition(|&(_, selected)| selected).map_or(0, |last| last + 1);
         found.truncate(end);
         let counts = |&(event, selected): &(SongEvent, bool)| selected || is_parameter(event.event);
         let mut found: Vec<_> = found.into_iter().filter(counts).map(|(event, _)| event).collect();
-        if selection.channel.is_none() && !selection.tenth && !members.has(DRUM_CHANNEL) {
-            let notes = count_notes(&found);
+        if !percussion {
             found.retain(|event| event.event.channel() != Some(DRUM_CHANNEL));
-            self.drums += notes - count_notes(&found);
         }
         if !events.is_empty() && !found.is_empty() {
             events.extend(sequences::let_go(start));
@@ -271,14 +274,15 @@ impl Reader {
     }
 
     fn finish(self) -> Song {
-        let Self { no_tempos, drums: notes, song: Song { events, mut warnings }, .. } = self;
+        let Self { no_tempos, song: Song { events, left_out, mut warnings }, .. } = self;
+        let notes = left_out.iter().filter(|note| note.why == WhyLeftOut::Percussion).count();
         warnings.extend((no_tempos > 0).then_some(SongWarning::NoTempo { changes: no_tempos }));
         warnings.extend((notes > 0).then_some(SongWarning::DrumsSkipped { notes }));
         warnings.extend(messages::not_followed(&events));
         warnings.extend(messages::tuning_not_followed(&events));
         warnings.extend(messages::upper_zone(&events));
         warnings.extend((count_notes(&events) == 0).then_some(SongWarning::NoNotes));
-        Song { events, warnings }
+        Song { events, left_out, warnings }
     }
 }
 

@@ -5,6 +5,7 @@
 //! so that another instrument needs no other values and 100 % is always as its maker meant it.
 
 mod choices;
+pub(crate) mod idle;
 mod ranges;
 pub(crate) mod settings;
 mod start;

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, anyhow, ensure};
 use etcetera::BaseStrategy;
 use low_action_dsp::Setup;
 
@@ -116,11 +116,11 @@ pub(crate) fn place(name: &str, folder: &Path) -> PathBuf {
 /// When it cannot be read, is no text or is longer than [`LARGEST_FILE`].
 pub fn read(path: &Path) -> Result<String> {
     let describe = || format!("cannot read the instrument {}", path.display());
-    let mut text = String::new();
-    let read = File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_string(&mut text));
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
     let size = read.with_context(describe)?;
     ensure!(size as u64 <= LARGEST_FILE, "{}: a set-up file has at most {LARGEST_FILE} bytes", describe());
-    Ok(text)
+    String::from_utf8(bytes).map_err(|_| anyhow!("{}: it is not UTF-8 text", describe()))
 }
 
 /// The set-up of a file's text, if it can be played: many a one whose values are all in their range has strings that cannot be

@@ -186,7 +186,7 @@ impl SceneString {
         }
     }
 
-    /// Fills the drive by what the scene has happen.
+    /// Fills the drive with what the scene asks for at this time: tension, plucks and hands.
     #[inline(never)]
     fn follow(&mut self, clock: Clock) {
         let (now, next) = (clock.at(0), clock.at(1));

@@ -9,6 +9,7 @@
 
 mod arguments;
 mod descriptors;
+mod endings;
 mod instrument;
 mod instruments;
 mod names;

@@ -20,10 +20,10 @@ use anyhow::{Context, Result, anyhow, bail};
 use low_action_dsp::digits::{at_least, at_most, plain};
 
 use super::descriptors::descriptor;
+use super::endings::{self, refuse_others};
 use super::names::{escaped, shown};
 use super::paths::{is_dash, keep_apart};
 pub use super::wav::BitDepth;
-use super::wav::refuse_others;
 use super::{Failure, Outcome, RenderArgs, instrument, say};
 use crate::controls::Touching;
 use crate::engine::{Engine, EngineOptions};
@@ -54,7 +54,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     };
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
     let output = output_path(arguments)?;
-    refuse_others("-o", &output)?;
+    refuse_others("-o", &output, &endings::WAV)?;
     check_paths(arguments, setup_file.as_deref(), &output, &names)?;
     let (there, mut again) = match arguments.skip_existing.then(|| There::look(arguments, &output, &names)) {
         Some(Ok(there)) => (Some(there), None),
@@ -87,6 +87,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let longest_tail = arguments.tail.longest(options.tail());
     check_length(arguments, &song, longest_tail).with_context(|| song_name(arguments))?;
     let mut warnings: Vec<String> = song.warnings.iter().map(ToString::to_string).collect();
+    warnings.extend(arguments.taken.in_vain(&options.setup));
     warnings.iter().for_each(|warning| warn(arguments, warning));
     let mut engine =
         Engine::new(&options).with_context(|| escaped(&arguments.instrument.to_string_lossy()))?;

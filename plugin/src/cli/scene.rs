@@ -19,12 +19,13 @@ use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::{Account, Scene, Simulation};
 use low_action_figures::SceneFigure;
 
+use super::endings::{self, refuse_others};
 use super::names::shown;
 use super::output::{Draft, publish_all};
 use super::paths::{is_dash, keep_apart};
 use super::progress::Progress;
 use super::trace::Trace;
-use super::wav::{BitDepth, Findings, WavFile, refuse_others};
+use super::wav::{BitDepth, Findings, WavFile};
 use super::{Failure, Outcome, SceneArgs, say};
 use summary::Summary;
 
@@ -97,11 +98,17 @@ fn read(path: &Path) -> Result<(String, Scene)> {
     Ok((text, scene))
 }
 
-/// Refuses a sound that is called something else, and to write two results, or a result and the scene, to one file.
+/// Refuses results that are called something else, and to write two results, or a result and the scene, to one file.
 fn check_paths(arguments: &SceneArgs) -> Outcome {
-    arguments.wav.as_deref().map_or(Ok(()), |path| refuse_others("--wav", path))?;
-    let written = [("--wav", &arguments.wav), ("--trace", &arguments.trace), ("--figure", &arguments.figure)];
-    let written = written.into_iter().filter_map(|(name, path)| Some((name.to_owned(), path.clone()?)));
+    let written = [
+        ("--wav", &arguments.wav, endings::WAV),
+        ("--trace", &arguments.trace, endings::NPZ),
+        ("--figure", &arguments.figure, endings::SVG),
+    ];
+    for (option, path, form) in &written {
+        path.as_deref().map_or(Ok(()), |path| refuse_others(option, path, form))?;
+    }
+    let written = written.into_iter().filter_map(|(name, path, _)| Some((name.to_owned(), path.clone()?)));
     keep_apart(&[("the scene".into(), arguments.file.clone())], &written.collect::<Vec<_>>())
 }
 

@@ -15,7 +15,6 @@ use hound::{SampleFormat, WavSpec, WavWriter};
 
 use super::names::shown;
 use super::output::Draft;
-use super::{Failure, Outcome};
 pub(super) use form::Form;
 use room::WithRoom;
 
@@ -24,22 +23,6 @@ const LARGEST_FILE: u64 = u32::MAX as u64 - 1024;
 
 /// Why no more is written to one that holds as much.
 const FULL: &str = "a WAV file holds 4 GiB and no more";
-
-/// Endings of names that promise sound in another form, which players and readers go by.
-const OTHERS: [&str; 11] = ["aac", "aif", "aifc", "aiff", "au", "caf", "flac", "m4a", "mp3", "ogg", "opus"];
-
-/// Refuses a name, given by an option, that promises another form of sound.
-pub(super) fn refuse_others(option: &str, path: &Path) -> Outcome {
-    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-    if OTHERS.iter().all(|other| ending != *other) {
-        return Ok(());
-    }
-    let path = shown(path);
-    Err(Failure::Usage(format!(
-        "{option} {path} is refused: low-action writes WAV, so it must not end in .{}",
-        ending.display()
-    )))
-}
 
 /// How samples are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,9 @@
 #![allow(clippy::unwrap_used)]
 
 mod hands;
+mod in_vain;
 mod labels;
+mod left_out;
 #[cfg(target_os = "linux")]
 mod mounted;
 #[cfg(unix)]

@@ -166,6 +166,7 @@ fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
     fs::write(room.path("empty"), "").unwrap();
     fs::create_dir(room.path("folder")).unwrap();
     fs::write(room.path("bad.toml"), "name = \"x\"\nbogus = 1\n").unwrap();
+    fs::write(room.path("bytes.toml"), b"name = \"\xff\"\n").unwrap();
     let electric = include_str!("../../../dsp/instruments/electric.toml");
     fs::write(room.path("heavy.toml"), electric.replace("mass = ", "mass = -")).unwrap();
     for (arguments, expected) in [
@@ -185,7 +186,7 @@ fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
         (&["render", "song.mid", "-o", "no/such/folder/x.wav"], "cannot write no/such/folder/x.wav"),
         (&["render", "song.mid", "-o", "text.mid/x.wav"], "cannot write text.mid/x.wav"),
         (&["render", "song.mid", "-o", "folder"], "it is a folder"),
-        (&["render", "song.mid", "--stems", "text.mid"], "cannot make the folder text.mid"),
+        (&["render", "song.mid", "--stems", "text.mid"], "cannot make the folder text.mid: it is a file\n"),
         (
             &["render", "song.mid", "-o", "new/x.wav", "--stems", "new", "--labels", "no/such/x.json"],
             "cannot write no/such/x.json",
@@ -199,6 +200,10 @@ fn what_cannot_be_done_is_code_1_and_leaves_nothing() {
         (&["render", "song.mid", "--instrument", "bad.toml"], "bogus"),
         (&["render", "song.mid", "--instrument", "heavy.toml"], "mass"),
         (&["render", "song.mid", "--instrument", "song.mid"], "song.mid"),
+        (
+            &["render", "song.mid", "--instrument", "bytes.toml"],
+            "cannot read the instrument bytes.toml: it is not UTF-8 text\n",
+        ),
     ] {
         let said = room.refuses(1, arguments);
         assert!(said.contains(expected), "{arguments:?}: {said}");

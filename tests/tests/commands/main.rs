@@ -7,6 +7,7 @@ mod midi_input;
 mod midi_selection;
 mod midi_sequences;
 mod same_everywhere;
+mod scene_beginnings;
 mod scene_command;
 mod scene_errors;
 mod scene_figure;

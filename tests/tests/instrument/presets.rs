@@ -356,7 +356,12 @@ fn a_setup_can_be_another_with_a_few_things_changed() {
     expected.string[1].pitch = 40.0;
     assert_eq!(mine, expected);
     for (text, words) in [
-        ("name = \"x\"\nbased_on = \"banjo\"", &["banjo", "electric"][..]),
+        (
+            "name = \"x\"\nbased_on = \"drop-d\"",
+            &[
+                "based_on = \"drop-d\" is refused: a set-up can only be based on electric, classical, steel or bass",
+            ][..],
+        ),
         ("name = \"x\"\nbased_on = 3", &["based_on"]),
         ("name = \"x\"\nbased_on = \"bass\"\n[neck]\nactoin = 0.003", &["unknown key", "actoin"]),
         ("name = \"x\"\nbased_on = \"bass\"\n[neck]\naction = 3.0", &["neck.action", "3"]),

@@ -40,19 +40,20 @@ pub use trial::{Fault, Outcome, Record, Trial};
 #[command(
     name = "cargo xtask measure extremes",
     after_help = "Examples:\n  \
-        cargo xtask measure extremes                    the run whose table is in docs/stability.md\n  \
-        cargo xtask measure extremes --quick            its beginning, compared with the table\n  \
+        cargo xtask measure extremes          the run of docs/stability.md\n  \
+        cargo xtask measure extremes --quick  its beginning, compared with that\n  \
         cargo xtask measure extremes --seed 7 --trials 20000\n  \
-        cargo xtask measure extremes --replay tests/regressions/extremes/finger-deep-in-a-mass.toml\n\n\
-        A run that was stopped goes on where it was when it is started again. Trials that fail are made small\n\
-        and written to tests/regressions/extremes/open; once mended they belong one folder up, where\n\
-        `cargo test --workspace --test physics extremes` replays them."
+        cargo xtask measure extremes --replay tests/regressions/extremes/NAME.toml\n\n\
+        A run that was stopped goes on where it was when it is started again. Trials\n\
+        that fail are made small and written to tests/regressions/extremes/open; once\n\
+        mended they belong one folder up, where\n  \
+        cargo test --workspace --test physics extremes\nreplays them."
 )]
 struct Arguments {
     /// Trials to draw
     #[arg(long, default_value_t = TRIALS, value_parser = clap::value_parser!(u64).range(1..))]
     trials: u64,
-    /// Trials to draw of instruments and necks that are exchanged under ringing strings
+    /// Trials of instruments and necks exchanged under ringing strings
     #[arg(long, default_value_t = EXCHANGES)]
     exchanges: u64,
     /// Where the random numbers begin
@@ -61,10 +62,10 @@ struct Arguments {
     /// Threads at work [default: as many as the machine has]
     #[arg(long)]
     threads: Option<NonZeroUsize>,
-    /// Seconds of hard playing through the engine, over all built-in instruments
+    /// Seconds of hard playing, over all built-in instruments
     #[arg(long, default_value_t = PLAYING, value_parser = seconds)]
     playing: f64,
-    /// The first trials of seed 1, of exchanges too, and a little playing; the tables must be those in docs/stability.md
+    /// The first trials and a little playing; compared with the page
     #[arg(long, conflicts_with_all = ["trials", "exchanges", "seed", "playing", "fresh"])]
     quick: bool,
     /// Write the tables into docs/stability.md

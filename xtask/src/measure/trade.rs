@@ -43,12 +43,14 @@ const PICTURE: &str = "docs/figures/trade.svg";
 #[derive(Parser)]
 #[command(
     name = "cargo xtask measure trade",
-    after_help = "Examples:\n  cargo xtask measure trade            measures and prints the tables (some minutes)\n  \
-                  cargo xtask measure trade --write    puts them and the picture into docs/\n  \
-                  cargo xtask measure trade --quick    draft, live and all stencils at 48 kHz, without times, compared with docs/trade.md"
+    after_help = "Examples:\n  cargo xtask measure trade          measures and prints the tables (some minutes)\n  \
+                  cargo xtask measure trade --write  puts them and the picture into docs/\n  \
+                  cargo xtask measure trade --quick  a part of them, without times, compared\n  \
+                  \x20                                  with docs/trade.md"
 )]
 struct Arguments {
-    /// Measure only the errors of `draft`, `live` and all stencils at 48 kHz, and compare them with the tables in docs/trade.md.
+    /// Only the errors at 48 kHz of `draft`, `live` and all stencils.
+    /// They are compared with the tables in docs/trade.md.
     #[arg(long, conflicts_with = "write")]
     quick: bool,
     /// Put the tables into docs/trade.md and draw docs/figures/trade.svg.

@@ -1,4 +1,4 @@
-//! Bodies that cannot be are refused by what must be otherwise, and one that is as said can be.
+//! A body that cannot be is refused with the value that would do; one with that value is accepted.
 
 use super::super::refusals::taken;
 use super::*;

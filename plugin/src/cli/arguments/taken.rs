@@ -12,7 +12,7 @@ use crate::cli::names::escaped;
 use crate::cli::{Failure, Outcome, render};
 use crate::controls::Touching;
 use crate::engine::EngineOptions;
-use crate::params::{InputChoice, LegatoChoice, Setting, StringOrder, settings};
+use crate::params::{InputChoice, LegatoChoice, Setting, StringOrder, idle, settings};
 use crate::performance::{HIGHEST_CAPO, InputMode, highest_capo};
 use crate::plugin::order::{self, Order};
 
@@ -135,6 +135,16 @@ impl TakenArgs {
             Some(fret) => refused("--capo", fret, format!("no capo on {name}: it leaves no five frets")),
             None => Ok(()),
         }
+    }
+
+    /// What to warn of: settings of which nothing comes on an instrument.
+    pub(in crate::cli) fn in_vain(&self, setup: &Setup) -> Vec<String> {
+        let told = |setting: &Setting| {
+            let why = idle::why(setting.id(), setup)?.trim_end_matches('.');
+            let why = why.replacen("This", "this", 1);
+            Some(format!("--set {}={} does nothing: {why}", setting.id(), setting.shown()))
+        };
+        self.set.iter().filter_map(told).collect()
     }
 
     /// How hands act, as far as they are told here.

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
 use super::labels::{LabelFile, Labelled};
 use super::warn;
@@ -29,7 +29,9 @@ impl Files {
         let (rate, depth) = (arguments.sample_rate, arguments.bit_depth);
         // The other files may be to go there, too. (Should one be refused, this goes after those before.)
         let folder = arguments.stems.as_ref().map(|folder| {
-            NewFolders::make(folder).with_context(|| format!("cannot make the folder {}", shown(folder)))
+            let describe = || format!("cannot make the folder {}", shown(folder));
+            ensure!(!folder.exists() || folder.is_dir(), "{}: it is a file", describe());
+            NewFolders::make(folder).with_context(describe)
         });
         let folder = folder.transpose()?.unwrap_or_default();
         let mix = WavFile::begin(output, 2, rate, depth)?;

@@ -23,6 +23,7 @@ use crate::cli::names::shown;
 use crate::cli::one_line;
 use crate::cli::output::Draft;
 use crate::engine::Record;
+use crate::midi_file::{LeftOut, SongTime};
 use crate::performance::Compromises;
 use gestures::{LabelledBend, LabelledGesture, bends, gestures};
 use lines::Lines;
@@ -36,6 +37,8 @@ pub(super) struct Labelled<'a> {
     pub source: &'a Source<'a>,
     pub instrument: &'a Instrument,
     pub record: Record,
+    /// Notes of the song that the player has not been given.
+    pub left_out: &'a [LeftOut],
     pub heard: &'a Heard,
     /// What has been warned of.
     pub warnings: &'a [String],
@@ -85,7 +88,7 @@ impl Labelled<'_> {
     fn write(mut self, strings: Vec<LabelledString>, file: File) -> io::Result<()> {
         let courses = courses(&self.record.annotations, strings.len());
         let notes = notes(&courses, &strings, self.clock());
-        let unplayed = unplayed(&courses, &self.record.unplayed, self.clock());
+        let unplayed = unplayed(&courses, &self.record.unplayed, self.left_out, self.clock());
         let bends = bends(&self.record.annotations, self.clock());
         // Those of equal times on one string stay in the order in which they are done.
         self.record.gestures.sort_by_key(|gesture| (gesture.time, gesture.string));
@@ -111,7 +114,7 @@ impl Labelled<'_> {
     }
 
     fn clock(&self) -> Clock {
-        Clock { sample_rate: f64::from(self.source.arguments.sample_rate), samples: self.heard.samples }
+        Clock { sample_rate: self.source.arguments.sample_rate, samples: self.heard.samples }
     }
 }
 
@@ -139,14 +142,19 @@ struct Document<'a> {
 #[derive(Debug, Clone, Copy)]
 struct Clock {
     /// Hz.
-    sample_rate: f64,
+    sample_rate: u32,
     samples: u64,
 }
 
 impl Clock {
     /// When a sample is, s.
     fn seconds(self, sample: u64) -> f64 {
-        sample as f64 / self.sample_rate
+        sample as f64 / f64::from(self.sample_rate)
+    }
+
+    /// The sample nearest to a time of the song.
+    fn sample(self, time: SongTime) -> u64 {
+        time.sample(self.sample_rate)
     }
 
     /// Whether the sound has it.

@@ -178,8 +178,9 @@ impl Rendering<'_> {
         self.warnings.extend_from_slice(&told);
         let record = self.engine.take_record();
         let instrument = self.engine.instrument();
-        let warnings = &self.warnings;
-        self.files.finish(Labelled { source: &self.source, instrument, record, heard: &heard, warnings })?;
+        let (left_out, warnings) = (&self.song.left_out, &self.warnings);
+        let source = &self.source;
+        self.files.finish(Labelled { source, instrument, record, left_out, heard: &heard, warnings })?;
         Ok(Rendered { heard, warnings: told })
     }
 }

@@ -113,8 +113,12 @@ fn in_all(accounts: &[&Account]) -> String {
         return String::new();
     };
     let (part, put_in, largest) = (open_part(worst), worst.put_in_gross, worst.largest);
-    let (of, what) = if put_in > largest { (put_in, "put in") } else { (largest, "that there was at most") };
-    format!("and in all at the end by {part:.1e} of the {of:.3e} J {what}")
+    let whole = if put_in > largest {
+        format!("the {put_in:.3e} J put in")
+    } else {
+        format!("the largest energy, {largest:.3e} J")
+    };
+    format!("and in all at the end by {part:.1e} of {whole}")
 }
 
 #[cfg(test)]

@@ -1,14 +1,13 @@
 //! What a luthier changes: the instrument, action, relief, frets, pickup and the tuning of the strings.
 
 use egui::{Ui, text::LayoutJob};
-use low_action_dsp::setup::Pickup;
 use nice_plug::prelude::{Enum, Param};
 
 use super::cells::Cells;
 use crate::editor::compare::change;
 use crate::editor::control::{choice, slider, titled_slider, unless_idle};
 use crate::editor::{Given, theme};
-use crate::params::InstrumentChoice;
+use crate::params::{InstrumentChoice, idle};
 use crate::plugin::shelf::NONE;
 
 /// Draws the panel.
@@ -49,8 +48,8 @@ pub fn show(ui: &mut Ui, given: &Given) {
         slider(ui, given, param, cells.next());
     }
     cells.group(ui, "PICKUP", 1);
-    let has_coil = given.plan.setup().is_none_or(|setup| matches!(setup.pickup, Pickup::Magnetic { .. }));
-    let reason = (!has_coil).then_some("This instrument is heard without a coil.");
+    let why_idle = |id: &str| given.plan.setup().and_then(|setup| idle::why(id, setup));
+    let reason = why_idle("pickup_position");
     unless_idle(ui, cells.next(), reason, |ui, area| slider(ui, given, &setup.pickup_position, area));
     slider(ui, given, &setup.pickup_blend, cells.next());
     cells.group(ui, "OPEN STRINGS", 2);
@@ -58,7 +57,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
     for (index, string) in given.params.strings.iter().enumerate() {
         let sounding = strings.get(index);
         let title = sounding.map(|sounding| format!("String {}: {}", index + 1, sounding.name));
-        let reason = sounding.is_none().then_some("This instrument has no such string.");
+        let reason = why_idle(&format!("{}{}", idle::STRING_TUNING, index + 1));
         unless_idle(ui, cells.next(), reason, |ui, area| match &title {
             Some(title) => titled_slider(ui, given, &string.tuning, area, title),
             None => slider(ui, given, &string.tuning, area),

@@ -7,6 +7,7 @@ use super::cells::Cells;
 use crate::editor::control::{slider, switch, unless_idle};
 use crate::editor::theme::{self, GAP};
 use crate::editor::{Given, panels::bar};
+use crate::params::idle;
 
 /// Times longer than this fill their bar, s.
 const LONGEST: f64 = 40.0;
@@ -27,8 +28,7 @@ pub fn show(ui: &mut Ui, given: &Given) {
     cells.group(ui, "LOSSES", 1);
     slider(ui, given, &setup.loss_0, cells.next());
     slider(ui, given, &setup.loss_1, cells.next());
-    let has_body = given.plan.setup().is_none_or(|setup| setup.body.is_some());
-    let reason = (!has_body).then_some("This instrument has no body by which strings could sing along.");
+    let reason = given.plan.setup().and_then(|setup| idle::why("idle_hands", setup));
     let idle_hands = &given.params.player.idle_hands;
     unless_idle(ui, cells.next(), reason, |ui, area| slider(ui, given, idle_hands, area));
     cells.group(ui, "HOW LONG OPEN STRINGS RING", 3);

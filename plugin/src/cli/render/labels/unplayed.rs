@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::Clock;
 use super::notes::Course;
+use crate::midi_file::{LeftOut, WhyLeftOut};
 use crate::performance::{Unplayed, Why};
 
 /// A note that did not sound.
@@ -21,8 +22,14 @@ pub(super) struct LabelledUnplayed {
     why: &'static str,
 }
 
-/// Notes that no string got, and those that were not struck on theirs, in order of time and of channels and keys.
-pub(super) fn unplayed(courses: &[Course], others: &[Unplayed], clock: Clock) -> Vec<LabelledUnplayed> {
+/// Notes that no string got, those that were not struck on theirs, and those that no player was given, in order of time and of
+/// channels and keys.
+pub(super) fn unplayed(
+    courses: &[Course],
+    others: &[Unplayed],
+    left_out: &[LeftOut],
+    clock: Clock,
+) -> Vec<LabelledUnplayed> {
     let others = others.iter().map(|note| {
         let Unplayed { channel, key, velocity, asked, why } = *note;
         let why = match why {
@@ -32,7 +39,14 @@ pub(super) fn unplayed(courses: &[Course], others: &[Unplayed], clock: Clock) ->
         };
         label((asked, channel, key), velocity, why, clock)
     });
-    let mut unplayed: Vec<LabelledUnplayed> = others.collect();
+    let left_out = left_out.iter().map(|note| {
+        let why = match note.why {
+            WhyLeftOut::Percussion => "percussion",
+            WhyLeftOut::NotChosen => "not_chosen",
+        };
+        label((clock.sample(note.time), note.channel, note.key), note.velocity.into(), why, clock)
+    });
+    let mut unplayed: Vec<LabelledUnplayed> = others.chain(left_out).collect();
     let has_sound = |course: &&Course| course.sounded.is_some_and(|(onset, _)| clock.has(onset));
     let heard: BTreeSet<Asked> = courses.iter().filter(has_sound).map(asked).collect();
     // One that moves to another string before it is struck there has a course for each.
