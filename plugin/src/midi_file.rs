@@ -14,7 +14,7 @@ mod unplayed;
 
 use midly::{EventIter, MetaMessage, MidiMessage, TrackEventKind};
 
-use crate::performance::{Expression, PlayerEvent, announced_members};
+use crate::performance::{Expression, PlayerEvent, announced_members, controller};
 use crate::pitch_wheel;
 use chunks::Chunks;
 pub use messages::{CutOff, MidiFileError, SongWarning};
@@ -28,9 +28,6 @@ pub const LARGEST_FILE: usize = 32 << 20;
 
 /// The channel of percussion in General MIDI, counted from 0.
 const DRUM_CHANNEL: u8 = 9;
-
-/// Controllers that set registered parameters, and those that take data entry away from them.
-const PARAMETERS: [u8; 6] = [6, 38, 98, 99, 100, 101];
 
 /// Which of a file's notes are played. Tempo changes always count, and so do registered parameters: MPE and how far
 /// wheels reach are announced on other channels than those of the notes, and often in another track.
@@ -288,7 +285,7 @@ impl Reader {
 
 /// Whether it is part of setting a registered parameter.
 fn is_parameter(event: PlayerEvent) -> bool {
-    matches!(event, PlayerEvent::Controller { number, .. } if PARAMETERS.contains(&number))
+    matches!(event, PlayerEvent::Controller { number, .. } if controller::is_of_parameters(number))
 }
 
 fn count_notes(events: &[SongEvent]) -> usize {

@@ -60,6 +60,8 @@ fn the_panels() {
             desk.open(tab);
             desk.point(pos2(800.0, 24.0));
             chord(desk);
+            // Numbers are shown smoothed, and have then come to what they are of.
+            desk.wait(1.0);
         });
     }
 }
@@ -92,7 +94,7 @@ fn what_a_small_window_has_no_room_for() {
 fn the_keys_of_the_computer() {
     if can_draw() {
         let mut desk = Desk::alone();
-        desk.params.layout.set_keys(Keyboard { map: KeyMap::Frets, fret: 2, ..Keyboard::default() });
+        desk.params.layout.set_keys(Keyboard { map: KeyMap::Frets, ..Keyboard::default() });
         desk.open("Player");
         for key in [Key::W, Key::F] {
             let (repeat, modifiers) = (false, Modifiers::NONE);

@@ -161,7 +161,7 @@ pub fn unless_idle(
     let response = show(ui, area);
     let Some(reason) = reason else { return response };
     let veil = area.expand2(vec2(theme::NEAR, 0.0));
-    ui.painter().rect_filled(veil, 0.0, theme::faint(theme::SURFACE, 0.7));
+    ui.painter().rect_filled(veil, 0.0, theme::faint(theme::SURFACE, theme::VEIL));
     response.on_hover_text(reason)
 }
 

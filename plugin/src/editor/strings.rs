@@ -91,11 +91,17 @@ fn paint_names(ui: &Ui, sight: &Sight, setup: &low_action_dsp::Setup) {
     }
 }
 
-/// How far a millimetre of motion goes in the picture.
+/// Height under which a mark of a millimetre is no mark any more, points.
+const LEAST_SCALE: f32 = 6.0;
+
+/// How far a millimetre of motion goes in the picture, where that can be seen.
 fn paint_scale(ui: &Ui, sight: &Sight) {
     let painter = ui.painter();
     let (right, bottom) = (sight.area.right() - NEAR, sight.area.bottom() - NEAR);
     let height = 1e-3 * sight.lift;
+    if height < LEAST_SCALE {
+        return;
+    }
     let x = right - TIGHT;
     let stroke = Stroke::new(1.0, theme::SOFT_TEXT);
     painter.vline(x, bottom - height..=bottom, stroke);

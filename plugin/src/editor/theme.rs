@@ -129,6 +129,9 @@ fn visuals() -> Visuals {
     visuals
 }
 
+/// How strong the veil is over what does nothing at present: it can still be read.
+pub const VEIL: f32 = 0.45;
+
 /// A colour with a part of its strength, 0 to 1.
 pub fn faint(colour: Color32, part: f32) -> Color32 {
     colour.gamma_multiply(part.clamp(0.0, 1.0))

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{LARGEST_FILE, SongEvent};
-use crate::performance::{ChosenParameter, PlayerEvent};
+use crate::performance::{ChosenParameter, PlayerEvent, controller};
 
 /// A last track of which the file does not have all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -219,8 +219,11 @@ pub(super) fn tuning_not_followed(events: &[SongEvent]) -> Option<SongWarning> {
         parameters[channel].hear(number, value);
         asked |= has_notes[channel]
             && match (number, parameters[channel].number()) {
-                (6, Some(ChosenParameter::FINE_TUNING | ChosenParameter::COARSE_TUNING)) => value != 64,
-                (38, Some(ChosenParameter::FINE_TUNING)) => value != 0,
+                (
+                    controller::DATA_ENTRY,
+                    Some(ChosenParameter::FINE_TUNING | ChosenParameter::COARSE_TUNING),
+                ) => value != 64,
+                (controller::DATA_ENTRY_LOWER, Some(ChosenParameter::FINE_TUNING)) => value != 0,
                 _ => false,
             };
     }
@@ -234,7 +237,9 @@ pub(super) fn upper_zone(events: &[SongEvent]) -> Option<SongWarning> {
     for event in events {
         let PlayerEvent::Controller { channel: 15, number, value } = event.event else { continue };
         parameter.hear(number, (127.0 * value).round() as u8);
-        announced |= number == 6 && value > 0.0 && parameter.number() == Some(ChosenParameter::MEMBERS);
+        announced |= number == controller::DATA_ENTRY
+            && value > 0.0
+            && parameter.number() == Some(ChosenParameter::MEMBERS);
     }
     announced.then_some(SongWarning::UpperZone)
 }
@@ -242,14 +247,14 @@ pub(super) fn upper_zone(events: &[SongEvent]) -> Option<SongWarning> {
 /// What volume and pan ask for in vain: on channels that have notes, anything but the values they begin with in General MIDI.
 pub(super) fn not_followed(events: &[SongEvent]) -> Option<SongWarning> {
     let has_notes = with_notes(events);
-    let asks = |controller: u8, usual: f32| {
+    let asks = |asked: u8, usual: f32| {
         events.iter().any(|event| match event.event {
             PlayerEvent::Controller { channel, number, value } => {
-                has_notes[usize::from(channel & 15)] && number == controller && value != usual / 127.0
+                has_notes[usize::from(channel & 15)] && number == asked && value != usual / 127.0
             }
             _ => false,
         })
     };
-    let (volume, pan) = (asks(7, 100.0), asks(10, 64.0));
+    let (volume, pan) = (asks(controller::VOLUME, 100.0), asks(controller::PAN, 64.0));
     (volume || pan).then_some(SongWarning::NotFollowed { volume, pan })
 }

@@ -1,7 +1,8 @@
 //! Between the sequences of format 2: each is played as if there were no other.
 
 use super::{SongEvent, SongTime};
-use crate::performance::PlayerEvent;
+use crate::performance::controller::{BRIGHTNESS, DATA_ENTRY, PARAMETER_LOWER, PARAMETER_UPPER, RESET};
+use crate::performance::{ChosenParameter, PlayerEvent};
 
 /// First and last channel, on which zones of MPE are announced.
 const MANAGERS: [u8; 2] = [0, 15];
@@ -10,17 +11,19 @@ const MANAGERS: [u8; 2] = [0, 15];
 /// back, and hands let go of everything. The last of it is [`PlayerEvent::AllNotesOff`], which no file has in it. (There is no
 /// message by which wheels reach as far as they did before any was announced.)
 pub(super) fn let_go(time: SongTime) -> impl Iterator<Item = SongEvent> {
-    let controller = |channel, number, value: u8| PlayerEvent::Controller {
+    let send = |channel, number, value: u8| PlayerEvent::Controller {
         channel,
         number,
         value: f32::from(value) / 127.0,
     };
     let zones = MANAGERS.into_iter().flat_map(move |channel| {
-        [(101, 0), (100, 6), (6, 0)].map(|(number, value)| controller(channel, number, value))
+        let members =
+            [(PARAMETER_UPPER, 0), (PARAMETER_LOWER, ChosenParameter::MEMBERS as u8), (DATA_ENTRY, 0)];
+        members.map(|(number, value)| send(channel, number, value))
     });
-    let resets = (0..16).map(move |channel| controller(channel, 121, 0));
+    let resets = (0..16).map(move |channel| send(channel, RESET, 0));
     // Which a reset leaves where it is.
-    let places = (0..16).map(move |channel| controller(channel, 74, 64));
+    let places = (0..16).map(move |channel| send(channel, BRIGHTNESS, 64));
     let events = zones.chain(resets).chain(places).chain([PlayerEvent::AllNotesOff]);
     events.map(move |event| SongEvent { time, event })
 }

@@ -1,6 +1,8 @@
 //! What the hands are told to do with notes to come, beside their keys: strokes of the right hand, ways
 //! of the left to stop a string, and what connects one note with the next.
 
+use super::controller;
+
 /// What the right hand does when a note begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Stroke {
@@ -24,7 +26,7 @@ pub(crate) enum Stroke {
 }
 
 impl Stroke {
-    /// In the order of controller 22.
+    /// In the order of [`controller::STROKE`].
     const ALL: [Self; 8] =
         [Self::Down, Self::Up, Self::Alternate, Self::Rest, Self::Slap, Self::Pop, Self::Pinch, Self::Tap];
 
@@ -49,7 +51,7 @@ pub(crate) enum Stop {
 }
 
 impl Stop {
-    /// In the order of controller 23.
+    /// In the order of [`controller::STOP`].
     const ALL: [Self; 4] = [Self::Press, Self::Harmonic, Self::Mute, Self::Bar];
 
     /// By its number; anything else is the usual one.
@@ -124,16 +126,18 @@ impl Articulation {
     pub(crate) fn set_controller(&mut self, number: u8, value: u8) {
         let part = f64::from(value) / 127.0;
         match number {
-            5 => self.slide_time = SLIDE_TIME.0 * libm::pow(SLIDE_TIME.1 / SLIDE_TIME.0, part),
-            65 => self.slide = value >= 64,
-            68 => self.legato = value >= 64,
-            20 => self.palm = part,
-            21 => self.strum = LONGEST_STRUM * part,
-            22 => self.stroke = Stroke::of(value),
-            23 => self.stop = Stop::of(value),
-            24 => self.accent = ((f64::from(value) - 64.0) / 63.0).max(-1.0),
-            25 if value == 0 => self.tremolo = 0.0,
-            25 => self.tremolo = TREMOLO.0 + (TREMOLO.1 - TREMOLO.0) * part,
+            controller::SLIDE_TIME => {
+                self.slide_time = SLIDE_TIME.0 * libm::pow(SLIDE_TIME.1 / SLIDE_TIME.0, part)
+            }
+            controller::SLIDE => self.slide = value >= 64,
+            controller::LEGATO => self.legato = value >= 64,
+            controller::PALM => self.palm = part,
+            controller::STRUM => self.strum = LONGEST_STRUM * part,
+            controller::STROKE => self.stroke = Stroke::of(value),
+            controller::STOP => self.stop = Stop::of(value),
+            controller::ACCENT => self.accent = ((f64::from(value) - 64.0) / 63.0).max(-1.0),
+            controller::TREMOLO if value == 0 => self.tremolo = 0.0,
+            controller::TREMOLO => self.tremolo = TREMOLO.0 + (TREMOLO.1 - TREMOLO.0) * part,
             _ => {}
         }
     }

@@ -2,55 +2,13 @@
 //! controllers say of notes to come.
 
 use super::articulation::Articulation;
+use super::controller;
 use super::parameter::ChosenParameter;
 use super::string::Manner;
 use super::technique::{BRIGHTNESS_REACH, FIRMEST};
 
 /// Farthest a file or keyboard may set its wheel's reach to, semitones.
 const WIDEST_RANGE: f64 = 96.0;
-
-/// Numbers of controllers that change something for all channels, or may, or for notes that have begun.
-pub(super) mod controller {
-    /// Data entry, upper half.
-    pub const DATA_ENTRY: u8 = 6;
-    /// Its lower half.
-    pub const DATA_ENTRY_LOWER: u8 = 38;
-    /// The sustain pedal.
-    pub const PEDAL: u8 = 64;
-    /// The sostenuto pedal.
-    const SOSTENUTO: u8 = 66;
-    /// First of the messages that stop everything or put it back.
-    const MODE: u8 = 120;
-    /// Puts everything back.
-    pub const RESET: u8 = 121;
-    /// Fret of the capo.
-    pub const CAPO: u8 = 26;
-    /// First of the keyswitches.
-    pub const SWITCHES: u8 = 27;
-    /// Where on the neck the left hand plays.
-    pub const HAND: u8 = 28;
-
-    /// Whether it tells hands what to do, which a keyboard's knobs may not mean.
-    pub fn is_of_hands(number: u8) -> bool {
-        (20..=HAND).contains(&number)
-    }
-
-    /// Whether it changes something that belongs to no channel; where notes have channels of their own, one of them that is reset
-    /// does not.
-    pub fn is_of_all(number: u8, mpe: bool) -> bool {
-        matches!(number, CAPO | SWITCHES | HAND) || (number == RESET && !mpe)
-    }
-
-    /// Whether it makes of keys that are down what it does not make of those that have gone up.
-    pub fn keeps_or_ends(number: u8) -> bool {
-        matches!(number, PEDAL | SOSTENUTO) || number >= MODE
-    }
-
-    /// Whether it makes of notes that have begun, or of what channels mean, what it does not make of those to come.
-    pub fn is_of_begun(number: u8) -> bool {
-        matches!(number, DATA_ENTRY | DATA_ENTRY_LOWER | SOSTENUTO) || number >= MODE
-    }
-}
 
 /// State of one channel.
 #[derive(Debug, Clone)]
@@ -216,16 +174,16 @@ impl Channel {
     pub(crate) fn set_controller(&mut self, number: u8, value: u8) -> Request {
         self.parameter.hear(number, value);
         match number {
-            1 => {
+            controller::VIBRATO => {
                 self.manner.vibrato = f64::from(value) / 127.0;
                 Request::Swing
             }
-            2 | 11 => {
-                self.swell[usize::from(number == 2)] = f64::from(value) / 127.0;
+            controller::BREATH | controller::EXPRESSION => {
+                self.swell[usize::from(number == controller::BREATH)] = f64::from(value) / 127.0;
                 self.manner.force = self.swell[0] * self.swell[1];
                 Request::None
             }
-            66 => {
+            controller::SOSTENUTO => {
                 let was_down = std::mem::replace(&mut self.sostenuto, value >= 64);
                 match (was_down, self.sostenuto) {
                     (false, true) => Request::Catch,
@@ -233,7 +191,7 @@ impl Channel {
                     _ => Request::None,
                 }
             }
-            74 => {
+            controller::BRIGHTNESS => {
                 self.manner.place = (64.0 - f64::from(value)) / 64.0 * BRIGHTNESS_REACH;
                 Request::None
             }
@@ -242,14 +200,14 @@ impl Channel {
                 let was_down = std::mem::replace(&mut self.pedal, value >= 64);
                 if was_down && !self.pedal { Request::PedalUp } else { Request::None }
             }
-            20 | 25 => {
+            controller::PALM | controller::TREMOLO => {
                 self.articulation.set_controller(number, value);
                 Request::Touch
             }
             controller::CAPO => Request::Capo(value),
             controller::SWITCHES => Request::Switches(value),
             controller::HAND => Request::Hand(value),
-            120 => Request::Silence,
+            controller::SILENCE => Request::Silence,
             // Reset all controllers leaves the wheel's reach and sound controllers, 70 to 79, alone (MIDI recommended practice 15).
             controller::RESET => {
                 self.pedal = false;
@@ -260,8 +218,7 @@ impl Channel {
                 self.wheel = 0.0;
                 Request::Reset
             }
-            // All notes off, and the four mode messages that imply it.
-            123..=127 => Request::ReleaseKeys,
+            controller::KEYS_OFF..=controller::LAST => Request::ReleaseKeys,
             _ => {
                 self.articulation.set_controller(number, value);
                 Request::None

@@ -20,7 +20,7 @@ mod meanwhile;
 mod waiting;
 
 use super::articulation::{Articulation, Stop, Stroke};
-use super::channel::{Channel, controller};
+use super::channel::Channel;
 use super::control::MANAGER;
 use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
 use super::string::{Manner, Start};

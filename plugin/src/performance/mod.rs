@@ -3,8 +3,9 @@
 //! [`Performance`] takes [`PlayerEvent`]s at sample times and hands out
 //! [`low_action_dsp::TimedGesture`]s: which string and fret (`hand`), notes that begin together or take over
 //! from one another (`chord`), what fingers and plucks a note takes from its start to its silence (`string`),
-//! how hands are told to play (`articulation`, `switches`), what pedals and wheels say (`channel`) and do to
-//! it (`control`, `channels`, `meaning`, `expressions`, `bend`), and how one pluck differs from the next (`variation`). Beside the gestures it
+//! how hands are told to play (`articulation`, `switches`), what pedals, wheels and controllers say (`channel`, their numbers
+//! in `controller`) and do to it (`control`, `key_up`, `channels`, `meaning`, `expressions`, `bend`), and how one pluck differs from
+//! the next (`variation`). Beside the gestures it
 //! tells what becomes of the notes ([`Annotation`]), for labels. There are no host types here, nothing is allocated after
 //! construction, and the result depends only on the events and their times, not on how the time between them is cut
 //! into blocks.
@@ -13,16 +14,20 @@ mod anew;
 mod annotation;
 mod announced;
 mod articulation;
+mod beginning;
 mod bend;
 mod channel;
 mod channels;
 mod chord;
 mod compromises;
 mod control;
+pub(crate) mod controller;
 mod event;
 mod expressions;
 mod fingers;
 mod hand;
+mod input_mode;
+mod key_up;
 mod meaning;
 mod moment;
 mod parameter;
@@ -31,6 +36,7 @@ mod right_hand;
 mod string;
 mod switches;
 mod technique;
+mod touch;
 mod variation;
 
 use low_action_dsp::setup::Player;
@@ -39,14 +45,14 @@ use crate::controls::Touching;
 pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedAnnotation, Unplayed, Why};
 pub use announced::Announced;
 use articulation::Stop;
-use channel::{Channel, controller};
+use channel::Channel;
 pub(crate) use channels::{Channels, Spoken, announced_members};
 use chord::{JustBegun, Late, Unplaced};
 pub use compromises::Compromises;
-pub use control::InputMode;
 pub use event::{Expression, PlayerEvent, StringDeed};
 pub use hand::{HIGHEST_CAPO, highest_capo};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};
+pub use input_mode::InputMode;
 pub use moment::GestureSink;
 pub(crate) use moment::Moment;
 pub(crate) use parameter::ChosenParameter;
@@ -229,80 +235,6 @@ impl Performance {
         self.tell_unplayed(out);
     }
 
-    /// The hands act differently from sample `time` on.
-    pub fn touch(&mut self, time: u64, touching: &Touching, out: &mut impl GestureSink) {
-        if self.touching == *touching && !self.taken_over {
-            return;
-        }
-        self.taken_over = false;
-        let time = time.max(self.now);
-        self.advance(time, out);
-        if touching.keyswitches != self.touching.keyswitches {
-            self.set_switches(touching.keyswitches);
-        }
-        if touching.hand_position != self.touching.hand_position {
-            self.hand.set_home(touching.hand_position);
-        }
-        if touching.capo != self.touching.capo {
-            // Notes of this sample have been told where they are to be without it.
-            self.begin_chord(out);
-            self.set_capo(touching.capo.into());
-        }
-        if touching.take != self.touching.take {
-            self.variation.begin_take(touching.take);
-        }
-        let ceases = self.touching.hand_controllers && !touching.hand_controllers;
-        self.touching = *touching;
-        if ceases {
-            self.forget_hand_controllers(out);
-        }
-        self.variation.set_amount(touching.variation);
-        for channel in &mut self.channels {
-            channel.set_range(touching.bend_range, touching.ignore_rpn);
-        }
-        self.follow_wheels();
-        let hands = touching.hands(&self.hands, self.scale);
-        for string in &mut self.strings {
-            string.set_hands(time, &hands, out);
-            string.set_arm(time, touching.tremolo_arm);
-        }
-    }
-
-    /// Takes over from another player in the middle of the music: pedals, wheels and, if the strings go on
-    /// sounding, notes, fingers and the place of the hand. Nothing is allocated.
-    pub fn take_over(&mut self, old: &Self, strings_go_on: bool) {
-        self.channels.clone_from(&old.channels);
-        self.variation.clone_from(&old.variation);
-        self.input = old.input;
-        (self.means_otherwise, self.spoke) = (old.means_otherwise, old.spoke);
-        self.touching = old.touching;
-        (self.compromises, self.now) = (old.compromises, old.now);
-        self.chord.clear();
-        self.chord.extend_from_slice(&old.chord);
-        self.releases.clear();
-        self.releases.extend_from_slice(&old.releases);
-        self.late.clear();
-        self.late.extend_from_slice(&old.late);
-        (self.upward, self.begins_anew) = (old.upward, old.begins_anew);
-        self.switches = old.switches;
-        self.just_begun.take_over(&old.just_begun, strings_go_on);
-        self.hand.set_home(old.hand.home());
-        if strings_go_on {
-            self.hand.take_over(&old.hand);
-            for (string, old) in self.strings.iter_mut().zip(&old.strings) {
-                string.take_over(old);
-            }
-            self.set_capo(self.hand.asked_capo());
-        } else {
-            // It may have played before.
-            self.strings.iter_mut().for_each(StringPlayer::reset);
-            self.hand.reset();
-            self.set_capo(old.hand.asked_capo());
-            self.pick_up_hands();
-        }
-        self.taken_over = strings_go_on;
-    }
-
     /// Does everything that falls due before sample `until`. Events at `until` and later may still
     /// follow.
     pub fn advance(&mut self, until: u64, out: &mut impl GestureSink) {
@@ -348,77 +280,6 @@ impl Performance {
     /// What could not be played as written so far.
     pub fn compromises(&self) -> Compromises {
         self.compromises
-    }
-
-    /// Starts again at sample 0, but with the capo, the keyswitches, the place of the hand, and the reach of wheels and the channels
-    /// for MPE that were announced: those who send them do so once.
-    pub fn restart(&mut self) {
-        let announced = self.announced();
-        self.reset();
-        self.announce(&announced);
-    }
-
-    /// Forgets everything and starts again at sample 0.
-    pub fn reset(&mut self) {
-        self.strings.iter_mut().for_each(StringPlayer::reset);
-        self.channels.iter_mut().for_each(Channel::reset);
-        self.hand.reset();
-        self.variation.reset();
-        self.compromises = Compromises::default();
-        self.unplayed.clear();
-        self.chord.clear();
-        self.just_begun.reset();
-        self.releases.clear();
-        self.late.clear();
-        (self.upward, self.begins_anew) = (false, false);
-        (self.means_otherwise, self.spoke) = (Channels::NONE, Channels::NONE);
-        self.switches = self.touching.keyswitches;
-        self.hand.set_home(self.touching.hand_position);
-        self.set_capo(self.touching.capo.into());
-        self.now = 0;
-        self.pick_up_hands();
-    }
-
-    /// Gives every string the hands and the tremolo arm as they are now.
-    fn pick_up_hands(&mut self) {
-        let hands = self.touching.hands(&self.hands, self.scale);
-        for string in &mut self.strings {
-            string.begin_with(self.now, &hands, self.touching.tremolo_arm);
-        }
-    }
-
-    /// The note of a key ends, however often that went down and whatever the pedals say.
-    fn cut(&mut self, channel: u8, key: u8, out: &mut impl GestureSink) {
-        self.release_switch(channel, key);
-        for index in 0..self.strings.len() {
-            if self.strings[index].cut(self.now, channel, key, out) {
-                self.welcome_back(index, out);
-            }
-        }
-        // A note that has yet to come is heard nevertheless.
-        for late in self.late.iter_mut().filter(|late| late.is(channel, key)) {
-            (late.releases, late.cut) = (late.note.presses, true);
-            late.note.caught = false;
-        }
-    }
-
-    /// A key goes up.
-    fn let_go(&mut self, channel: u8, key: u8, out: &mut impl GestureSink) {
-        if usize::from(channel) >= CHANNELS {
-            return;
-        }
-        // (It may sound, too, if it was no keyswitch when it went down.)
-        self.release_switch(channel, key);
-        let pedal = self.pedal(channel);
-        for index in 0..self.strings.len() {
-            if self.strings[index].release(self.now, channel, key, pedal, out) {
-                return self.welcome_back(index, out);
-            }
-        }
-        // A note that has yet to come is heard nevertheless.
-        if let Some(late) = self.late.iter_mut().find(|late| late.key_down() && late.is(channel, key)) {
-            late.releases += 1;
-        }
     }
 }
 

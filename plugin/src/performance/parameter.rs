@@ -1,6 +1,8 @@
 //! Which registered parameter a channel's data entry sets.
 
-/// The parameter that controllers 98 to 101 have chosen, by the halves of its number.
+use super::controller;
+
+/// The parameter that controllers have chosen, by the halves of its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct ChosenParameter {
     upper: u8,
@@ -23,9 +25,10 @@ impl ChosenParameter {
     /// parameter takes data entry away from the registered one, as does a reset of all controllers.
     pub fn hear(&mut self, number: u8, value: u8) {
         match number {
-            98 | 99 | 121 => *self = Self::NONE,
-            100 => self.lower = value,
-            101 => self.upper = value,
+            controller::PARAMETER_LOWER => self.lower = value,
+            controller::PARAMETER_UPPER => self.upper = value,
+            controller::RESET => *self = Self::NONE,
+            _ if controller::OTHER_PARAMETER.contains(&number) => *self = Self::NONE,
             _ => {}
         }
     }

@@ -43,6 +43,13 @@ fn text_can_be_read() {
     for behind in [theme::RAISED, theme::LIFTED] {
         assert!(contrast(theme::TEXT, behind) >= 4.5);
     }
+    // What does nothing at present lies behind a veil, and can be read through it.
+    let veil = theme::faint(theme::SURFACE, theme::VEIL);
+    for (text, colour) in [("TEXT", theme::TEXT), ("SOFT_TEXT", theme::SOFT_TEXT)] {
+        let contrast = contrast(colour.blend(veil), theme::SURFACE);
+        assert!(contrast >= 3.0, "{text} behind a veil: {contrast:.2}");
+        assert!(contrast < self::contrast(colour, theme::SURFACE) - 1.0, "{text} is not veiled");
+    }
     // What is chosen, or marked to be written over, lies over all of them.
     let context = egui::Context::default();
     Editor::dress(&context);

@@ -5,7 +5,8 @@ use std::io::{self, Write};
 use low_action_dsp::scene::ListeningPoint;
 use low_action_dsp::{Account, Scene, Simulation};
 
-use super::{Seen, open_part};
+use super::check::open_part;
+use super::seen::Seen;
 use crate::cli::SceneArgs;
 use crate::cli::descriptors::is_standard_output;
 use crate::cli::names::shown;

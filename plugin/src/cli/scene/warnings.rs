@@ -5,7 +5,8 @@ use low_action_dsp::digits::plain;
 use low_action_dsp::scene::PluckSpec;
 use low_action_dsp::{Account, Barrier, Ledger, Model, Scene, Simulation, State};
 
-use super::{COARSE, Seen, named, open_part, rounding_part};
+use super::check::{COARSE, named, open_part, rounding_part};
+use super::seen::Seen;
 
 /// Contacts that begin with less energy than this, J, are not warned of: a pluck of 1 N that moves its place by 2 mm gives as much.
 const NO_THROW: f64 = 1e-3;

@@ -117,12 +117,17 @@ fn bars(shown: &[f32; COLUMNS.len()], rest: f32) -> [(f32, String, egui::Color32
     let [iterations, energy, tension, contacts, fingers] = *shown;
     let heard = (energy.max(ENERGIES[0]) / ENERGIES[0]).ln() / (ENERGIES[1] / ENERGIES[0]).ln();
     [
-        (iterations / FULL[0], format!("{iterations:.1}"), theme::ACCENT),
+        (tenths(iterations) / FULL[0], format!("{iterations:.1}"), theme::ACCENT),
         (heard, joules(energy), theme::PLUCK),
         ((tension / rest.max(1e-3) - 1.0) / STRETCH, format!("{tension:.1} N"), theme::STEEL),
-        (contacts / FULL[1], format!("{contacts:.0}"), theme::FLASH),
-        (fingers / FULL[2], format!("{fingers:.1} N"), theme::FINGER),
+        (tenths(contacts) / FULL[1], format!("{contacts:.1}"), theme::FLASH),
+        (tenths(fingers) / FULL[2], format!("{fingers:.1} N"), theme::FINGER),
     ]
+}
+
+/// As much as is read of a number: no bar stands beside a 0.
+fn tenths(number: f32) -> f32 {
+    0.1 * (10.0 * number).round()
 }
 
 /// An energy in the unit that suits it.
@@ -132,5 +137,24 @@ fn joules(energy: f32) -> String {
         ..1e-6 => format!("{:.0} nJ", 1e9 * energy),
         ..1e-3 => format!("{:.1} µJ", 1e6 * energy),
         _ => format!("{:.1} mJ", 1e3 * energy),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_bar_stands_beside_a_0() {
+        for number in [0.0, 1e-3, 0.049, 0.051, 0.2, 0.5, 1.0, 7.3] {
+            let bars = bars(&[number, 0.0, 60.0, number, number], 60.0);
+            for (part, shown, _) in bars {
+                assert_eq!(
+                    part > 0.0,
+                    shown.contains(|digit: char| ('1'..='9').contains(&digit)) && shown != "60.0 N",
+                    "{shown}"
+                );
+            }
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! What a luthier changes: the instrument, action, relief, frets, pickup and the tuning of the strings.
 
-use egui::{Ui, text::LayoutJob};
+use egui::{Ui, text::LayoutJob, vec2};
 use nice_plug::prelude::{Enum, Param};
 
 use super::cells::Cells;
@@ -41,7 +41,8 @@ pub fn show(ui: &mut Ui, given: &Given) {
         let job =
             LayoutJob::simple(setup.description.clone(), theme::BODY_FONT, theme::SOFT_TEXT, rest.width());
         let galley = ui.painter().layout_job(job);
-        ui.painter().galley(rest.min, galley, theme::SOFT_TEXT);
+        // (No control, which would have room above its name.)
+        ui.painter().galley(rest.min + vec2(0.0, theme::NEAR), galley, theme::SOFT_TEXT);
     }
     cells.group(ui, "NECK", 1);
     for param in [&setup.action, &setup.relief, &setup.fret_height] {

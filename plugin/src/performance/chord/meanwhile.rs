@@ -2,8 +2,9 @@
 //! chord apart: what is said of notes that sound is said of those that are yet to be placed, too, and keys that the chord has
 //! to do with go up when it has been placed.
 
-use super::{Articulation, CHANNELS, Channel, LARGEST_CHORD, MANAGER, Manner, Unplaced, controller};
+use super::{Articulation, CHANNELS, Channel, LARGEST_CHORD, MANAGER, Manner, Unplaced};
 use crate::performance::channel::Request;
+use crate::performance::controller;
 use crate::performance::{Channels, GestureSink, Performance};
 
 impl Performance {
