@@ -1,16 +1,10 @@
 //! The form of a WAV file that is there: how many channels and frames it has, at which rate and of which bits.
 
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
-/// Bytes of a chunk's name and size, of the form at the beginning of a format chunk, and up to the format within an extensible one.
-const HEAD: u64 = 8;
-const FORM: usize = 16;
-const EXTENDED: usize = 26;
-/// Kinds of format: floating point, and one that says farther on which it is.
-const FLOATING_POINT: u16 = 3;
-const EXTENSIBLE: u16 = 0xFFFE;
+use hound::{SampleFormat, WavReader};
 
 /// What a WAV file holds, but for the samples themselves.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,9 +20,9 @@ pub(in crate::cli) struct Form {
 impl Form {
     /// That of a file, if it is a WAV file as long as it says: it may have been copied, and the copy broken off.
     pub(in crate::cli) fn of_whole(path: &Path) -> Option<Self> {
-        let mut file = File::open(path).ok()?;
+        let file = File::open(path).ok()?;
         let length = file.metadata().ok()?.len();
-        read(&mut file, length).ok().flatten()
+        read(BufReader::new(file), length)
     }
 
     /// How it differs from another that is wanted, in words.
@@ -48,54 +42,25 @@ impl Form {
     }
 }
 
-/// Reads a file of so many bytes, chunk by chunk up to the samples.
-fn read(file: &mut (impl Read + Seek), length: u64) -> io::Result<Option<Form>> {
-    let mut begins = [0; 12];
-    file.read_exact(&mut begins)?;
-    let size = u64::from(four(&begins, 4));
-    if !begins.starts_with(b"RIFF") || !begins.ends_with(b"WAVE") || size + HEAD != length {
-        return Ok(None);
+/// Reads a file of so many bytes up to the samples.
+fn read(mut file: impl Read + Seek, length: u64) -> Option<Form> {
+    let mut begins = [0; 8];
+    file.read_exact(&mut begins).ok()?;
+    let [.., a, b, c, d] = begins;
+    if u64::from(u32::from_le_bytes([a, b, c, d])) + begins.len() as u64 != length {
+        return None;
     }
-    let (mut place, mut form) = (begins.len() as u64, None);
-    while place < length {
-        let mut head = [0; HEAD as usize];
-        file.seek(SeekFrom::Start(place))?;
-        file.read_exact(&mut head)?;
-        let size = u64::from(four(&head, 4));
-        place += HEAD;
-        match &head[..4] {
-            b"fmt " => {
-                let mut bytes = Vec::new();
-                file.take(size.min(EXTENDED as u64)).read_to_end(&mut bytes)?;
-                form = (bytes.len() >= FORM).then_some(bytes);
-            }
-            b"data" => return Ok(form.filter(|_| place + size <= length).and_then(|form| told(&form, size))),
-            _ => {}
-        }
-        // (Chunks are padded to an even length.)
-        place += size + size % 2;
+    file.rewind().ok()?;
+    let mut reader = WavReader::new(file).ok()?;
+    let (spec, frames) = (reader.spec(), reader.duration());
+    let bits = spec.bits_per_sample;
+    // (It takes a header's word for how long the data are.)
+    let data = u64::from(reader.len()) * u64::from(bits / 8);
+    if reader.seek(0).is_err() || reader.into_inner().stream_position().ok()? + data > length {
+        return None;
     }
-    Ok(None)
-}
-
-/// What a format chunk says of so many bytes of samples.
-fn told(form: &[u8], bytes: u64) -> Option<Form> {
-    let (channels, frame, bits) = (two(form, 2), two(form, 12), two(form, 14));
-    let kind = match two(form, 0) {
-        EXTENSIBLE if form.len() >= EXTENDED => two(form, EXTENDED - 2),
-        kind => kind,
-    };
-    let frames = bytes.checked_div(frame.into())?;
-    let bit_depth = format!("{bits}{}", if kind == FLOATING_POINT { "f" } else { "" });
-    Some(Form { channels, sample_rate: four(form, 4), bit_depth, frames })
-}
-
-fn two(bytes: &[u8], place: usize) -> u16 {
-    u16::from_le_bytes([bytes[place], bytes[place + 1]])
-}
-
-fn four(bytes: &[u8], place: usize) -> u32 {
-    u32::from(two(bytes, place)) | u32::from(two(bytes, place + 2)) << 16
+    let bit_depth = format!("{bits}{}", if spec.sample_format == SampleFormat::Float { "f" } else { "" });
+    Some(Form { channels: spec.channels, sample_rate: spec.sample_rate, bit_depth, frames: frames.into() })
 }
 
 #[cfg(test)]
@@ -131,7 +96,7 @@ mod tests {
     #[test]
     fn whatever_is_no_whole_sound_has_no_form() {
         let (form, whole) = written(2, BitDepth::Float32);
-        let read = |bytes: &[u8]| read(&mut Cursor::new(bytes), bytes.len() as u64).ok().flatten();
+        let read = |bytes: &[u8]| read(Cursor::new(bytes), bytes.len() as u64);
         assert_eq!(read(&whole), Some(form));
         for length in 0..whole.len() {
             assert_eq!(read(&whole[..length]), None, "{length}");
