@@ -15,7 +15,7 @@
 //! | to add or change | where, in `plugin/src` unless it says otherwise |
 //! |---|---|
 //! | what a note, pedal or controller does | `performance`: `controller.rs` (numbers), `channel.rs`, `articulation.rs` (controllers), `control.rs` (what they ask of strings), `chord.rs` (who plays what), `right_hand.rs` (plucks), `technique.rs` (constants), `string/` (a note's life on its string), `fingers/` (what fingers and hands do for it); `docs/gestures.md` |
-//! | a parameter | `params.rs`, its range in `params/ranges.rs`, its words in `params/words.rs`, what it asks for in `plugin/order.rs`; `docs/plugin.md` |
+//! | a parameter | `params.rs`, its range in `params/ranges.rs`, its words in `params/words.rs`, where nothing comes of it `params/idle.rs`, what it asks for in `plugin/order.rs`; `docs/plugin.md` |
 //! | a set-up that comes with the program | `dsp/instruments/presets` and `dsp/src/preset.rs`, a phrase in `plugin/examples/compose_music`; `docs/formats.md` |
 //! | what labels say of notes | `performance/annotation.rs`, put into words in `cli/render/labels`; `docs/formats.md` |
 //! | a command or an option | `cli/arguments.rs`, then the command's own file |

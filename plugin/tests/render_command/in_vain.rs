@@ -26,7 +26,7 @@ fn settings_of_which_nothing_comes_are_warned_of() {
             "classical",
             &["pickup_position=100", "string_tuning_7=1", "idle_hands=0"],
             vec![
-                format!("--set pickup_position=100 mm {why} is heard without a coil"),
+                format!("--set pickup_position=+100 mm {why} is heard without a coil"),
                 format!("--set string_tuning_7=+1.00 semitones {why} has no such string"),
             ],
         ),

@@ -113,23 +113,28 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
         panel = panel.with(Layer::dots("", stroke, points.clone()));
         if stencil == Stencil::Wide {
             // A little above the dot; the two lowest rates are too near to each other for a word each, and stand to the left.
-            let up = |error: f64| error * (high / low).powf(0.06);
+            let up = |error: f64, part: f64| error * (high / low).powf(part);
             let (near, far): (Vec<_>, Vec<_>) =
                 own.iter().zip(points).partition(|(setting, _)| setting.rate < 90e3);
             let left = near.iter().fold(f64::INFINITY, |left, (_, at)| left.min(at.0));
             let top = near.iter().fold(0.0, |top: f64, (_, at)| top.max(at.1));
-            let mut words = vec![Layer::words((0.42 * left, up(top)), "44.1 and 48")];
+            let mut words = vec![Layer::words((0.4 * left, up(top, 0.1)), "44.1 and 48")];
             words.extend(far.iter().map(|(setting, at)| {
-                Layer::words((at.0 * 1.02, up(at.1)), format!("{}", setting.rate / 1e3))
+                Layer::words((at.0 * 1.02, up(at.1, 0.06)), format!("{}", setting.rate / 1e3))
             }));
             panel = panel.with_all(words);
         }
     }
+    let mut wide: Vec<(f64, f64)> =
+        grid.iter().filter(|setting| setting.stencil == Stencil::Wide).map(place).collect();
+    wide.sort_by(|a, b| a.0.total_cmp(&b.0));
     let names = Quality::ALL.iter().zip(&qualities).map(|(one, setting)| {
         let at = place(setting);
-        // Where no line runs: below the dot, to the left but for the last.
+        // Where no line runs: below the dot, to the left but for the last; above it where the line is below. The first stands left of
+        // all dots.
         let (right, above) = match one {
-            Quality::Draft => (0.64, -0.01),
+            Quality::Draft => (0.53, -0.01),
+            Quality::Studio if is_above(&wide, at) => (0.8, 0.08),
             Quality::Live | Quality::Studio => (0.72, -0.09),
             Quality::Reference => (0.9, -0.09),
         };
@@ -138,6 +143,15 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
     panel = panel.with_all(names.collect::<Vec<_>>());
     let stroke = Stroke::new(colour::VERMILION);
     panel.with(Layer::dots("qualities at a host's 48 kHz", stroke, qualities.iter().map(place).collect()))
+}
+
+/// Whether a dot lies above a line as it is drawn, both by logarithms.
+fn is_above(line: &[(f64, f64)], (x, y): (f64, f64)) -> bool {
+    line.windows(2).any(|ends| {
+        let [from, to] = [ends[0], ends[1]];
+        let part = (x / from.0).ln() / (to.0 / from.0).ln();
+        (0.0..=1.0).contains(&part) && y > from.1 * (to.1 / from.1).powf(part)
+    })
 }
 
 /// Waveform error over energy booked to the solver: neither tells the other.
