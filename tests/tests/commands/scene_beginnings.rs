@@ -79,7 +79,8 @@ fn what_only_comes_to_touch_is_not_inside() {
     for (string, rest) in [
         (
             "",
-            "[[finger]]\nmass = 5e-3\nstiffness = 1e8\nexponent = 2.0\nposition = 0.4\nheight = 0.0\nforce = 1e6\n",
+            "[[finger]]\nmass = 5e-3\nstiffness = 1e8\nexponent = 2.0\nposition = 0.4\nheight = 0.0\nforce = 1e6\nhand_damping = 10.0\n\
+             [fretboard]\nstiffness = 1e12\nexponent = 2.3\nboard = -0.002\n",
         ),
         (
             "",
