@@ -84,7 +84,10 @@ impl Ledger {
         let past: Vec<_> = past.map(|(now, past)| Some((*now)?.back(past.as_ref()?))).collect();
         energies.contact = self.board + fingers_energy(&past, now, &before(now, motion_now));
         energies.finger = fingers_motion(model, &past);
-        energies.total() - before_that
+        let total = energies.total();
+        // However much of it is lost within the step.
+        self.account.largest = self.account.largest.max(total);
+        total - before_that
     }
 
     /// Books the step that has just been taken under `drive`.

@@ -2,9 +2,9 @@
 
 mod held;
 
-use crate::drive::{Drive, PUSHES, Push};
+use crate::drive::{Drive, PUSHES};
 use crate::finger::Finger;
-use crate::gesture::{FINGERS_PER_STRING, Gesture, MOST_CLEARANCE, MOST_FORCE, Touch, pluck_push};
+use crate::gesture::{FINGERS_PER_STRING, Gesture, MOST_CLEARANCE, MOST_FORCE, Touch};
 use crate::model::Model;
 use crate::ramp::Ramp;
 use crate::roomy::Roomy;
@@ -24,6 +24,10 @@ const FASTEST_THROW: f64 = 10.0;
 
 /// Least tension a bend may leave, as a part of the string's own.
 const LEAST_TENSION: f64 = 0.05;
+
+/// A string that comes with more tension than it may have begins with no more than so much of what its grid bears. At all of it the
+/// shortest wave has no stiffness left, and whatever moves a fret would make it ripple.
+const CLEAR_OF_MOST: f64 = 0.98;
 
 /// Whether a hand can have such a force, N. One that is no number, or becomes none on its way, would stay in the string for
 /// ever.
@@ -115,6 +119,18 @@ impl Hands {
     pub fn tension(&self) -> f64 {
         let bent = self.bent.value();
         if self.tuned.rests() { bent } else { (bent * self.tuned.value()).min(self.most_tension) }
+    }
+
+    /// As much of a tension that is asked of it, N, as a string can begin with where it had so much before, and stretching adds `own`
+    /// to it: no less than the slackest bend leaves, or than it had; and where that is more than hands may bend it to, so much that
+    /// the shortest waves are [clear](CLEAR_OF_MOST) of what its grid bears.
+    pub fn begins_at(&self, model: &Model, asked: f64, had: f64, own: f64) -> f64 {
+        // (What is no number is none that can be asked for.)
+        let asked = if asked.is_finite() { asked } else { had };
+        let most = self.most_tension;
+        let clear = CLEAR_OF_MOST * model.tension_borne(most) - own;
+        let borne = if asked > most { most.min(clear) } else { asked };
+        borne.max((LEAST_TENSION * model.string.tension).min(had)).min(most)
     }
 
     /// The largest tension a bend may reach, as a multiple of the string's own.
@@ -247,9 +263,7 @@ impl Hands {
         drive.pushes.clear();
         let rate = self.sample_rate;
         self.plucks.retain_mut(|pluck| {
-            let since = pluck.done as f64 / rate;
-            let force = pluck.force * pluck_push(since, 1.0 / rate, pluck.duration, pluck.release);
-            drive.pushes.push(Push { reading: pluck.reading, force });
+            drive.pushes.push(pluck.push(rate));
             pluck.done += 1;
             // Half a step of the next sample's push may still be its.
             (pluck.done as f64 - 0.5) / rate < pluck.duration + pluck.release

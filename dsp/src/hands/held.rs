@@ -1,5 +1,7 @@
 //! What hands do to a string for a while: a pluck, a hand laid along it, fingers over it.
 
+use crate::drive::Push;
+use crate::gesture::pluck_push;
 use crate::grid::Reading;
 use crate::ramp::Ramp;
 
@@ -35,6 +37,13 @@ pub(crate) struct Held {
 }
 
 impl Pluck {
+    /// What it does to the string in the next step, at a rate in Hz.
+    pub fn push(&self, rate: f64) -> Push {
+        let since = self.done as f64 / rate;
+        let force = self.force * pluck_push(since, 1.0 / rate, self.duration, self.release);
+        Push { reading: self.reading, force }
+    }
+
     /// The same push in samples of another length, of which there are `factor` for each of the old.
     pub fn resampled(self, factor: f64) -> Self {
         Pluck { done: (self.done as f64 * factor).round() as u64, ..self }
@@ -42,9 +51,11 @@ impl Pluck {
 }
 
 impl Stilling {
-    /// The same in samples of which there are `factor` for each of the old.
+    /// The same in samples of which there are `factor` for each of the old. What is not over is not over there either: the last
+    /// step tells the string that nobody plays it.
     pub fn resampled(self, factor: f64) -> Self {
-        Stilling { left: (self.left as f64 * factor).round() as u64, ..self }
+        let left = ((self.left as f64 * factor).round() as u64).max(u64::from(self.left > 0));
+        Stilling { left, ..self }
     }
 
     /// What it adds in the next step, 1/s.

@@ -3,7 +3,7 @@
 
 // The allocator that keeps watch comes with the plugin.
 use low_action as _;
-use low_action_dsp::{Gesture, Instrument, Quality, Setup, TimedGesture};
+use low_action_dsp::{Gesture, Instrument, Quality, Setup, TimedGesture, Touch};
 use low_action_tests::watch;
 use nice_assert_no_alloc::assert_no_alloc;
 
@@ -177,4 +177,52 @@ fn a_hand_that_stills_a_string_goes_on() {
             assert_eq!(instrument.drive(0).loss, loss, "{semitones} semitones");
         }
     }
+}
+
+/// However short what is left of it is beside the new steps, it ends, and the hands that lie on strings nobody plays come back.
+#[test]
+fn a_hand_that_is_about_to_leave_leaves() {
+    let mut steel = setup("steel");
+    steel.string.truncate(1);
+    steel.player.idle_loss = 30.0;
+    let at = |quality: Quality| Instrument::new(&steel, &quality.settings(RATE)).expect("it can be built");
+    let rates = [Quality::Studio, Quality::Live].map(|quality| at(quality).ratio(0).value() * RATE);
+    assert!(rates[0] >= 2.5 * rates[1], "no step of the one is lost in one of the other: {rates:?}");
+    for steps in 0..6 {
+        let mut instrument = at(Quality::Studio);
+        let mut does = |time, gesture| {
+            instrument.schedule(TimedGesture { time, string: 0, gesture }).expect("there is room");
+        };
+        does(0, PLUCK);
+        // So many steps of the string are left at sample 2000.
+        let duration = 1000.0 / RATE + f64::from(steps) / rates[0];
+        does(1000, Gesture::Still { loss: 0.5, duration });
+        play(&mut instrument, 2000.0 / RATE);
+        let loud = instrument.state(0).motion().fold(0.0, |most: f64, motion| most.max(motion.abs()));
+        assert!(loud > 0.0 && instrument.hand_over(Box::new(at(Quality::Live))).is_ok());
+        play(&mut instrument, 1.0);
+        let left = instrument.state(0).motion().fold(0.0, |most: f64, motion| most.max(motion.abs()));
+        // e⁻³⁰ of the velocity, and steps are three times as long; by itself the string would keep a third.
+        println!("{steps} steps: {:e}", left / loud);
+        assert!(left < 1e-9 * loud, "{steps} steps: {:e} of the motion is left", left / loud);
+    }
+}
+
+/// A finger whose hand brakes it far more than its mass weighs brings energy that is gone within the step: the balance is held
+/// against it all the same.
+#[test]
+fn what_a_finger_brings_counts_as_there() {
+    let mut instrument = {
+        let mut setup = Setup::shipped("drop-d").expect("it comes with the program");
+        setup.string.truncate(1);
+        build(&setup)
+    };
+    instrument.open_ledgers();
+    let touch = Touch { mass: 1.29e-6, stiffness: 1021.0, exponent: 3.0, damping: 10.0, hand_damping: 1e5 };
+    does(&mut instrument, Gesture::Throw { finger: 0, touch, position: 0.3, clearance: 1e-4, speed: 10.0 });
+    play(&mut instrument, 0.1);
+    let ledger = instrument.ledger(0).expect("it is open");
+    // It moves with M̃ = Rk/2, 1 kg and not a milligram.
+    assert!(ledger.largest > 1.0, "{} J", ledger.largest);
+    assert!(ledger.worst_residual <= 1e-14, "{:e}", ledger.worst_residual);
 }
