@@ -31,6 +31,13 @@ impl<T: Number> Band<T> {
     /// The stiffness of a string on a grid, N/m: force at a grid point per displacement of another.
     /// The string goes on oddly beyond its fixed ends.
     pub fn of_string(grid: &Grid, linear_density: f64, stiffness: &Stiffness) -> Self {
+        let mut matrix = Band { rows: vec![[T::from(0.0); DIAGONALS]; grid.unknowns()] };
+        matrix.become_string(grid, linear_density, stiffness);
+        matrix
+    }
+
+    /// Becomes that, in the room that is there.
+    fn become_string(&mut self, grid: &Grid, linear_density: f64, stiffness: &Stiffness) {
         let h = grid.spacing;
         let parts = [
             stiffness.tension / h,
@@ -39,9 +46,14 @@ impl<T: Number> Band<T> {
         ];
         let near: [f64; DIAGONALS] =
             std::array::from_fn(|d| (0..3).map(|part| parts[part] * DIFFERENCES[part][d]).sum());
-        let mut matrix = Band { rows: vec![[T::from(0.0); DIAGONALS]; grid.unknowns()] };
         let (last, count) = (grid.intervals as isize, DIAGONALS as isize);
         for row in 1..last {
+            if (count..=last - count).contains(&row) {
+                // Far from the ends all rows are the same.
+                self.rows[row as usize - 1] = near.map(T::from);
+                continue;
+            }
+            self.rows[row as usize - 1] = [T::from(0.0); DIAGONALS];
             for offset in 1 - count..count {
                 let (column, sign) = match row + offset {
                     column if column < 0 => (-column, -1.0),
@@ -50,12 +62,11 @@ impl<T: Number> Band<T> {
                 };
                 // The lower half is not stored, the ends do not move.
                 if column >= row && column < last {
-                    let entry = &mut matrix.rows[row as usize - 1][(column - row) as usize];
+                    let entry = &mut self.rows[row as usize - 1][(column - row) as usize];
                     *entry = *entry + T::from(sign * near[offset.unsigned_abs()]);
                 }
             }
         }
-        matrix
     }
 
     /// Adds `amount` times the product of a point's weights with themselves: a spring at that point.
@@ -95,6 +106,12 @@ impl<T: Number> Band<T> {
 
     /// LDLᵀ in place of the matrix: D on the main diagonal, L beside it.
     pub fn factor(mut self) -> Factored<T> {
+        self.eliminate();
+        Factored(self)
+    }
+
+    /// Becomes its own factors.
+    fn eliminate(&mut self) {
         let count = self.rows.len();
         for i in 0..count {
             let row = self.rows[i];
@@ -106,33 +123,42 @@ impl<T: Number> Band<T> {
                 self.rows[i][d] = ratio;
             }
         }
-        Factored { rows: self.rows }
     }
 }
 
 /// A factored [`Band`].
 #[derive(Debug, Clone)]
-pub(crate) struct Factored<T> {
-    rows: Vec<[T; DIAGONALS]>,
-}
+pub(crate) struct Factored<T>(Band<T>);
 
 impl<T: Number> Factored<T> {
+    /// Becomes the factors of another string's stiffness on the same grid, in the room that is there.
+    pub fn become_string(&mut self, grid: &Grid, linear_density: f64, stiffness: &Stiffness) {
+        self.0.become_string(grid, linear_density, stiffness);
+        self.0.eliminate();
+    }
+
     /// Solves for the right-hand side `b`.
     pub fn solve(&self, b: &[T]) -> Vec<T> {
         let mut x = b.to_vec();
+        self.solve_in_place(&mut x);
+        x
+    }
+
+    /// Solves for the right-hand side in `x`, and leaves the solution there.
+    pub fn solve_in_place(&self, x: &mut [T]) {
         let count = x.len();
-        for (i, row) in self.rows.iter().enumerate() {
+        let rows = &self.0.rows;
+        for (i, row) in rows.iter().enumerate() {
             for d in 1..DIAGONALS.min(count - i) {
                 x[i + d] = x[i + d] - row[d] * x[i];
             }
         }
-        for (i, row) in self.rows.iter().enumerate().rev() {
+        for (i, row) in rows.iter().enumerate().rev() {
             x[i] = x[i] / row[0];
             for d in 1..DIAGONALS.min(count - i) {
                 x[i] = x[i] - row[d] * x[i + d];
             }
         }
-        x
     }
 }
 

@@ -113,6 +113,11 @@ impl Body {
         self.new
     }
 
+    /// Whether it takes over how another body moves: as many modes as it has itself.
+    pub fn goes_on_from(&self, old: &Body) -> bool {
+        self.modes.count() == old.modes.count()
+    }
+
     /// Takes over how another body moves, mode by mode; one that has fewer or more modes, or none, leaves it new.
     pub fn take_over(&mut self, old: Option<&Body>, model: &Model, tension: f64) {
         self.end = End::new(model, tension);

@@ -157,6 +157,7 @@ pub mod contact;
 mod contact_step;
 pub mod curve;
 mod decimate;
+mod deflection;
 pub mod digits;
 pub mod drive;
 pub mod energy;

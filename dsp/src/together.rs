@@ -80,8 +80,9 @@ fn sound(strings: &mut [Voice], span: Range<usize>) {
 
 /// Has them take over from as many others, in their order.
 pub(crate) fn take_over(strings: &mut [Voice], old: &mut [Voice]) {
+    let lift = old.iter().map(Voice::lift).sum();
     for (string, old) in strings.iter_mut().zip(old) {
-        string.take_over(old);
+        string.take_over(old, lift);
     }
     let Some((first, others)) = strings.split_first_mut() else { return };
     if others.is_empty() && first.body.is_none() {

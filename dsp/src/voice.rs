@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use crate::body::{Body, Heard, most_tension};
 use crate::decimate::Decimator;
+use crate::deflection::Deflection;
 use crate::drive::Drive;
 use crate::energy::Ledger;
 use crate::error::Error;
@@ -47,6 +48,8 @@ pub(crate) struct Voice {
     /// Whether `run` holds nothing but zeros, throughout, because nothing is left to be heard.
     pub silent: bool,
     settling: Settling,
+    /// Room to find how far what presses the string deflects it, when another takes over.
+    deflection: Deflection,
     /// What the string holds, gets and loses, if anybody wants to know.
     pub ledger: Option<Ledger>,
     /// What has happened to the string since somebody last looked.
@@ -105,6 +108,7 @@ impl Voice {
             run: vec![0.0; RUN],
             silent: true,
             settling: Settling::none(&model),
+            deflection: Deflection::new(&model),
             ledger: None,
             observed: Observed::new(&model),
             model,

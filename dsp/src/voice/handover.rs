@@ -1,6 +1,8 @@
 //! A string that takes over from another one.
 
 use super::Voice;
+use crate::body::End;
+use crate::handover::Side;
 use crate::model::Model;
 use crate::ramp::Ramp;
 use crate::roomy::Roomy;
@@ -41,8 +43,9 @@ impl Voice {
     }
 
     /// Takes over from another string of the same host's rate: its motion, the fingers on it, the
-    /// plucks under way, and its ledger, for which it leaves its own. Nothing is allocated or given back, but by ledgers.
-    pub fn take_over(&mut self, old: &mut Voice) {
+    /// plucks under way, and its ledger, for which it leaves its own. The bridge of that one is `lift` m up. Nothing is allocated or
+    /// given back, but by ledgers.
+    pub fn take_over(&mut self, old: &mut Voice, lift: f64) {
         if old.ledger.is_some() {
             std::mem::swap(&mut self.ledger, &mut old.ledger);
             old.rebook();
@@ -55,7 +58,7 @@ impl Voice {
             // Nobody heard the old tension, and no ramp runs while nothing moves.
             self.hands.arrive();
         } else {
-            self.state.take_over(&self.model, &old.state, &old.model);
+            self.take_motion(old, lift);
             self.hands.keep_only(&self.state);
         }
         if let Some(body) = &mut self.body {
@@ -69,6 +72,29 @@ impl Voice {
         self.settling.part = Ramp::at(0.0);
         self.settling.part.go(1.0, (SETTLING / self.model.grid.time_step).round() as u64);
         self.rebook();
+    }
+
+    /// Takes over the motion, and the tension that there is.
+    fn take_motion(&mut self, old: &mut Voice, lift: f64) {
+        let had = old.hands.tension();
+        let (hands, model) = (&self.hands, &self.model);
+        let begins_at = |asked: f64, own: f64| hands.begins_at(model, asked, had, own);
+        let mut new = Side { model, deflection: &mut self.deflection };
+        let mut before = Side { model: &old.model, deflection: &mut old.deflection };
+        new.deflection.clear();
+        before.deflection.clear();
+        for (pluck, old_pluck) in hands.plucks.iter().zip(&old.hands.plucks) {
+            new.deflection.push(&pluck.push(hands.sample_rate));
+            before.deflection.push(&old_pluck.push(old.hands.sample_rate));
+        }
+        if let (Some(body), Some(old_body)) = (&self.body, &old.body)
+            && body.goes_on_from(old_body)
+        {
+            new.deflection.push(&End::new(model, begins_at(had, 0.0)).push(lift));
+            before.deflection.push(&old_body.end().push(lift));
+        }
+        let tension = self.state.take_over(&mut new, &old.state, &mut before, had, begins_at);
+        self.hands.tune_from(tension);
     }
 
     /// Shares steps with the host's samples as another string of the same rate does.

@@ -27,21 +27,35 @@ fn changed(setup: &Setup, action: f64, loss: f64, pickup: f64, tuning: f64) -> S
     setup
 }
 
+/// Whenever it comes: also while a fret that was just struck still resists, which takes it five steps.
 #[test]
 fn the_same_setup_changes_nothing() {
-    let setup = Setup::builtin("electric").expect("it is built in");
-    let mut alone = build(&setup);
-    strike(&mut alone, &setup);
-    let mut handed = alone.clone();
-    let (mut expected, mut found) = (Vec::new(), Vec::new());
-    play(&mut alone, 12_000, &mut expected);
-    play(&mut handed, 6_000, &mut found);
-    assert!(handed.hand_over(Box::new(build(&setup))).is_ok());
-    play(&mut handed, 6_000, &mut found);
-    let off = largest(expected.iter().zip(&found).map(|(a, b)| (a - b).abs()));
-    println!("{:e} of the peak apart", off / peak(&expected));
-    // Contacts are solved to 1e-12 m of a motion of 1e-5 m a sample; as a rule nothing at all is different.
-    assert!(off <= 1e-7 * peak(&expected), "{off:e} of {}", peak(&expected));
+    for name in ["electric", "bass"] {
+        let setup = Setup::builtin(name).expect("it is built in");
+        let mut handed = build(&setup);
+        let successor = handed.clone();
+        strike(&mut handed, &setup);
+        let mut alone = handed.clone();
+        let mut expected = Vec::new();
+        play(&mut alone, 12_000, &mut expected);
+        let most = peak(&expected);
+        let mut worst = (0.0, 0);
+        let mut at = 0;
+        while at < 8_000 {
+            // Not a part of any string's period: every phase of their motion has its turn.
+            play(&mut handed, 67, &mut Vec::new());
+            at += 67;
+            let mut other = handed.clone();
+            assert!(other.hand_over(Box::new(successor.clone())).is_ok());
+            let mut found = Vec::new();
+            play(&mut other, 2_000, &mut found);
+            let off = largest(expected[at..].iter().zip(&found).map(|(a, b)| (a - b).abs()));
+            worst = if off > worst.0 { (off, at) } else { worst };
+        }
+        println!("{name}: {:e} of the peak apart, at sample {}", worst.0 / most, worst.1);
+        // Contacts are solved to 1e-12 m of a motion of 1e-5 m a sample; as a rule nothing at all is different.
+        assert!(worst.0 <= 1e-7 * most, "{name}: {:e} of {most}, at sample {}", worst.0, worst.1);
+    }
 }
 
 /// However it is asked for: where the one before has faded within a block, what follows in it is the new one to the last bit, be it
@@ -140,8 +154,9 @@ fn assert_no_click(what: &str, old: &Setup, new: &Setup) {
 ///
 /// The tension goes over in 20 ms, slowly beside the periods of most partials. Then the energy of each goes with its frequency, and the
 /// velocity that a coil hears with the root of that: 2^(semitones/24), or 3 dB an octave. Open strings keep to it within 0.8 dB, since
-/// the lowest partials are not so fast. Stopped ones do within 2.5 dB, since pads take more of a string that is looser, or less;
-/// an octave up the finger no longer holds them on their frets.
+/// the lowest partials are not so fast. Stopped ones do within 2 dB as far as four semitones down. Beyond, pads take more of a string
+/// that is looser, whichever way it comes to that: up to 9 dB of it in one exchange of an octave, and 12 to 23 in twelve of a
+/// semitone, one after the other. An octave up the finger no longer holds them on their frets.
 #[test]
 fn strings_that_are_tuned_ring_on() {
     let setup = Setup::builtin("electric").expect("it is built in");
@@ -173,6 +188,7 @@ fn strings_that_are_tuned_ring_on() {
             // Every other one is stopped.
             let most = match string % 2 {
                 1 => 1.0,
+                _ if semitones < -4.0 => 9.0,
                 _ if semitones < 12.0 => 3.0,
                 _ => continue,
             };

@@ -7,6 +7,7 @@ mod full_queues;
 mod handover;
 mod handover_any;
 mod handover_books;
+mod handover_pressed;
 mod impossible_gestures;
 mod level;
 mod low_rates;
