@@ -140,15 +140,21 @@ impl Performance {
         let request = change(channel);
         let reach = channel.announced_reach();
         let (members, spoken) = (self.members(), self.spoken().with(sender));
-        let announces = members.has(sender) && reach != before;
+        // The reach of the wheel that one member of MPE announces is that of all; its first channel has one of its own. Where each
+        // string has a channel the one that speaks for them announces theirs.
+        let of_one_reach = match members {
+            Channels::NONE => spoken,
+            members if members.has(sender) => members,
+            _ => Channels::NONE,
+        };
+        let announces = of_one_reach != Channels::NONE && reach != before;
         if announces {
-            // The reach of the wheel that one member announces is that of all.
-            self.each_of(members).for_each(|member| member.take_reach(reach));
+            self.each_of(of_one_reach).for_each(|other| other.take_reach(reach));
         } else {
             // Most messages say nothing of hands: what other channels have been told stays.
             self.each_of(spoken).for_each(|member| member.hear(&change));
         }
-        let others = if announces { members } else { spoken };
+        let others = if announces { of_one_reach } else { spoken };
         Some((request, Whose { channel: sender, others }))
     }
 

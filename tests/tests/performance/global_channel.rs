@@ -78,6 +78,35 @@ fn strings_keep_what_they_say_themselves() {
     assert_eq!(both(&[0, 1, 2, 3, 4, 5, 15]), sum);
 }
 
+/// How far wheels reach: their own, too. What a string's channel announces after it counts for that string.
+#[test]
+fn it_announces_the_reach_of_every_wheel() {
+    const FIFTH: [Said; 3] =
+        [(0, |c| control(c, 101, 0)), (0, |c| control(c, 100, 0)), (0, |c| control(c, 6, 7))];
+    const TURNED: Said = (12_000, |c| wheel(c, 0.25));
+    for (first, global) in GLOBAL {
+        let strings: Vec<u8> = (first..first + 6).collect();
+        let told = |announced: &[u8]| {
+            let mut player = GUITAR.player(EXACT);
+            player.set_input(InputMode::Strings { first, from_last: false });
+            let mut events: Vec<(u64, PlayerEvent)> = Vec::new();
+            for (time, said) in FIFTH {
+                events.extend(announced.iter().map(|&channel| (time, said(channel))));
+            }
+            // The last string has another one.
+            events.extend(FIFTH[..2].iter().map(|&(_, said)| (1, said(first + 5))));
+            events.push((1, control(first + 5, 6, 3)));
+            events.extend(strings.iter().zip(OPEN).map(|(&channel, open)| (1_000, note(channel, open + 3))));
+            events.extend(strings.iter().map(|&channel| (TURNED.0, TURNED.1(channel))));
+            let mut gestures = play(&mut player, &events);
+            gestures.sort_by_key(|gesture| gesture.string);
+            gestures
+        };
+        assert_ne!(told(&[global]), told(&[]), "first channel {first}");
+        assert_eq!(told(&[global]), told(&strings), "first channel {first}");
+    }
+}
+
 /// Others that are no string's say nothing, and neither does one that is below the strings and a string's own.
 #[test]
 fn no_other_channel_speaks_for_strings() {
