@@ -136,6 +136,31 @@ fn a_finger_rests_behind_it_and_goes_where_it_goes() {
     assert!(laid(&gestures).len() >= 2 && !any_left(&gestures), "{gestures:?}");
 }
 
+/// Who has a bar has it under harmonics, too: over the octave below, where no string has the key as a partial. (A finger that pressed
+/// the string down through 8 mm had 18 of these keys up to 73 cents sharp, and two were dead.)
+#[test]
+fn harmonics_are_in_tune_over_it() {
+    let mut stage = Stage::new(&Setup::shipped("lap-steel").expect("it comes with the program"));
+    let mut over_a_bar = 0;
+    for key in 50..=93 {
+        let played = stage.play(&[(0.0, cc(23, 1)), (0.0, on(key, 90))], 0.8);
+        over_a_bar += usize::from(laid(&played.gestures).iter().any(|&mass| mass > FINGER));
+        let sound = mixed(&played.strings);
+        let (off, heard) = (off_key(&sound[at(0.2)..], f64::from(key)), &sound[at(0.2)..at(0.4)]);
+        let loud = decibels(amplitude(heard, RATE, hertz(f64::from(key) + 0.01 * off)));
+        println!("{key}: {off:.1} cents, {loud:.1} dBFS");
+        // The fifth partial sounds 14 cents under its key.
+        assert!((-16.0..8.0).contains(&off), "{key}: {off} cents");
+        assert!(loud > -50.0, "{key}: {loud} dBFS");
+    }
+    assert_eq!(over_a_bar, 26, "keys that are over a bar, and not over an open string");
+}
+
+/// What strings sound together.
+fn mixed(strings: &[Vec<f32>]) -> Vec<f32> {
+    (0..strings[0].len()).map(|n| strings.iter().map(|string| string[n]).sum()).collect()
+}
+
 /// Under the hand that ends its note it is down as soon as one under a finger, and so it is over a capo.
 #[test]
 fn its_notes_end_as_others_do() {

@@ -25,7 +25,8 @@ impl Fingers {
         self.make_way(at);
         self.lay_capo(at);
         self.home = fret;
-        let bar = stop == Stop::Bar;
+        // Where fingers press nothing down the octave under a harmonic has a bar, too.
+        let bar = stop == Stop::Bar || stop == Stop::Harmonic && self.string.barred;
         // A bar that eases off is too heavy to press again in time: it is laid anew.
         let stays_down = |finger: &Finger| match bar {
             true => finger.grip == Grip::Presses,
@@ -42,7 +43,7 @@ impl Fingers {
             return self.press_again(at);
         }
         let (old, anchor) = (self.take_fretting(at), self.anchor.take().or(called_back));
-        let presses = matches!(stop, Stop::Press | Stop::Harmonic) && fret > self.capo[1];
+        let presses = matches!(stop, Stop::Press | Stop::Harmonic) && !bar && fret > self.capo[1];
         let down = self.down(old.as_ref(), at);
         match old.filter(|old| presses && !old.bar && old.free.is_none()) {
             Some(old) if old.is_below(fret) && !old.is_under_way(at.time) => {
@@ -65,8 +66,8 @@ impl Fingers {
         match stop {
             Stop::Mute => self.mute(fret, at),
             _ if fret <= self.capo[1] => {}
-            Stop::Bar => self.lay_bar(fret, at),
-            Stop::Press | Stop::Harmonic => self.land(fret, Down::on(self.capo[1]), coming, at),
+            _ if bar => self.lay_bar(fret, at),
+            _ => self.land(fret, Down::on(self.capo[1]), coming, at),
         }
     }
 

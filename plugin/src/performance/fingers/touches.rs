@@ -43,8 +43,12 @@ impl Fingers {
     fn touch_lightly(&mut self, position: f64, times: f64, at: &mut Moment<impl GestureSink>) {
         let (touch, force) = self.field().matched(times);
         // Where another finger has just stopped the string, the next slot is the one of the finger before it, which
-        // is still on its way up; the dampers are not.
-        let finger = if self.fretting.is_some() { LIGHT } else { self.next_slot };
+        // is still on its way up; the dampers are not. Behind a bar one of them rests.
+        let finger = match self.fretting {
+            Some(_) if self.behind_bar => LIGHT_OVER_BAR,
+            Some(_) => LIGHT,
+            None => self.next_slot,
+        };
         self.light = Some(finger);
         self.touched = position;
         self.departing[finger] = None;

@@ -11,6 +11,8 @@ pub(crate) const FRETTING_SLOTS: usize = 2;
 pub(crate) const DAMPERS: [(FingerSlot, f64); 2] = [(2, 1.0), (3, 0.37)];
 /// Slot of a light finger on a string that another one stops: a damper's.
 pub(crate) const LIGHT: FingerSlot = DAMPERS[1].0;
+/// And on one that a bar stops, behind which that damper rests: a capo's, which such strings have none of.
+pub(crate) const LIGHT_OVER_BAR: FingerSlot = CAPO;
 /// Slot of the palm, or the thumb, of the hand that plucks.
 pub(crate) const RIGHT_HAND: FingerSlot = 4;
 /// Slot of a capo.
