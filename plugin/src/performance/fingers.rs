@@ -296,8 +296,8 @@ impl Fingers {
         Some(finger)
     }
 
-    /// Whatever keeps the string from sounding leaves at once; the palm stays as it is told.
-    fn make_way(&mut self, at: &mut Moment<impl GestureSink>) {
+    /// Whatever keeps the string from sounding leaves at once, for a note so hard, 0 to 1; the palm stays as it is told.
+    fn make_way(&mut self, strength: f64, at: &mut Moment<impl GestureSink>) {
         for slot in self.resting_slots() {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
@@ -311,7 +311,7 @@ impl Fingers {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }
         let (right, field) = self.right_hand();
-        right.prepare(&field, at);
+        right.prepare(strength, &field, at);
     }
 
     /// The pluck of a note: so hard (0 to 1), and so far beside the usual place (m), of which the hand has been moved so

@@ -1,5 +1,7 @@
 //! The right hand on one string: plucks of every kind, the palm near the saddle, the thumb.
 
+mod laying;
+
 use low_action_dsp::setup::{Damper, Player};
 use low_action_dsp::{Gesture, StringGeometry, Touch};
 
@@ -7,6 +9,7 @@ use super::articulation::Stroke;
 use super::fingers::{Pace, QUIET_LIFT, lifting};
 use super::technique::*;
 use super::{GestureSink, Moment};
+use laying::{GENTLY, Laying, falling};
 
 /// What the right hand has on the string.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -30,6 +33,8 @@ pub(crate) struct RightHand {
     clear: u64,
     /// Sample by which the palm presses as it is to.
     pressed: u64,
+    /// Sample before which one that has been laid down gently has hardly sunk in.
+    sinking: u64,
     /// When it follows what it is told next.
     pace: Pace,
 }
@@ -158,7 +163,7 @@ impl RightHand {
     fn follow_now(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
         self.pace.done();
         if self.laid != Laid::Thumb {
-            self.lay(field, PALM_RAMP, at);
+            self.lay(GENTLY, field, at);
         }
     }
 
@@ -167,19 +172,20 @@ impl RightHand {
         matches!(self.laid, Laid::Palm(_))
     }
 
-    /// Gets ready for a stroke: thumb off, palm on or off, at once even if it is on its way off.
-    pub(crate) fn prepare(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
+    /// Gets ready for a stroke so hard, 0 to 1: thumb off, palm on or off, at once even if it is on its way off.
+    pub(crate) fn prepare(&mut self, strength: f64, field: &Field, at: &mut Moment<impl GestureSink>) {
         let lingers = self.palm <= 0.0 && (self.laid != Laid::Nothing || at.time < self.clear);
         self.clear = 0;
         if self.laid == Laid::Thumb || lingers {
             self.lift(QUICK_LIFT, field, at);
             self.laid = Laid::Nothing;
         }
-        self.lay(field, PALM_LANDING, at);
+        self.lay(Laying::for_stroke(strength * field.hands.pluck_force), field, at);
     }
 
-    /// Brings the palm to the pressure asked for, in no more than such a time.
-    fn lay(&mut self, field: &Field, duration: f64, at: &mut Moment<impl GestureSink>) {
+    /// Brings the palm to the pressure asked for.
+    fn lay(&mut self, manner: Laying, field: &Field, at: &mut Moment<impl GestureSink>) {
+        let Laying { duration, stroke } = manner;
         let wanted = if self.palm > 0.0 { Laid::Palm(self.palm) } else { Laid::Nothing };
         if wanted == self.laid && self.pressed <= at.after(duration) {
             return;
@@ -190,17 +196,21 @@ impl RightHand {
         let (touch, light) = field.matched(1.0);
         let force = light * PALM_FORCE.0 * libm::pow(PALM_FORCE.1 / PALM_FORCE.0, pressure);
         let reach = field.palm(pressure);
+        let falls = stroke.map(|stroke| falling(touch, force, stroke));
+        let stays = self.rests() && !(falls.is_some() && at.time < self.sinking);
         for (finger, place, share) in PALM {
             let position = field.geometry.length - place * reach;
-            match self.laid {
-                Laid::Palm(_) => at.does(Gesture::Slide { finger, position, duration }),
-                // The thumb becomes the part of the palm that has its slot.
-                Laid::Thumb if finger == RIGHT_HAND => at.does(Gesture::Slide { finger, position, duration }),
-                Laid::Nothing | Laid::Thumb => {
-                    at.does(Gesture::Place { finger, touch, position, clearance: 0.0 });
-                }
-            }
+            // The thumb becomes the part of the palm that has its slot.
+            let is_there = stays || self.laid == Laid::Thumb && finger == RIGHT_HAND;
+            at.does(match falls {
+                _ if is_there => Gesture::Slide { finger, position, duration },
+                Some(speed) => Gesture::Throw { finger, touch, position, clearance: 0.0, speed },
+                None => Gesture::Place { finger, touch, position, clearance: 0.0 },
+            });
             at.does(Gesture::Press { finger, force: share * force, duration });
+        }
+        if !stays {
+            self.sinking = if falls.is_some() { at.time } else { at.after(PALM_RAMP) };
         }
         self.laid = wanted;
         self.pressed = at.after(duration);
@@ -256,14 +266,14 @@ impl RightHand {
     /// The thumb that grazes the string leaves it, or gives way to the palm, which is as soft.
     pub(crate) fn leave_graze(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
         if self.laid == Laid::Thumb {
-            self.lay(field, PALM_RAMP, at);
+            self.lay(GENTLY, field, at);
         }
     }
 
     /// The palm comes back after a thumb that has bounced off, if it is to rest there.
     pub(crate) fn lay_again(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
         if self.laid == Laid::Nothing {
-            self.lay(field, PALM_RAMP, at);
+            self.lay(GENTLY, field, at);
         }
     }
 

@@ -18,6 +18,7 @@ mod glides;
 mod global_channel;
 mod goes_on;
 mod landings;
+mod late_palms;
 mod legato;
 mod mpe;
 mod mpe_comes_and_goes;

@@ -20,18 +20,22 @@ fn plucks(gestures: &[TimedGesture]) -> Vec<u64> {
     gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).map(|g| g.time).collect()
 }
 
+/// Lightest thumb, kg; what of a palm falls on a string is lighter.
+const THUMB: f64 = 0.01;
+
 /// Whether the thumb was thrown at the string that is struck, and whether the palm lay on it then.
 fn slap_and_palm(gestures: &[TimedGesture]) -> [bool; 2] {
-    let strikes =
-        |g: &&TimedGesture| matches!(g.gesture, Gesture::Pluck { .. } | Gesture::Throw { finger: 4, .. });
+    let is_thumb =
+        |g: &TimedGesture| matches!(g.gesture, Gesture::Throw { finger: 4, touch, .. } if touch.mass > THUMB);
+    let strikes = |g: &&TimedGesture| matches!(g.gesture, Gesture::Pluck { .. }) || is_thumb(g);
     let stroke = gestures.iter().find(strikes).expect("there is a note");
     let on_it = gestures.iter().filter(|g| g.string == stroke.string);
     let laid = on_it.take_while(|g| g != &stroke).fold(false, |laid, g| match g.gesture {
-        Gesture::Place { finger: 4, .. } => true,
+        Gesture::Place { finger: 4, .. } | Gesture::Throw { finger: 4, .. } => true,
         Gesture::Lift { finger: 4, .. } => false,
         _ => laid,
     });
-    [matches!(stroke.gesture, Gesture::Throw { .. }), laid]
+    [is_thumb(stroke), laid]
 }
 
 #[test]

@@ -56,7 +56,7 @@ impl Fingers {
         if self.light.is_none() && self.resting_slots().next().is_none() {
             return CONTINUED;
         }
-        self.make_way(at);
+        self.make_way(strength, at);
         self.lay_capo(at);
         let pluck = self.pluck(Stroke::Down, strength, 0.0, 0.0);
         if let Some(pluck) = pluck {
@@ -73,7 +73,7 @@ impl Fingers {
         strength: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> Gesture {
-        self.make_way(at);
+        self.make_way(strength, at);
         self.lay_capo(at);
         let before = self.take_fretting(at);
         let stopped = self.down(before.as_ref(), at);
@@ -115,7 +115,7 @@ impl Fingers {
         strength: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> Option<Gesture> {
-        self.make_way(at);
+        self.make_way(strength, at);
         let old = self.take_fretting(at)?;
         self.home = fret;
         self.next_slot = (old.slot + 1) % FRETTING_SLOTS;

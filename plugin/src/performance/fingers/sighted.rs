@@ -10,7 +10,7 @@ use crate::performance::{GestureSink, Moment};
 impl Fingers {
     /// Whatever keeps the string from sounding leaves, a finger that has eased off too; the capo stays or comes.
     pub(crate) fn let_ring(&mut self, at: &mut Moment<impl GestureSink>) {
-        self.make_way(at);
+        self.make_way(1.0, at);
         self.lay_capo(at);
         if self.fretting.is_some_and(|finger| finger.grip != Grip::Presses)
             && let Some(old) = self.take_fretting(at)
@@ -29,7 +29,7 @@ impl Fingers {
             (finger.fret, finger.glided, finger.free) = (fret, 0.0, Some(position));
             return at.does(Gesture::Slide { finger: finger.slot, position, duration: POINTING });
         }
-        self.make_way(at);
+        self.make_way(POINTED, at);
         self.lay_capo(at);
         for old in [self.anchor.take(), self.take_fretting(at)].into_iter().flatten() {
             at.does(old.gives_way());

@@ -22,7 +22,7 @@ impl Fingers {
         at: &mut Moment<impl GestureSink>,
     ) {
         let called_back = if self.gives_way_to(fret) { self.call_back(at.time) } else { None };
-        self.make_way(at);
+        self.make_way(coming.strength, at);
         self.lay_capo(at);
         self.home = fret;
         // Where fingers press nothing down the octave under a harmonic has a bar, too.

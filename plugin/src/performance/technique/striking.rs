@@ -33,6 +33,8 @@ pub(crate) const PALM_FORCE: (f64, f64) = (0.25, 2.0);
 /// How fast the palm's force is there at a stroke, and how fast it follows its controller, s.
 pub(crate) const PALM_LANDING: f64 = 0.001;
 pub(crate) const PALM_RAMP: f64 = 0.03;
+/// Strokes so many times as hard as the palm presses drown one that falls on the string as fast as is best.
+pub(crate) const FALLING_PALM: f64 = 3.0;
 /// How long it waits on a silent string for the next note, s: a bar of slow music. A string under it is computed.
 pub(crate) const PALM_WAITS: f64 = 2.0;
 
