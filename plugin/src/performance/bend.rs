@@ -6,14 +6,14 @@
 //! that sounds stays where pulling ends. A finger that has ceased to press, as its note is over, stays where it has slid or glided to,
 //! and pulling does what it can.
 
+mod sliding;
+
 use std::f64::consts::TAU;
 
 use low_action_dsp::Gesture;
 
 use super::fingers::{Fingers, Pulled};
-use super::technique::{
-    BEND_INTERVAL, BEND_RAMP, BEND_SPEED, OUT_OF_TUNE, SLID_STAYS, VIBRATO, VIBRATO_STEP,
-};
+use super::technique::{BEND_INTERVAL, BEND_RAMP, BEND_SPEED, FOLLOWED, OUT_OF_TUNE, VIBRATO, VIBRATO_STEP};
 use super::{Annotation, GestureSink, Moment, Technique};
 
 /// What is asked of a string and what has been done about it.
@@ -41,6 +41,8 @@ pub(crate) struct Bend {
     moved: f64,
     /// Frets the finger has been slid by.
     slid: i32,
+    /// Whether the string is pulled for the frets that are still before a sliding finger.
+    makes_up: bool,
     /// Semitones the finger has glided.
     glided: f64,
     /// Wheel and tuning as last followed, semitones.
@@ -65,7 +67,7 @@ impl Bend {
         self.channel = Some(channel);
         self.tuning = 0.0;
         self.vibrato = 0.0;
-        (self.slid, self.glided) = (0, 0.0);
+        (self.slid, self.glided, self.makes_up) = (0, 0.0, false);
         self.followed = f64::NAN;
     }
 
@@ -203,8 +205,8 @@ impl Bend {
         // What is pulled before the note leaves the swing out.
         let before = unheard && !fingers.glides();
         let swing = if before { 0.0 } else { self.swing(at) };
-        self.followed = asked;
-        let mut pulled = self.arm;
+        let turned = (asked - std::mem::replace(&mut self.followed, asked)).abs();
+        let (mut goal, mut pulled) = (self.arm, self.arm);
         let (reached, moved);
         let mut taken: f64 = 0.0;
         if fingers.glides() {
@@ -216,33 +218,38 @@ impl Bend {
         } else {
             let wanted = fingers.can_slide(self.frets_to_slide(asked, most));
             let way = duration(f64::from(wanted - self.slid));
+            let on_its_way = fingers.passes(0.0, at).is_some();
             let (slid, slide) = fingers.slide(wanted, way, at);
-            if slide.is_some() {
-                taken = way;
+            if let Some(Gesture::Slide { duration, .. }) = slide {
+                self.makes_up = if on_its_way { self.makes_up } else { turned <= FOLLOWED };
+                taken = duration;
             }
             self.slid = slid;
             // Where a finger has glided to it stays, once it has ceased to press.
             moved = f64::from(self.slid) + self.glided;
             let tension = (asked - moved).clamp(-most, most);
             reached = moved + tension;
-            pulled = tension + self.arm + swing;
+            goal = tension + self.arm + swing;
+            pulled = goal - tension + self.meanwhile(asked, tension, most, fingers, at);
         }
         if self.swings.is_some() {
             let next = if before { at.after(taken).max(at.time + 1) } else { at.after(VIBRATO_STEP) };
             self.due = Some(next);
         }
         let change = pulled - std::mem::replace(&mut self.sent, pulled);
-        let Pulled { ratio, semitones } = fingers.pulled(pulled);
+        let Pulled { ratio, .. } = fingers.pulled(pulled);
         if taken > 0.0 || ratio != self.ratio {
             self.ready = at.after(BEND_INTERVAL);
         }
         if ratio != self.ratio {
             self.ratio = ratio;
-            at.does(Gesture::Bend { tension_ratio: ratio, duration: pulling(change) });
-            fingers.hold_pulled(ratio, pulling(change), at);
+            // For a wheel that is far ahead the string is as it is to be when the finger gets there.
+            let duration = pulling(change).max(if self.makes_up { 0.0 } else { taken });
+            at.does(Gesture::Bend { tension_ratio: ratio, duration });
+            fingers.hold_pulled(ratio, duration, at);
         }
         self.moved = moved;
-        let semitones = moved + semitones;
+        let semitones = moved + fingers.pulled(goal).semitones;
         if semitones != self.told {
             self.told = semitones;
             let slides = if self.swings.is_none() { fingers.time_to_arrive(at) } else { 0.0 };
@@ -257,20 +264,6 @@ impl Bend {
         let (rate, depth) = VIBRATO;
         let seconds = at.after(VIBRATO_STEP).saturating_sub(since) as f64 / at.sample_rate;
         self.vibrato * depth * libm::sin(TAU * rate * seconds)
-    }
-
-    /// By how many frets the finger slides for wheel and tuning that ask for so much, where pulling reaches so far, semitones. What
-    /// is past that by less than anybody hears is pulled, and a finger that has slid stays for a while: a wheel that swings
-    /// across a limit would have it go back and forth over the frets, which clatter.
-    fn frets_to_slide(&self, asked: f64, most: f64) -> i32 {
-        let from_there = (asked - f64::from(self.slid)).abs();
-        if self.slid != 0 && from_there <= SLID_STAYS.min(most) {
-            self.slid
-        } else if asked.abs() > most + OUT_OF_TUNE {
-            asked.round() as i32
-        } else {
-            0
-        }
     }
 
     /// Sees to it that a change is sent.

@@ -19,6 +19,7 @@ mod sliding;
 mod stopping;
 mod tension;
 mod touches;
+mod way;
 
 use low_action_dsp::setup::{Player, frequency};
 use low_action_dsp::{FINGERS_PER_STRING, FingerSlot, Gesture, StringGeometry, Touch};
@@ -32,6 +33,7 @@ use leaving::hurried;
 pub(super) use leaving::{QUIET_LIFT, lift_force, lifting};
 pub(super) use pace::Pace;
 pub(super) use tension::Pulled;
+use way::Way;
 
 /// A finger behind a fret, or a bar over one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,8 +45,10 @@ struct Finger {
     grip: Grip,
     /// Whether it is a bar.
     bar: bool,
+    /// Its last slide.
+    way: Way,
     /// When it is where a slide to its note's fret takes it.
-    arrives: u64,
+    at_note: u64,
     /// Semitones by which it has glided away from its fret, where nothing keeps it on frets.
     glided: f64,
     /// Where it presses, m from the nut, if its fret has nothing to do with that.
@@ -60,16 +64,6 @@ impl Finger {
     /// The fret that is nearest to where it stops the string.
     fn nearest_fret(&self) -> usize {
         self.stands().round() as usize
-    }
-
-    /// Whether a slide to its note's fret has not got there yet.
-    fn is_under_way(&self, time: u64) -> bool {
-        time < self.arrives
-    }
-
-    /// How long that takes yet, s.
-    fn time_to_arrive(&self, at: &Moment<impl GestureSink>) -> f64 {
-        self.arrives.saturating_sub(at.time) as f64 / at.sample_rate
     }
 
     /// Whether it stops the string nearer to the nut than a fret.

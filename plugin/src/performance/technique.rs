@@ -58,6 +58,8 @@ pub(crate) const BEND_INTERVAL: f64 = 0.003;
 pub(crate) const OUT_OF_TUNE: f64 = 0.01;
 /// How far pulling goes from where a wheel has slid a finger before that slides on, or back, semitones.
 pub(crate) const SLID_STAYS: f64 = 0.75;
+/// A wheel that is turned by no more than so much at once is followed without a break where a finger slides for it, semitones.
+pub(crate) const FOLLOWED: f64 = 1.0;
 /// How fast a finger's force follows the pressure on a key, s.
 pub(crate) const PRESSURE_RAMP: f64 = 0.012;
 /// A vibrato of the fretting hand: turns a second, and how far it goes at its deepest, semitones. Guitarists

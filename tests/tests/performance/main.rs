@@ -51,3 +51,4 @@ mod trills;
 mod turns;
 mod vibrato;
 mod waiting;
+mod wheel_slides;

@@ -55,7 +55,7 @@ impl Fingers {
     }
 
     /// The fret that a finger at a place (m from the nut) stops.
-    fn stopped_at(&self, position: f64) -> usize {
+    pub(super) fn stopped_at(&self, position: f64) -> usize {
         let behind = self.string.geometry.frets.partition_point(|fret| *fret < position);
         (behind + 1).min(self.string.geometry.frets.len())
     }

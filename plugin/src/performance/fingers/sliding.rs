@@ -3,39 +3,31 @@
 use low_action_dsp::Gesture;
 
 use super::held::Grip;
-use super::{Departing, Finger, Fingers};
+use super::{Departing, Finger, Fingers, Way};
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
-    /// The finger that sounds slides to another fret, which is the note's own from then on, no faster than hands do. Gives back
-    /// the slide.
+    /// The finger that sounds slides to another fret, which is the note's own from then on. Gives back the slide.
     pub(super) fn slide_to(
         &mut self,
         fret: usize,
         duration: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> Option<Gesture> {
-        let way = self.fretting.map_or(0.0, |finger| self.place(fret, finger.bar) - self.pressed(&finger));
-        let duration = duration.max(way.abs() / SLIDE_SPEED);
         self.home = fret;
-        if let Some(finger) = &mut self.fretting {
-            finger.arrives = at.after(duration);
-        }
         let slide = self.slide(0, duration, at).1;
+        let taken = self.time_to_arrive(at);
+        if let Some(finger) = &mut self.fretting {
+            finger.at_note = at.after(taken);
+        }
         if self.tightened > 1.0 {
-            self.press_on(duration, at);
+            self.press_on(taken, at);
         }
         slide
     }
 
-    /// How long a finger takes that is to be elsewhere after so many seconds: no wheel and no vibrato hurries one that is on
-    /// its way to its note, s.
-    fn unhurried(finger: &Finger, duration: f64, at: &Moment<impl GestureSink>) -> f64 {
-        duration.max(finger.time_to_arrive(at))
-    }
-
-    /// How long the finger that stops the string will be under way to its note's fret, s.
+    /// How long the finger that stops the string will be under way, s.
     pub(crate) fn time_to_arrive(&self, at: &Moment<impl GestureSink>) -> f64 {
         self.fretting.map_or(0.0, |finger| finger.time_to_arrive(at))
     }
@@ -57,8 +49,9 @@ impl Fingers {
         }
     }
 
-    /// Slides the fretting finger so many frets away from where the note began, as far as it [can](Self::can_slide).
-    /// Gives back how many it is away then, and the slide if it moves.
+    /// Slides the fretting finger so many frets away from where the note began, as far as it [can](Self::can_slide), and no faster
+    /// than hands do, however often it is told: a wheel that moves sends a hundred goals a second. Gives back how many frets it is
+    /// away then, and the slide if it moves.
     pub(crate) fn slide(
         &mut self,
         frets: i32,
@@ -71,12 +64,14 @@ impl Fingers {
         let fret = self.home as i32 + frets;
         let mut slide = None;
         if fret as usize != at_fret {
+            let here = sliding.way.come_to(self.pressed(&sliding), at.time);
             self.lift_anchor(fret as usize, at);
+            let position = self.place(fret as usize, bar);
+            let duration = sliding.unhurried(duration, at).max((position - here).abs() / SLIDE_SPEED);
             if let Some(finger) = &mut self.fretting {
                 (finger.fret, finger.glided, finger.free) = (fret as usize, 0.0, None);
+                finger.way = Way::from(here, duration, at);
             }
-            let position = self.place(fret as usize, bar);
-            let duration = Self::unhurried(&sliding, duration, at);
             slide = Some(self.move_along(&sliding, position, duration, at));
         }
         (frets, slide)
@@ -170,7 +165,7 @@ impl Fingers {
             finger.glided = reached;
         }
         let position = self.glided_place(stands, finger.bar);
-        let duration = Self::unhurried(&finger, duration, at);
+        let duration = finger.unhurried(duration, at);
         self.move_along(&finger, position, duration, at);
         reached
     }

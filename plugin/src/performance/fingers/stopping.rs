@@ -4,7 +4,7 @@ use low_action_dsp::setup::frequency;
 use low_action_dsp::{FingerSlot, Gesture, Touch};
 
 use super::held::{Down, Grip, STILL_DOWN};
-use super::{Finger, Fingers};
+use super::{Finger, Fingers, Way};
 use crate::performance::articulation::Stop;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
@@ -100,7 +100,8 @@ impl Fingers {
         self.next_slot = (slot + 1) % FRETTING_SLOTS;
         let grip = Grip::Presses;
         let glided = self.comes_beside(fret);
-        self.fretting = Some(Finger { slot, fret, touch, grip, bar, arrives: 0, glided, free: None });
+        let way = Way::default();
+        self.fretting = Some(Finger { slot, fret, touch, grip, bar, way, at_note: 0, glided, free: None });
         slot
     }
 }
