@@ -1,15 +1,15 @@
 //! Another model under strings that ring: what one instrument hands to the next, without a click and
 //! without allocating.
 //!
-//! The new instrument is built beforehand, elsewhere. Where its strings are much the same it takes over displacement and
-//! motion of each (read between the grid points where the grids differ, but for the kinks under what presses, which are each
-//! grid's own), the fingers with the depth to which they are pressed in, plucks under way and the gestures that wait; where they are not it takes over nothing, what waits is
-//! dropped with the strings that it was meant for, and what is played from then on is for the new ones alone. A finger or fret
-//! that was in touch stays in touch, pressed just as hard; board and frets go on from there to their new places as a luthier's
-//! wrench would move them, and the tension from the old to the new. So a string that is pressed and silent stays so. The step from one set of numbers to
-//! the other changes the energy that the same motion holds: the [`Ledger`](crate::Ledger) books it, and all work done
-//! by what moves afterwards. For a moment both are computed and the one sound fades into the other,
-//! because what a pickup at another place hears cannot be carried over.
+//! The new instrument is built beforehand, elsewhere. Where its strings are much the same it takes over displacement and motion
+//! of each (read between the grid points where the grids differ, but for the kinks under what presses, which are each grid's
+//! own), the fingers with the depth to which they are pressed in, plucks under way and the gestures that wait; where they are
+//! not it takes over nothing, what waits is dropped with the strings that it was meant for, and what is played from then on is
+//! for the new ones alone. A finger or fret that was in touch stays in touch, pressed just as hard; board and frets go on from
+//! there to their new places as a luthier's wrench would move them, and the tension from the old to the new. So a string that
+//! is pressed and silent stays so. The step from one set of numbers to the other changes the energy that the same motion holds:
+//! the [`Ledger`](crate::Ledger) books it, and all work done by what moves afterwards. For a moment both are computed and the
+//! one sound fades into the other, because what a pickup at another place hears cannot be carried over.
 
 mod hands;
 mod state;
