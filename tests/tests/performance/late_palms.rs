@@ -42,7 +42,7 @@ fn a_palm_told_with_its_note_damps_it() {
     }
 }
 
-/// It is heard itself as it falls, but hardly above soft notes. (As fast for these as for hard ones it was up to 18 dB louder than a
+/// It is heard itself as it falls, but hardly above soft notes. (As fast for these as for hard ones it was up to 15 dB louder than a
 /// note of velocity 10 without it, by hand.)
 #[test]
 fn a_palm_that_falls_is_no_louder_than_its_note() {
