@@ -206,7 +206,7 @@ impl Bend {
         let before = unheard && !fingers.glides();
         let swing = if before { 0.0 } else { self.swing(at) };
         let turned = (asked - std::mem::replace(&mut self.followed, asked)).abs();
-        let (mut goal, mut pulled) = (self.arm, self.arm);
+        let (mut at_last, mut pulled) = (self.arm, self.arm);
         let (reached, moved);
         let mut taken: f64 = 0.0;
         if fingers.glides() {
@@ -229,8 +229,8 @@ impl Bend {
             moved = f64::from(self.slid) + self.glided;
             let tension = (asked - moved).clamp(-most, most);
             reached = moved + tension;
-            goal = tension + self.arm + swing;
-            pulled = goal - tension + self.meanwhile(asked, tension, most, fingers, at);
+            at_last = tension + self.arm + swing;
+            pulled = at_last - tension + self.meanwhile(asked, tension, most, fingers, at);
         }
         if self.swings.is_some() {
             let next = if before { at.after(taken).max(at.time + 1) } else { at.after(VIBRATO_STEP) };
@@ -249,7 +249,7 @@ impl Bend {
             fingers.hold_pulled(ratio, duration, at);
         }
         self.moved = moved;
-        let semitones = moved + fingers.pulled(goal).semitones;
+        let semitones = moved + fingers.pulled(at_last).semitones;
         if semitones != self.told {
             self.told = semitones;
             let slides = if self.swings.is_none() { fingers.time_to_arrive(at) } else { 0.0 };
