@@ -255,8 +255,8 @@ fn fingers_that_slide_are_in_the_contour() {
             let bend = bend_at(bends, sample(note, "string"), at);
             let pitch = number(note, "frequency") * (bend / 12.0).exp2();
             let off = cents(frequency_near(&sound[at..at + window], RATE, pitch), pitch).abs();
-            // The wheel's, too.
-            let slides = at < arrives || (samples(0.28)..samples(0.36)).contains(&at);
+            // The wheel's, too, over five frets, which are 0.145 m, at 1 m/s.
+            let slides = at < arrives || (samples(0.28)..samples(0.48)).contains(&at);
             largest[usize::from(slides)] = largest[usize::from(slides)].max(off);
         }
     }

@@ -83,6 +83,7 @@ fn expected(every: usize) -> BTreeMap<String, Vec<f64>> {
             iterations += string.convergence.iterations;
             let stretched = stretch_tension(&string.model, &string.scratch);
             add(format!("tension_{number}"), string.scratch.stiffness().tension + stretched);
+            add(format!("force_bridge_{number}"), string.bridge_force(0.0));
             add(format!("force_board_{number}"), string.board_force());
             let mut frets = vec![0.0; 3];
             string.fret_forces().for_each(|(fret, force)| frets[fret] = force);
@@ -389,7 +390,7 @@ fn arrays_larger_than_what_is_gathered_are_whole() {
     }
     assert_eq!(simulation.steps(), 40_000);
     let names: Vec<_> = found.keys().filter(|name| name.starts_with("force_")).collect();
-    assert!(names.is_empty(), "nothing touches this string, but there is {names:?}");
+    assert_eq!(names, ["force_bridge_1"], "nothing else touches this string");
 }
 
 #[test]

@@ -415,7 +415,7 @@ fn a_bridge_that_falls_too_far_is_refused_by_its_radius() {
 fn a_base_of_any_name_is_refused_in_one_line() {
     for name in ["a\\nb", "\\u001B[2J", "a\\r\\u0000\\tb", &"x".repeat(100_000)] {
         let error = Setup::from_toml(&format!("based_on = \"{name}\"")).unwrap_err().to_string();
-        assert!(error.starts_with("set-up `") && error.contains("electric"), "{error:?}");
+        assert!(error.starts_with("based_on = ") && error.contains("electric"), "{error:?}");
         assert!(!error.chars().any(char::is_control) && error.len() < 1000, "{error:?}");
     }
 }
