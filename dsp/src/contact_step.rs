@@ -1,11 +1,10 @@
 //! One step of a string that may touch something: find the contacts, solve for their forces, advance, and look
 //! whether the string was driven into others.
 
-use crate::instructions::Vectors;
-
 use crate::active::Active;
 use crate::drive::Drive;
 use crate::field::Field;
+use crate::instructions::Vectors;
 use crate::kernel::Stretching;
 use crate::model::{Coasting, Model};
 use crate::solver::{Convergence, EnergyScale};

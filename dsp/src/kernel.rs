@@ -8,10 +8,9 @@ mod rows;
 mod sweep;
 mod weights;
 
-use crate::instructions::{Pass, Vectors};
-
 use crate::field::{Ends, Field};
 use crate::grid::Grid;
+use crate::instructions::{Pass, Vectors};
 use crate::model::Model;
 use crate::scene::Stencil;
 use crate::skyline::Clearance;
@@ -191,7 +190,7 @@ mod tests {
     /// Every instruction set gives the same bits in every pass there is, for every number of points in the last rows.
     #[test]
     fn every_instruction_set_gives_the_same_bits() {
-        if Instructions::all().len() == 2 {
+        if cfg!(target_arch = "x86_64") && Instructions::all().len() == 2 {
             println!("passed over: this machine has no instructions but those of two lanes");
         }
         let passes = [0, 1, 2].into_iter().flat_map(|reach| {

@@ -59,11 +59,7 @@ fn wrapped(model: &Model, scratch: &Scratch, from: usize) -> f64 {
 
 /// Tension added by stretching at n, EA/(2L)·∫(∂ₓu)² dx, N, as the step had it; 0 where the string has no tension modulation.
 pub fn stretch_tension(model: &Model, scratch: &Scratch) -> f64 {
-    if model.coasting.stretch == 0.0 {
-        return 0.0;
-    }
-    let string = &model.string;
-    string.axial_stiffness() / (2.0 * string.length * model.grid.spacing) * scratch.stretching()
+    model.string.stretch_tension(scratch.stretching(), model.grid.spacing)
 }
 
 /// What is heard of one string.

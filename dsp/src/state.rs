@@ -162,10 +162,15 @@ impl State {
         let grid = &model.grid;
         self.displacement.close_ends(&Ends::new(grid));
         self.look_back(model);
-        let (u, v) = (&self.displacement, &self.curvature);
-        let product: f64 = (1..grid.intervals).map(|node| u[grid.cell(node)] * v[grid.cell(node)]).sum();
-        self.stretched = if model.coasting.stretch > 0.0 { -product } else { 0.0 };
+        self.stretched = if model.coasting.stretch > 0.0 { self.stretch(model) } else { 0.0 };
         self.squares = self.motion.iter().map(|motion| motion * motion).sum();
+    }
+
+    /// (δuⁿ)ᵀδuⁿ⁻¹, m², of the string as it is now and as it was bent a step ago.
+    pub(crate) fn stretch(&self, model: &Model) -> f64 {
+        let (grid, u, v) = (&model.grid, &self.displacement, &self.curvature);
+        let product: f64 = (1..grid.intervals).map(|node| u[grid.cell(node)] * v[grid.cell(node)]).sum();
+        -product
     }
 
     /// Finds how the string was bent a step ago.

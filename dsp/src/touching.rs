@@ -1,11 +1,10 @@
 //! Which contacts act in a step: those the string touches at n − 1 or n, or would at n + 1.
 
-use crate::instructions::Vectors;
-
 use crate::active::Active;
 use crate::contact::Before;
 use crate::drive::Drive;
 use crate::grid::{READING_NORM, Reading};
+use crate::instructions::Vectors;
 use crate::model::{Contact, Model};
 use crate::skyline::draw;
 use crate::state::{Close, State};

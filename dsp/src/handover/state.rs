@@ -48,8 +48,8 @@ impl State {
         tension: f64,
         begins_at: impl Fn(f64, f64) -> f64,
     ) -> f64 {
-        let stretch = old.stretch(before.model);
-        let [stretching, own] = [before.model, new.model].map(|model| stretch_tension(model, stretch));
+        let [stretching, own] =
+            [before.model, new.model].map(|model| old.stretch_tension(before.model, model));
         let pulls = |own: f64| begins_at(tension + (stretching - own), own);
         let (asked, begins) = (tension + (stretching - own), pulls(own));
         // Under so much of the forces it has the same shape at that tension.
@@ -103,7 +103,8 @@ impl State {
     /// that it has where stretching adds so much to it, by `pulls`.
     fn deflect(&mut self, new: &mut Side, pulls: impl Fn(f64) -> f64) -> f64 {
         let Side { model, deflection } = new;
-        let mut stretching = stretch_tension(model, self.stretch(model));
+        self.look_back(model);
+        let mut stretching = self.stretch_tension(model, model);
         for _ in 0..MOST_TURNS {
             let tension = pulls(stretching);
             if !deflection.find(model, tension, stretching) {
@@ -113,7 +114,8 @@ impl State {
                 self.displacement[model.grid.cell(node)] += deflection.renew(node - 1);
             }
             let before = stretching;
-            stretching = stretch_tension(model, self.stretch(model));
+            self.look_back(model);
+            stretching = self.stretch_tension(model, model);
             if (stretching - before).abs() <= SAME_TENSION * tension {
                 break;
             }
@@ -121,26 +123,9 @@ impl State {
         pulls(stretching)
     }
 
-    /// ∫(∂ₓu)² dx between the last two samples, m. (A motion of a wave's height in a step could make that negative, which no string
-    /// that rests has.)
-    fn stretch(&self, model: &Model) -> f64 {
-        let grid = &model.grid;
-        let (mut sum, mut last) = (0.0, [0.0; 2]);
-        for node in 1..=grid.intervals {
-            let mut here = [0.0; 2];
-            if node < grid.intervals {
-                let cell = grid.cell(node);
-                here = [self.displacement[cell], self.displacement[cell] - self.motion[cell]];
-            }
-            sum += (here[0] - last[0]) * (here[1] - last[1]);
-            last = here;
-        }
-        (sum / grid.spacing).max(0.0)
+    /// What its stretching between the last two samples, on the grid of one model, adds to the tension under another, N. (A motion
+    /// of a wave's height in a step could make that negative, which no string that rests has.)
+    fn stretch_tension(&self, on: &Model, under: &Model) -> f64 {
+        under.string.stretch_tension(self.stretch(on).max(0.0), on.grid.spacing)
     }
-}
-
-/// What that adds to the tension, N.
-fn stretch_tension(model: &Model, stretch: f64) -> f64 {
-    let string = &model.string;
-    if string.tension_modulation { string.axial_stiffness() / (2.0 * string.length) * stretch } else { 0.0 }
 }

@@ -2,10 +2,9 @@
 
 use std::ops::Range;
 
-use crate::instructions::{Pass, Vectors};
-
 use super::rows::{Row, rows, rows_mut};
 use crate::field::{BESIDE_NUT, Ends, Field, LANES, total};
+use crate::instructions::{Pass, Vectors};
 
 /// Motion below this, m, is none: what runs ahead of a wave on a silent string would otherwise become a
 /// subnormal number, slow on most machines and flushed to zero on some, and the bits would depend on the

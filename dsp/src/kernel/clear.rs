@@ -1,9 +1,8 @@
 //! How far a string is over a skyline.
 
-use crate::instructions::{Pass, Vectors};
-
 use super::rows::rows;
 use crate::field::Field;
+use crate::instructions::{Pass, Vectors};
 use crate::skyline::{CLEARED, Clearance};
 
 /// How far groups of points are over a skyline.

@@ -1,10 +1,9 @@
 //! The sweep of a prediction: rows one after another, with what is needed of their neighbours in registers.
 
-use crate::instructions::{Pass, Vectors};
-
 use super::rows::{Row, rows, rows_after, rows_before, rows_mut};
 use super::{Shape, Stretching, Weights};
 use crate::field::{Field, LANES, total};
+use crate::instructions::{Pass, Vectors};
 
 /// Sums of a sweep in each lane.
 #[derive(Clone, Copy)]

@@ -100,6 +100,15 @@ impl StringParameters {
         self.youngs_modulus * std::f64::consts::PI * self.core_radius * self.core_radius
     }
 
+    /// What stretching adds to the tension, EA/(2L)·∫(∂ₓu)² dx, N, by the sum of squared differences between neighbours (m²) on a
+    /// grid of a spacing (m); 0 without tension modulation.
+    pub(crate) fn stretch_tension(&self, stretching: f64, spacing: f64) -> f64 {
+        if !self.tension_modulation {
+            return 0.0;
+        }
+        self.axial_stiffness() / (2.0 * self.length * spacing) * stretching
+    }
+
     /// κ² = EI/ρ, m⁴/s².
     pub fn kappa_squared(&self) -> f64 {
         let r = self.core_radius;

@@ -283,7 +283,7 @@ fn positions() -> Score {
 
 fn keyswitches() -> Score {
     Score::solo(110, |track| {
-        track.set(0, KEYSWITCHES, 12);
+        track.set(0, SWITCHES, 12);
         let mut now = 0;
         for switch in 0..12 {
             track.note(12 + switch, 100, now, 60);

@@ -1,5 +1,6 @@
 //! Music as it grows: tracks of messages at ticks, and the file they become.
 
+pub use low_action::performance::controller::*;
 use midly::num::{u4, u7, u15, u24, u28};
 use midly::{Format, Header, MetaMessage, MidiMessage, PitchBend, Smf, Timing, TrackEvent, TrackEventKind};
 
@@ -7,22 +8,6 @@ use midly::{Format, Header, MetaMessage, MidiMessage, PitchBend, Smf, Timing, Tr
 pub const QUARTER: u32 = 480;
 pub const EIGHTH: u32 = QUARTER / 2;
 pub const SIXTEENTH: u32 = QUARTER / 4;
-
-/// Controllers, by what they do.
-pub const VIBRATO: u8 = 1;
-pub const SLIDE_TIME: u8 = 5;
-pub const PALM: u8 = 20;
-pub const STRUM: u8 = 21;
-pub const STROKE: u8 = 22;
-pub const STOP: u8 = 23;
-pub const ACCENT: u8 = 24;
-pub const TREMOLO: u8 = 25;
-pub const CAPO: u8 = 26;
-pub const KEYSWITCHES: u8 = 27;
-pub const HAND: u8 = 28;
-pub const PEDAL: u8 = 64;
-pub const SLIDE: u8 = 65;
-pub const LEGATO: u8 = 68;
 
 /// A piece: its tempo, and its tracks.
 pub struct Score {

@@ -46,40 +46,42 @@ pub const LEGATO: u8 = 68;
 pub const BRIGHTNESS: u8 = 74;
 /// Lower and upper half of the number of a parameter that is not registered, which takes data entry away from those that are.
 pub const OTHER_PARAMETER: [u8; 2] = [98, 99];
-/// The same of a registered parameter.
+/// Lower half of the number of a registered parameter.
 pub const PARAMETER_LOWER: u8 = 100;
+/// Upper half of it.
 pub const PARAMETER_UPPER: u8 = 101;
 /// Silences everything; the first of the messages that stop everything or put it back.
 pub const SILENCE: u8 = 120;
 /// Puts everything back.
 pub const RESET: u8 = 121;
-/// First and last of those that let go of all keys: all notes off, and the four mode messages that imply it.
+/// All notes off; the first of those that let go of all keys, as the four mode messages imply it, too.
 pub const KEYS_OFF: u8 = 123;
+/// The last of these.
 pub const LAST: u8 = 127;
 
 /// Whether it tells hands what to do, which a keyboard's knobs may not mean.
-pub fn is_of_hands(number: u8) -> bool {
+pub(crate) fn is_of_hands(number: u8) -> bool {
     (PALM..=HAND).contains(&number)
 }
 
 /// Whether it is part of setting a registered parameter, or takes data entry away from those.
-pub fn is_of_parameters(number: u8) -> bool {
+pub(crate) fn is_of_parameters(number: u8) -> bool {
     matches!(number, DATA_ENTRY | DATA_ENTRY_LOWER | PARAMETER_LOWER | PARAMETER_UPPER)
         || OTHER_PARAMETER.contains(&number)
 }
 
 /// Whether it changes something that belongs to no channel; where notes have channels of their own, one of them that is reset
 /// does not.
-pub fn is_of_all(number: u8, mpe: bool) -> bool {
+pub(crate) fn is_of_all(number: u8, mpe: bool) -> bool {
     matches!(number, CAPO | SWITCHES | HAND) || (number == RESET && !mpe)
 }
 
 /// Whether it makes of keys that are down what it does not make of those that have gone up.
-pub fn keeps_or_ends(number: u8) -> bool {
+pub(crate) fn keeps_or_ends(number: u8) -> bool {
     matches!(number, PEDAL | SOSTENUTO) || number >= SILENCE
 }
 
 /// Whether it makes of notes that have begun, or of what channels mean, what it does not make of those to come.
-pub fn is_of_begun(number: u8) -> bool {
+pub(crate) fn is_of_begun(number: u8) -> bool {
     matches!(number, DATA_ENTRY | DATA_ENTRY_LOWER | SOSTENUTO) || number >= SILENCE
 }

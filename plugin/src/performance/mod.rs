@@ -21,7 +21,7 @@ mod channels;
 mod chord;
 mod compromises;
 mod control;
-pub(crate) mod controller;
+pub mod controller;
 mod event;
 mod expressions;
 mod fingers;

@@ -155,20 +155,28 @@ fn assert_no_click(what: &str, old: &Setup, new: &Setup) {
 /// The tension goes over in 20 ms, slowly beside the periods of most partials. Then the energy of each goes with its frequency, and the
 /// velocity that a coil hears with the root of that: 2^(semitones/24), or 3 dB an octave. Open strings keep to it within 0.8 dB, since
 /// the lowest partials are not so fast. Stopped ones do within 2 dB as far as four semitones down. Beyond, pads take more of a string
-/// that is looser, whichever way it comes to that: up to 9 dB of it in one exchange of an octave, and 12 to 23 in twelve of a
-/// semitone, one after the other. An octave up the finger no longer holds them on their frets.
+/// that is looser, whichever way it comes to that: semitone by semitone, none of which goes beyond what a grid bears, 3 to 13 dB. What
+/// goes beyond that at once has fingers press less at first, until the hand has followed, which takes up to 4.4 dB more. An octave up
+/// the finger no longer holds them on their frets.
 #[test]
 fn strings_that_are_tuned_ring_on() {
     let setup = Setup::builtin("electric").expect("it is built in");
     // Levels of all strings from a tenth of a second after the change on.
-    let tuned = |semitones: f64| -> Vec<f64> {
+    let tuned_by = |ways: &[f64]| -> Vec<f64> {
         let mut instrument = build(&setup);
         instrument.open_ledgers();
         strike(&mut instrument, &setup);
         play(&mut instrument, 12_000, &mut Vec::new());
-        let successor = build(&changed(&setup, 1.0, 1.0, 0.0, semitones));
-        assert!(instrument.hand_over(Box::new(successor)).is_ok());
-        play(&mut instrument, 4800, &mut Vec::new());
+        let mut semitones = 0.0;
+        for way in ways {
+            semitones += way;
+            let successor = build(&changed(&setup, 1.0, 1.0, 0.0, semitones));
+            assert!(instrument.hand_over(Box::new(successor)).is_ok());
+            // By then tension and frets have gone over, and the one before has faded.
+            play(&mut instrument, 2400, &mut Vec::new());
+            assert!(instrument.take_before().is_some());
+        }
+        play(&mut instrument, 2400, &mut Vec::new());
         let mut stems = vec![vec![0.0_f32; 4800]; instrument.string_count()];
         let mut slices: Vec<&mut [f32]> = stems.iter_mut().map(Vec::as_mut_slice).collect();
         instrument.process_stems(&mut slices, &mut [0.0; 4800], &mut [0.0; 4800]);
@@ -178,22 +186,36 @@ fn strings_that_are_tuned_ring_on() {
         }
         stems.iter().map(|stem| level(stem)).collect()
     };
+    let tuned = |semitones: f64| tuned_by(&[semitones]);
     let straight = tuned(0.0);
     for semitones in [-12.0, -7.0, -4.0, -3.0, 5.0, 12.0] {
         let law = decibels((semitones / 24.0_f64).exp2());
         let louder: Vec<f64> =
             tuned(semitones).iter().zip(&straight).map(|(after, straight)| after - straight).collect();
         println!("{semitones} semitones: {louder:.1?} dB louder, by the law {law:.1}");
+        // Without what strings lose in that time anyway.
+        let steps = semitones.abs() as usize;
+        let in_steps: Vec<f64> = if semitones < -4.0 {
+            let there = tuned_by(&vec![-1.0; steps]);
+            there.iter().zip(tuned_by(&vec![0.0; steps])).map(|(there, straight)| there - straight).collect()
+        } else {
+            vec![law; louder.len()]
+        };
+        println!("step by step {in_steps:.1?} dB");
         for (string, louder) in louder.iter().enumerate() {
             // Every other one is stopped.
             let most = match string % 2 {
                 1 => 1.0,
-                _ if semitones < -4.0 => 9.0,
                 _ if semitones < 12.0 => 3.0,
                 _ => continue,
             };
-            let off = (louder - law).abs();
-            assert!(off < most, "{semitones} semitones, string {string}: {louder:.1} dB, not {law:.1}");
+            let least = match string % 2 {
+                0 if semitones < -4.0 => in_steps[string].min(law) - 2.0,
+                _ => law,
+            };
+            let case =
+                format!("{semitones} semitones, string {string}: {louder:.1} dB, not {least:.1} to {law:.1}");
+            assert!(*louder > least - most && *louder < law + most, "{case}");
         }
     }
 }

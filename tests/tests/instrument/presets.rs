@@ -356,6 +356,7 @@ fn a_setup_can_be_another_with_a_few_things_changed() {
     expected.string[1].pitch = 40.0;
     assert_eq!(mine, expected);
     for (text, words) in [
+        ("name = \"x\"\nbased_on = \"banjo\"", &["banjo", "electric"][..]),
         (
             "name = \"x\"\nbased_on = \"drop-d\"",
             &[
