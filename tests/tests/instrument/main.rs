@@ -13,6 +13,7 @@ mod level;
 mod low_rates;
 mod no_allocation;
 mod presets;
+mod pressed;
 mod same_bits;
 mod sample_rates;
 mod setups;
