@@ -195,6 +195,7 @@ fn bessel(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{DELAY, Decimator, REJECTION, SPARE};
+    use crate::instructions::Instructions;
     use crate::ratio::Ratio;
 
     /// Half the width of the transition, as a part of the host's rate.
@@ -234,6 +235,32 @@ mod tests {
         }
         // At 44.1 kHz as well, all passes that most people can hear.
         const { assert!((0.5 - HALF_TRANSITION) * 44.1e3 > 19e3) };
+    }
+
+    /// Every instruction set sums by the same bits, at every kind of ratio.
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        for halves in 2..=9 {
+            let ratio = Ratio::of_halves(halves);
+            let run = |instructions: Instructions| {
+                let mut decimator = Decimator::new(ratio, 64);
+                decimator.instructions = instructions;
+                let mut sound = Vec::new();
+                for piece in [1, 64, 7, 33] {
+                    for index in 0..decimator.steps(piece) {
+                        decimator.take(index, libm::sin((sound.len() + index * index) as f64));
+                    }
+                    let mut out = vec![0.0; piece];
+                    decimator.give(&mut out);
+                    sound.extend(out.into_iter().map(f64::to_bits));
+                }
+                sound
+            };
+            let expected = run(Instructions::Any);
+            for instructions in Instructions::all() {
+                assert!(run(instructions) == expected, "{halves}/2 by {instructions:?}");
+            }
+        }
     }
 
     /// A tone of a frequency, radians a sample, through a decimator in pieces.

@@ -112,8 +112,8 @@ pub const FASTEST: f64 = 1e3;
 
 /// Something a hand does to one string.
 ///
-/// A place beyond the string stands for the nearest on it, one that is no number for its middle. Durations have no upper limit
-/// (and a string does not sleep before they are over); but for plucks and stilling, one below 0 or that is no number is at once.
+/// A place beyond the string is moved to the nearest on it; one that is no number, to the middle. Durations have no upper limit, and a
+/// string does not sleep before they are over. Except for plucks and stilling, a duration below 0, or that is no number, means at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Gesture {
     /// A push of a point of the string that grows as a raised cosine (`docs/physics.md`, section 1), and lets go at once or as it
@@ -183,9 +183,9 @@ pub enum Gesture {
     },
     /// Lays a hand along the whole string, so softly that it presses it nowhere and only brakes it: for a while the loss σ₀ of the
     /// string is raised. It takes the place of one that is there. Left out where its loss is below 0, or its loss or its duration is
-    /// not finite. One that has lain to its end leaves the string to hands that lie on what nobody plays
-    /// ([`idle_loss`](crate::setup::Player::idle_loss)), until something is plucked or thrown at it; one under which that happened,
-    /// as the hand that stills a string for a stroke, does not.
+    /// not finite. Once its time is over the string counts as one that nobody plays, on which idle hands lie
+    /// ([`idle_loss`](crate::setup::Player::idle_loss)), until it is plucked or something is thrown at it. If that has happened
+    /// meanwhile, as under a hand that stills a string for a stroke, the string stays one that is played.
     Still {
         /// What it adds to the loss, 1/s, up to what brings the string to rest in a step; where hands lie there because nobody plays
         /// the string, the greater of both.

@@ -123,7 +123,10 @@ impl Needs {
         let largest = blocks.iter().map(|block| block.0).max().unwrap_or(0).max(joined);
         let square = |contacts: usize| contacts.saturating_mul(contacts);
         let fixed = blocks.iter().fold(0usize, |sum, block| sum.saturating_add(square(block.0)));
-        let cube = |contacts: usize| (contacts as f64).powi(3);
+        let cube = |contacts: usize| {
+            let side = contacts as f64;
+            side * side * side
+        };
         // Each with what it touches, or all of them at one place.
         let with_fingers = fingers as f64 * cube(touched + 1) + cube(fingers);
         let cubes = blocks.iter().fold(with_fingers, |sum, block| sum + cube(block.0)).min(cube(all));

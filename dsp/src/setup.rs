@@ -168,7 +168,7 @@ impl Setup {
     /// At the first of them.
     pub fn check(&self) -> Result<(), Error> {
         if self.name.trim().is_empty() {
-            return Err(Error::range("name", "\"\"", "it must not be empty"));
+            return Err(Error::range("name", format!("{:?}", self.name), "it must not be blank"));
         }
         within("max_bend", self.max_bend, 0.0, 12.0, "semitones")?;
         within("gain", self.gain, 1e-9, 1e9, "")?;

@@ -10,7 +10,7 @@ use crate::setup::Body as Description;
 /// The modes of a body, each a mass of 1 kg on a spring, and the bridge where their motions add up.
 #[derive(Debug, Clone)]
 pub(crate) struct Modes {
-    instructions: Instructions,
+    pub(super) instructions: Instructions,
     pub(super) coefficients: Vec<Coefficients>,
     /// How many there are: the last row need not be full.
     count: usize,

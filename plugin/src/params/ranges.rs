@@ -17,7 +17,7 @@ use super::{
     QualityChoice, RenderChoice, SetupParams, StringOrder, StringParams,
 };
 use crate::engine::EngineOptions;
-use crate::performance::HIGHEST_CAPO;
+use crate::performance::{HIGHEST_CAPO, HIGHEST_FIRST};
 use crate::plugin::shelf::{MOST_FILES, Shelf};
 use crate::plugin::state::Marked;
 
@@ -145,7 +145,7 @@ impl Default for ControlParams {
             ignore_rpn: BoolParam::new("Ignore announced bend range", false),
             tremolo_arm: shift("Tremolo arm", -12.0, 3.0, " semitones", PART_STEP),
             legato: EnumParam::new("Legato", LegatoChoice::Pedal),
-            keyswitches: number_or("off", "Keyswitches from key", -1, 108),
+            keyswitches: number_or("off", "Keyswitches from key", -1, HIGHEST_FIRST.into()),
             hand_position: number_or("anywhere", "Hand position", 0, Neck::MOST_FRETS as i32),
             capo: number_or("none", "Capo", 0, HIGHEST_CAPO as i32),
             hand_controllers: BoolParam::new("Hands by CC 20 to 28", true),

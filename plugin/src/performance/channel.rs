@@ -6,9 +6,7 @@ use super::controller;
 use super::parameter::ChosenParameter;
 use super::string::Manner;
 use super::technique::{BRIGHTNESS_REACH, FIRMEST};
-
-/// Farthest a file or keyboard may set its wheel's reach to, semitones.
-const WIDEST_RANGE: f64 = 96.0;
+use crate::engine::EngineOptions;
 
 /// State of one channel.
 #[derive(Debug, Clone)]
@@ -236,7 +234,7 @@ impl Channel {
             }
             _ if self.ignores_range => return Request::None,
             (Some(ChosenParameter::WHEEL), controller::DATA_ENTRY) => {
-                self.range = (f64::from(value).min(WIDEST_RANGE), 0.0);
+                self.range = (f64::from(value).min(EngineOptions::WIDEST_BEND_RANGE), 0.0);
             }
             (Some(ChosenParameter::WHEEL), _) => self.range.1 = f64::from(value).min(99.0),
             _ => return Request::None,

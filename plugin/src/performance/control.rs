@@ -9,7 +9,7 @@ use super::{CHANNELS, Channels, GestureSink, Performance};
 const MPE_RANGES: (f64, f64) = (48.0, 2.0);
 /// The channel that acts on all in MPE, and the one that would on those of an upper zone.
 pub(crate) const MANAGER: u8 = 0;
-pub(super) const UPPER: u8 = 15;
+pub(crate) const UPPER: u8 = 15;
 
 /// Of whose notes something is asked.
 #[derive(Debug, Clone, Copy)]

@@ -32,7 +32,7 @@ impl PlayedString {
     pub fn new(setup: &Setup, instrument: &Instrument, index: usize) -> Self {
         let geometry = instrument.geometry(index).clone();
         // Z² = Tρ.
-        let tension = geometry.wave_impedance.powi(2) / setup.string[index].linear_density;
+        let tension = geometry.wave_impedance * geometry.wave_impedance / setup.string[index].linear_density;
         // The string hangs from nut and saddle in two straight lines that meet under the finger, so deep that it just touches
         // the crown.
         let depth = |(fret, &crown): (usize, &f64)| {

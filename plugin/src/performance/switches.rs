@@ -4,8 +4,12 @@ use super::articulation::SWITCHES;
 use super::control::Whose;
 use super::{Channels, Performance};
 
-/// Strings that have a keyswitch.
+/// Strings that have a keyswitch, after those of the hands. (One more for the hands would move them in songs that are there: it
+/// has to come after the strings.)
 const STRINGS: u8 = 8;
+
+/// The highest key from which all are within the 128 keys there are.
+pub(crate) const HIGHEST_FIRST: u8 = 128 - (SWITCHES + STRINGS);
 
 impl Performance {
     /// Keyswitches begin at this key, or there are none.

@@ -10,6 +10,7 @@ use nice_plug::prelude::*;
 
 use super::voices::Voices;
 use crate::params::{LowActionParams, poly};
+use crate::performance::controller::{KEYS_OFF, LAST, SILENCE};
 use crate::performance::{Expression, PlayerEvent, Spoken};
 use crate::pitch_wheel;
 
@@ -128,7 +129,7 @@ pub(super) fn translate(
         }
         NoteEvent::MidiCC { channel, cc: number, value, .. } => {
             // All sound off, all notes off, and the four mode messages that imply it.
-            if matches!(number, 120 | 123..=127) {
+            if matches!(number, SILENCE | KEYS_OFF..=LAST) {
                 let others = spoken.with(channel);
                 let meant = |&own: &u8| own == channel || others.has(own);
                 (0..=15).filter(meant).for_each(|own| voices.lift_keys(&(own..=own), &(0..=127)));

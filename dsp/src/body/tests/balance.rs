@@ -1,10 +1,10 @@
-//! What strings lose at a bridge the body has: nothing is won between them, and nothing blows up.
+//! The body receives what strings lose at the bridge: nothing is won between them, and nothing blows up.
 
 use super::*;
 use crate::curve::Curve;
 
-/// What a string loses at a bridge that gives way the body has, to the last digits, for every stencil; what rings in wood and air
-/// is lost, and nothing is ever won.
+/// The body receives what a string loses at the bridge, to the last digits, for every stencil; what rings in wood and air is lost, and
+/// nothing is ever won.
 #[test]
 fn nothing_is_lost_between_string_and_body() {
     for stencil in [Stencil::Paper, Stencil::Corrected, Stencil::Wide] {

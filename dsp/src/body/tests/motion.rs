@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::*;
 use crate::curve::Curve;
 use crate::drive::Push;
+use crate::instructions::Instructions;
 use crate::pickup::bridge_force;
 
 /// A partial that moves as sin(nπx/L) sends T nπ/L to the bridge, which answers with Y: it dies away at 2 f₁ Z Re Y, and is off by
@@ -136,4 +137,20 @@ fn a_body_that_fades_is_forgotten() {
     }
     assert!(steps > 4_800, "it rings");
     assert_eq!(pair.body.ring(0.0), Heard::default());
+}
+
+/// Every instruction set has all modes swing by the same bits, driven and by themselves.
+#[test]
+fn every_instruction_set_gives_the_same_bits() {
+    let run = |instructions: Instructions| {
+        let mut modes = Modes::new(&GUITAR, 1.0 / 48_000.0);
+        modes.instructions = instructions;
+        let force = |step: i32| if step < 500 { libm::sin(0.03 * f64::from(step * step)) } else { 0.0 };
+        let heard = (0..2_000).map(|step| [modes.swing(force(step)), modes.lift()].map(f64::to_bits));
+        heard.collect::<Vec<_>>()
+    };
+    let expected = run(Instructions::Any);
+    for instructions in Instructions::all() {
+        assert!(run(instructions) == expected, "{instructions:?}");
+    }
 }
