@@ -149,6 +149,9 @@
 //! D is also the difference along the string (section 4), and in `docs/solver.md` the slopes of the laws. What section 9 of
 //! `docs/physics.md` says of bars and of bodies has letters of its own, each said where it is first used.
 
+// What clippy.toml lists differs from machine to machine.
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 mod active;
 mod band;
 mod body;
