@@ -19,6 +19,7 @@ use low_action_dsp::{EngineSettings, Instrument, Setup};
 use crate::controls::Touching;
 use crate::performance::{
     Announced, Compromises, InputMode, Performance, PlayedString, PlayerEvent, Spoken, Style,
+    WIDEST_BEND_RANGE,
 };
 pub use handover::Replacement;
 pub use record::Record;
@@ -67,7 +68,7 @@ impl EngineOptions {
     /// Usual reach of the pitch wheel, semitones: what General MIDI files are written for.
     pub const BEND_RANGE: f64 = 2.0;
     /// Farthest it may be asked to reach, semitones.
-    pub const WIDEST_BEND_RANGE: f64 = 96.0;
+    pub const WIDEST_BEND_RANGE: f64 = WIDEST_BEND_RANGE;
     /// Sample rates of sound that is played to a host, a device or a file, Hz.
     pub const SAMPLE_RATES: RangeInclusive<u32> = 8_000..=384_000;
 

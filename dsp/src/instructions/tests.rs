@@ -8,7 +8,7 @@ use crate::simulation::Simulation;
 const TAP: &str = include_str!("../../../scenes/tap.toml");
 
 /// By every instruction set there is the same bits: string, fingers, forces and what the solver did. (`every_instruction_set_gives_the_same_bits`
-/// in kernel.rs has each pass by itself, tests/tests/physics/any_instructions.rs many contacts.)
+/// in kernel.rs, decimate.rs and body/tests/motion.rs has each pass by itself, tests/tests/physics/any_instructions.rs many contacts.)
 #[test]
 fn whole_steps_are_the_same_by_every_instruction_set() {
     let scene = Scene::from_toml(TAP).expect("the scene is valid");

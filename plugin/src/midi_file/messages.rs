@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{LARGEST_FILE, SongEvent};
-use crate::performance::{ChosenParameter, PlayerEvent, UPPER, controller};
+use crate::performance::{ChosenParameter, MPE_UPPER_MANAGER, PlayerEvent, controller};
 
 /// A last track of which the file does not have all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -235,7 +235,9 @@ pub(super) fn upper_zone(events: &[SongEvent]) -> Option<SongWarning> {
     let mut parameter = ChosenParameter::NONE;
     let mut announced = false;
     for event in events {
-        let PlayerEvent::Controller { channel: UPPER, number, value } = event.event else { continue };
+        let PlayerEvent::Controller { channel: MPE_UPPER_MANAGER, number, value } = event.event else {
+            continue;
+        };
         parameter.hear(number, (127.0 * value).round() as u8);
         announced |= number == controller::DATA_ENTRY
             && value > 0.0

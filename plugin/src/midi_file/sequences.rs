@@ -2,7 +2,7 @@
 
 use super::{SongEvent, SongTime};
 use crate::performance::controller::{BRIGHTNESS, DATA_ENTRY, PARAMETER_LOWER, PARAMETER_UPPER, RESET};
-use crate::performance::{ChosenParameter, MANAGER, PlayerEvent, UPPER};
+use crate::performance::{ChosenParameter, MPE_MANAGER, MPE_UPPER_MANAGER, PlayerEvent};
 
 /// What a player is told between two sequences: no channel is a note of MPE any more, controllers, pedals, wheels and the capo go
 /// back, and hands let go of everything. The last of it is [`PlayerEvent::AllNotesOff`], which no file has in it. (There is no
@@ -13,7 +13,7 @@ pub(super) fn let_go(time: SongTime) -> impl Iterator<Item = SongEvent> {
         number,
         value: f32::from(value) / 127.0,
     };
-    let zones = [MANAGER, UPPER].into_iter().flat_map(move |channel| {
+    let zones = [MPE_MANAGER, MPE_UPPER_MANAGER].into_iter().flat_map(move |channel| {
         let members =
             [(PARAMETER_UPPER, 0), (PARAMETER_LOWER, ChosenParameter::MEMBERS as u8), (DATA_ENTRY, 0)];
         members.map(|(number, value)| send(channel, number, value))

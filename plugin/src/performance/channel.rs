@@ -6,7 +6,9 @@ use super::controller;
 use super::parameter::ChosenParameter;
 use super::string::Manner;
 use super::technique::{BRIGHTNESS_REACH, FIRMEST};
-use crate::engine::EngineOptions;
+
+/// Farthest a wheel may be asked to reach, by whom ever, semitones.
+pub(crate) const WIDEST_BEND_RANGE: f64 = 96.0;
 
 /// State of one channel.
 #[derive(Debug, Clone)]
@@ -234,7 +236,7 @@ impl Channel {
             }
             _ if self.ignores_range => return Request::None,
             (Some(ChosenParameter::WHEEL), controller::DATA_ENTRY) => {
-                self.range = (f64::from(value).min(EngineOptions::WIDEST_BEND_RANGE), 0.0);
+                self.range = (f64::from(value).min(WIDEST_BEND_RANGE), 0.0);
             }
             (Some(ChosenParameter::WHEEL), _) => self.range.1 = f64::from(value).min(99.0),
             _ => return Request::None,

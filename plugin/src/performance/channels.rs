@@ -1,7 +1,7 @@
 //! Sets of channels, which of them are notes of MPE, and which one speaks for others.
 
 use super::channel::Channel;
-use super::control::{MANAGER, UPPER};
+use super::control::{MPE_MANAGER, MPE_UPPER_MANAGER};
 use super::{InputMode, Performance, PlayerEvent, seven_bits};
 
 /// Some of the 16 channels, a bit for each.
@@ -14,7 +14,7 @@ impl Channels {
     /// All of them.
     pub const ALL: Self = Self(u16::MAX);
     /// All but the one that acts on all in MPE.
-    pub const MEMBERS: Self = Self(!(1 << MANAGER));
+    pub const MEMBERS: Self = Self(!(1 << MPE_MANAGER));
 
     /// Members of MPE if so many were announced on the first channel, and so many on the last for an upper zone: all of both are
     /// the first one's, which alone makes MPE of it.
@@ -64,13 +64,13 @@ impl Spoken {
 
 /// All channels that are announced as members of MPE by any of these events, which are in order of time.
 pub(crate) fn announced_members(events: impl Iterator<Item = PlayerEvent>) -> Channels {
-    let [mut lower, mut upper] = [MANAGER, UPPER].map(|_| Channel::new(0.0));
+    let [mut lower, mut upper] = [MPE_MANAGER, MPE_UPPER_MANAGER].map(|_| Channel::new(0.0));
     let mut members = Channels::NONE;
     for event in events {
         let PlayerEvent::Controller { channel, number, value } = event else { continue };
         let sender = match channel {
-            MANAGER => &mut lower,
-            UPPER => &mut upper,
+            MPE_MANAGER => &mut lower,
+            MPE_UPPER_MANAGER => &mut upper,
             _ => continue,
         };
         sender.set_controller(number, seven_bits(value));
@@ -83,7 +83,8 @@ impl Performance {
     /// The channels that are notes of MPE: those that were announced, or all where the player has chosen it and nobody has said how
     /// many there are. The first channel acts on them.
     pub(crate) fn members(&self) -> Channels {
-        let [lower, upper] = [MANAGER, UPPER].map(|own| self.channels[usize::from(own)].members);
+        let [lower, upper] =
+            [MPE_MANAGER, MPE_UPPER_MANAGER].map(|own| self.channels[usize::from(own)].members);
         match (self.input, Channels::announced(lower, upper)) {
             (InputMode::Mpe, Channels::NONE) => Channels::MEMBERS,
             (InputMode::Mpe | InputMode::Auto, announced) => announced,
@@ -93,7 +94,7 @@ impl Performance {
 
     /// Which channel speaks for which others.
     pub(crate) fn spoken(&self) -> Spoken {
-        let of_mpe = || Spoken { by: MANAGER, of: self.members() };
+        let of_mpe = || Spoken { by: MPE_MANAGER, of: self.members() };
         self.input.spoken(self.strings.len()).unwrap_or_else(of_mpe)
     }
 
@@ -120,7 +121,7 @@ impl Performance {
 
     /// A channel with those whose notes are of one player's hand with its: in MPE all that are of it.
     pub(super) fn of_one_hand(&self, channel: u8) -> Channels {
-        let all = self.members().and(Channels::one(MANAGER));
+        let all = self.members().and(Channels::one(MPE_MANAGER));
         if self.is_mpe() && all.has(channel) { all } else { Channels::one(channel) }
     }
 }

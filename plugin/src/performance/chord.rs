@@ -21,7 +21,7 @@ mod waiting;
 
 use super::articulation::{Articulation, Stop, Stroke};
 use super::channel::Channel;
-use super::control::MANAGER;
+use super::control::MPE_MANAGER;
 use super::hand::{LARGEST_CHORD, Placement, Use, Wanted, octaves};
 use super::string::{Manner, Start};
 use super::technique::*;

@@ -7,9 +7,10 @@ use super::{CHANNELS, Channels, GestureSink, Performance};
 /// Semitones of a full turn of the wheel in MPE, while no other range is announced: of a note's own
 /// channel, and of the one that bends them all.
 const MPE_RANGES: (f64, f64) = (48.0, 2.0);
-/// The channel that acts on all in MPE, and the one that would on those of an upper zone.
-pub(crate) const MANAGER: u8 = 0;
-pub(crate) const UPPER: u8 = 15;
+/// The channel that acts on all in MPE.
+pub(crate) const MPE_MANAGER: u8 = 0;
+/// The one that would on those of an upper zone.
+pub(crate) const MPE_UPPER_MANAGER: u8 = 15;
 
 /// Of whose notes something is asked.
 #[derive(Debug, Clone, Copy)]
@@ -47,9 +48,9 @@ impl Performance {
     /// Bend by the wheels that act on a channel, semitones.
     pub(super) fn bend(&self, channel: u8) -> f64 {
         let own = &self.channels[usize::from(channel)];
-        let all = || self.channels[usize::from(MANAGER)].bend(Some(MPE_RANGES.1));
+        let all = || self.channels[usize::from(MPE_MANAGER)].bend(Some(MPE_RANGES.1));
         match channel {
-            MANAGER if self.is_mpe() => all(),
+            MPE_MANAGER if self.is_mpe() => all(),
             _ if self.is_member(channel) => own.bend(Some(MPE_RANGES.0)) + all(),
             _ => own.bend(None) + self.speaker(channel).map_or(0.0, |all| all.bend(None)),
         }
@@ -72,7 +73,7 @@ impl Performance {
         let Some((request, whose)) = self.change_channels(sender, change) else { return };
         self.tell_chord(request, |channel| whose.is(channel));
         match request {
-            Request::Members if sender == MANAGER => return self.take_members(before, out),
+            Request::Members if sender == MPE_MANAGER => return self.take_members(before, out),
             // Others there may be of an upper zone, which are the first channel's, too; what it has said of its own stays.
             Request::Members => {
                 self.follow_members(before);
@@ -93,7 +94,7 @@ impl Performance {
                 self.tell_keys_under(request, whose);
                 self.let_fall_under(whose);
                 // What no channel owns, any of them puts back; in MPE the one that speaks for all.
-                if sender == MANAGER || !self.is_mpe() {
+                if sender == MPE_MANAGER || !self.is_mpe() {
                     self.set_capo(self.touching.capo.into());
                     self.set_switches(self.touching.keyswitches);
                     self.hand.set_home(self.touching.hand_position);
@@ -109,7 +110,7 @@ impl Performance {
 
     /// Puts back what controllers that tell hands what to do have set, as they are heard no more.
     pub(super) fn forget_hand_controllers(&mut self, out: &mut impl GestureSink) {
-        let whose = Whose { channel: MANAGER, others: Channels::ALL };
+        let whose = Whose { channel: MPE_MANAGER, others: Channels::ALL };
         self.begin_chord(out);
         self.channels.iter_mut().for_each(|channel| channel.articulation.forget_hands());
         self.set_capo(self.touching.capo.into());

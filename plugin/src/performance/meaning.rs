@@ -3,7 +3,7 @@
 
 use super::channel::{Channel, Request};
 use super::channels::Spoken;
-use super::control::{MANAGER, Whose};
+use super::control::{MPE_MANAGER, Whose};
 use super::{CHANNELS, Channels, GestureSink, InputMode, Performance};
 
 impl Performance {
@@ -22,7 +22,7 @@ impl Performance {
     pub(super) fn take_members(&mut self, before: Spoken, out: &mut impl GestureSink) {
         if self.is_mpe() {
             // So the specification of MPE has it: whatever reach was announced before is past.
-            let zone = before.of.and(self.members()).and(Channels::one(MANAGER));
+            let zone = before.of.and(self.members()).and(Channels::one(MPE_MANAGER));
             self.each_of(zone).for_each(Channel::forget_reach);
         }
         self.follow_members(before);
@@ -67,7 +67,7 @@ impl Performance {
         if others == Channels::NONE {
             return;
         }
-        let whose = Whose { channel: MANAGER, others };
+        let whose = Whose { channel: MPE_MANAGER, others };
         self.let_fall_under(whose);
         self.ask(Request::LetFall, whose, out);
         self.ask(Request::PedalUp, whose, out);

@@ -49,10 +49,11 @@ pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedA
 pub use announced::Announced;
 use articulation::Stop;
 use channel::Channel;
+pub(crate) use channel::WIDEST_BEND_RANGE;
 pub(crate) use channels::{Channels, Spoken, announced_members};
 use chord::{JustBegun, Late, Unplaced};
 pub use compromises::Compromises;
-pub(crate) use control::{MANAGER, UPPER};
+pub(crate) use control::{MPE_MANAGER, MPE_UPPER_MANAGER};
 pub use event::{Expression, PlayerEvent, StringDeed};
 pub use hand::{HIGHEST_CAPO, highest_capo};
 use hand::{Hand, LARGEST_CHORD, Placement, Range, Use, Wanted};

@@ -2,7 +2,7 @@
 //! chord apart: what is said of notes that sound is said of those that are yet to be placed, too, and keys that the chord has
 //! to do with go up when it has been placed.
 
-use super::{Articulation, CHANNELS, Channel, LARGEST_CHORD, MANAGER, Manner, Unplaced};
+use super::{Articulation, CHANNELS, Channel, LARGEST_CHORD, MPE_MANAGER, Manner, Unplaced};
 use crate::performance::channel::Request;
 use crate::performance::controller;
 use crate::performance::{Channels, GestureSink, Performance};
@@ -89,7 +89,7 @@ impl Performance {
         }
         let meant = match channel {
             // It may be about to say how many channels there are of MPE.
-            MANAGER if number == controller::DATA_ENTRY => Channels::ALL,
+            MPE_MANAGER if number == controller::DATA_ENTRY => Channels::ALL,
             _ => Channels::one(channel).and(self.spoken().with(channel)),
         };
         let is_meant = |own: u8| meant.has(own);
