@@ -1,5 +1,6 @@
 //! What hands make of notes: each file is a promise.
 
+mod after_notes;
 mod afterwards;
 mod anything;
 mod automation;

@@ -17,6 +17,15 @@ use super::held::Down;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment, PlayedString};
 
+/// How a string is set down.
+pub(super) struct SetDown {
+    pub touch: Touch,
+    /// Height that it comes from, m.
+    pub clearance: f64,
+    /// Time in which it comes to press, s.
+    pub rise: f64,
+}
+
 /// How a finger is thrown.
 pub(super) struct Thrown {
     pub touch: Touch,
@@ -39,22 +48,24 @@ impl Fingers {
         coming: Coming,
         at: &mut Moment<impl GestureSink>,
     ) {
-        let (touch, rise) = self.set_down(fret, stopped, coming, self.force());
+        let SetDown { touch, clearance, rise } = self.set_down(fret, stopped, coming, self.force());
         let slot = self.take_slot(fret, touch, false);
         let position = self.sounding_from();
-        at.does(Gesture::Place { finger: slot, touch, position, clearance: self.hands.fretting.hover });
+        at.does(Gesture::Place { finger: slot, touch, position, clearance });
         at.does(Gesture::Press { finger: slot, force: self.force(), duration: rise });
     }
 
-    /// How the string is set down behind a fret with a force, N: by what finger, and in what time that comes to press, s.
+    /// How the string is set down behind a fret with a force, N. What a finger does to it under a hand that stills it is lost, and could
+    /// not take up what the fret does later: a finger that would come before such a hand has gone comes from so high that it meets the
+    /// string then.
     pub(super) fn set_down(
         &self,
         fret: usize,
         stopped: Down,
-        Coming { strength, haste }: Coming,
+        Coming { strength, haste, stilled }: Coming,
         force: f64,
-    ) -> (Touch, f64) {
-        let Fretting { mut touch, landing, .. } = self.hands.fretting;
+    ) -> SetDown {
+        let Fretting { mut touch, landing, hover, .. } = self.hands.fretting;
         let SoftLanding { from, most, drowned, slowest } = SOFT_LANDING;
         let softness = (from / strength.max(f64::MIN_POSITIVE)).max(1.0);
         let slower = (softness * softness).min(if strength < drowned { f64::INFINITY } else { most });
@@ -67,7 +78,11 @@ impl Fingers {
         let [by_itself, longest] = [way * touch.hand_damping / force, MOST_DAMPING / damping_in(1.0)];
         let time = period * (by_itself.min(longest) / period).round().max(1.0);
         touch.hand_damping = damping_in(time).min(MOST_DAMPING);
-        (touch, landing.min(LANDING_RISE * period))
+        let rise = landing.min(LANDING_RISE * period);
+        let later = stilled.filter(|[comes, _]| *comes < time).map_or(0.0, |[_, gone]| gone);
+        // In the air only the hand brakes it, once it has gathered speed.
+        let travels = (later - 0.5 * rise - touch.mass / touch.hand_damping).max(0.0);
+        SetDown { touch, clearance: hover + travels * force / touch.hand_damping, rise }
     }
 
     /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, behind a fret of a string that is held down

@@ -33,7 +33,7 @@ impl Fingers {
             _ if fret == stopped => self.go_on(fret, strength, at),
             Some(duration) => (Technique::Slide, self.slide_to(fret, duration, at)),
             None if fret > stopped && bar => {
-                self.stop(fret, Stop::Bar, Coming { strength, haste: 1.0 }, self.letting_go(strength), at);
+                self.stop(fret, Stop::Bar, Coming { strength, ..AT_ONCE }, self.letting_go(strength), at);
                 (Technique::HammerOn, None)
             }
             None if fret > stopped => (Technique::HammerOn, Some(self.hammer(fret, strength, at))),

@@ -2,9 +2,9 @@
 //! a capo, the thumb.
 
 use low_action_dsp::Gesture;
-use low_action_dsp::setup::Fretting;
 
 use super::held::Down;
+use super::landing::SetDown;
 use super::{Fingers, lift_force, lifting};
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
@@ -103,12 +103,13 @@ impl Fingers {
             }
             return;
         }
-        let Fretting { hover, mut landing, .. } = self.hands.fretting;
+        let mut landing = self.hands.fretting.landing;
         let force = self.capo_force();
         if wanted != there {
-            (self.capo_touch, landing) = self.set_down(wanted, Down::on(0), AT_ONCE, force);
+            let SetDown { touch, clearance, rise } = self.set_down(wanted, Down::on(0), AT_ONCE, force);
+            (self.capo_touch, landing) = (touch, rise);
             let position = self.string.geometry.finger_position(wanted);
-            at.does(Gesture::Place { finger: CAPO, touch: self.capo_touch, position, clearance: hover });
+            at.does(Gesture::Place { finger: CAPO, touch: self.capo_touch, position, clearance });
         }
         self.press_capo(landing, at);
     }

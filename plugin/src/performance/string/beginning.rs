@@ -62,7 +62,8 @@ impl StringPlayer {
     ) {
         let stop = start.articulation.stop;
         let haste = start.haste();
-        let coming = Coming { strength: strength * haste, haste };
+        let stilled = stilling.map(|stilling| stilling.stays(start.wait));
+        let coming = Coming { strength: strength * haste, haste, stilled };
         // The little by which a string comes up to a lower fret is not heard under the hand that stills it; more is.
         let asked = start.wheel + start.manner.tuning;
         let fret = match stop {

@@ -26,10 +26,17 @@ impl Stilling {
     pub(super) fn comes_at_once(&self, wait: f64) -> bool {
         wait <= self.lead
     }
+
+    /// From when to when it is there, for a stroke so many seconds from now, s.
+    pub(super) fn stays(&self, wait: f64) -> [f64; 2] {
+        let comes = (wait - self.lead).max(0.0);
+        [comes, comes + self.duration]
+    }
 }
 
 impl StringPlayer {
-    /// Whether the hand stills the string for a stroke: where it has sounded and has not come to rest since.
+    /// Whether the hand stills the string for a stroke: where it sounds, and where hands damp it, however long it has been silent
+    /// under them. They bend it a little, and let go of it for the stroke.
     pub(super) fn wants_stilling(&self, time: u64) -> bool {
         let ends = self.ending.is_some_and(|(_, step)| step != Ending::Over);
         let rings = self.touched.is_some_and(|since| time < since + self.samples(POINTED_RINGING));

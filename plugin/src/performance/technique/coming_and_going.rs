@@ -42,10 +42,12 @@ pub(crate) struct Coming {
     pub strength: f64,
     /// In what haste it is, 0 (none) to 1.
     pub haste: f64,
+    /// From when to when a hand stills the string, s from now.
+    pub stilled: Option<[f64; 2]>,
 }
 
 /// As fast as it can.
-pub(crate) const AT_ONCE: Coming = Coming { strength: 1.0, haste: 1.0 };
+pub(crate) const AT_ONCE: Coming = Coming { strength: 1.0, haste: 1.0, stilled: None };
 /// By how much a finger is to be slower than the way to the fret asks for: the string hardly moves before the finger's pad has been
 /// pressed in. Fitted: from 1.08 to 1.17 would be best on frets 3 to 12 of seven strings of four instruments.
 pub(crate) const LANDING_LAG: f64 = 1.13;
