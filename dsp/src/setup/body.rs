@@ -87,8 +87,11 @@ const HIGHEST: f64 = 8000.0;
 /// Where modes are nearer to one another than this part of their frequency, one stands for several.
 const NEAREST: f64 = 1.0 / 12.0;
 
-/// 1/x, 1/x² and 1/x³ of the solution x of x⁴ = x + 1: what they leave of whole numbers is spread evenly over a cube.
-const SPREAD: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.549_700_477_901_969_7];
+/// 1/x and 1/x² of the solution x of x⁴ = x + 1: what multiples of them leave beside whole numbers is spread evenly over a square.
+const SPREAD: [f64; 2] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_3];
+
+/// The first of so many neighbours sends out against the motion of the bridge, the others with it.
+const AGAINST: u32 = 3;
 
 impl Body {
     /// What its frequency may be, Hz, where the rate is high enough.
@@ -177,26 +180,31 @@ impl Body {
     }
 
     /// The higher modes of the soundboard, as they are on the mean: as many as there are in a band, but no more than can be told
-    /// apart, each at a place and of a size that a fixed rule gives it. No guitar has just these.
+    /// apart, each at a place, of a size and of a sign that a fixed rule gives it. No guitar has just these.
     ///
     /// A plate has m₁₁ = M/4 in its lowest mode and M in others where the bridge happens to stand, on the mean of φ². Of its modes
     /// (a, b) only those with odd numbers move any air, a part 1/(ab) of it; in a band of frequencies, where a² + b² is about the
     /// same, the square of that falls as f^(−3/2), by those along the edges, (1, b) and (a, 1), a quarter of which are to be had.
+    ///
+    /// Between two neighbours what both send out cancels if it goes with the bridge in both, or against it, and adds up if it does not;
+    /// near each of them it is the other way round. Drawn signs have whole notes cancel; one in three against, first of all the one
+    /// above the two with air, which are strong, leaves no note more than 8 dB under its neighbours (docs/physics.md).
     fn higher(&self, from: f64) -> impl Iterator<Item = Mode> {
         let body = *self;
         let mut frequency = from;
         (1..).map_while(move |count| {
             let gap = body.spacing.max(NEAREST * frequency);
             // Parts of multiples of numbers like the golden section never come near to one another.
-            let [place, size, side] = SPREAD.map(|number| (f64::from(count) * number).fract());
+            let [place, size] = SPREAD.map(|number| (f64::from(count) * number).fract());
             frequency += gap * (0.75 + 0.5 * place);
             // (Of a mean square of 1.)
             let size = (0.4 + 1.2 * size).sqrt();
-            let sign_and_size = if side < 0.5 { size } else { -size };
             let several = (gap / body.spacing).sqrt();
-            let bridge = 0.5 * several * sign_and_size / body.mass.sqrt();
+            let bridge = 0.5 * several * size / body.mass.sqrt();
             let volume = body.area / body.mass.sqrt() * libm::pow(from / frequency, 0.75);
-            (frequency < HIGHEST).then(|| body.mode(frequency, bridge, volume))
+            let against = count % AGAINST == 1;
+            (frequency < HIGHEST)
+                .then(|| body.mode(frequency, bridge, if against { -volume } else { volume }))
         })
     }
 

@@ -17,13 +17,13 @@ fn shipped(name: &str) -> Setup {
     Setup::shipped(name).expect("it comes with the program")
 }
 
-/// A string of a set-up alone, with its body, and the keys of frets 0 to 12.
-fn each_note(name: &str, mut heard: impl FnMut(usize, u8, &[f32])) {
+/// A string of a set-up alone, with its body, and the keys of frets 0 to one, or to the last.
+fn each_note(name: &str, last: usize, mut heard: impl FnMut(usize, u8, &[f32])) {
     let setup = shipped(name);
     for (index, spec) in setup.string.iter().enumerate() {
         let mut stage = Stage::over_body(&Setup { string: vec![spec.clone()], ..setup.clone() });
-        for fret in 0..=12 {
-            let key = spec.pitch.round() as u8 + fret;
+        for fret in 0..=last.min(setup.neck.frets) {
+            let key = spec.pitch.round() as u8 + fret as u8;
             let played = stage.play(&[(0.0, on(key, 90))], 1.0);
             heard(index, key, &played.strings[0]);
         }
@@ -42,13 +42,13 @@ fn instruments_have_bodies_where_guitars_have_them() {
 /// How loud notes are depends on the body: it swings most at two low notes, and least between its modes.
 #[test]
 fn every_note_sounds_and_is_near_its_pitch() {
-    let (mut softest, mut loudest): (f64, f64) = (0.0, 0.0);
+    let (mut softest, mut loudest, mut farthest): (f64, f64, f64) = (0.0, 0.0, 0.0);
     for name in BODIES {
         let mut levels = Vec::new();
         let mut worst: f64 = 0.0;
         // (Without compensation stopped notes are sharp by themselves.)
         let in_tune = name != "school-guitar";
-        each_note(name, |string, key, sound| {
+        each_note(name, usize::MAX, |string, key, sound| {
             let level = decibels(rms(&sound[1440..19_200]));
             levels.push(level);
             let expected = hertz(f64::from(key));
@@ -56,7 +56,7 @@ fn every_note_sounds_and_is_near_its_pitch() {
             println!("{name}, string {string}, key {key}: {level:.1} dBFS, {found:.1} cents");
             if in_tune {
                 worst = worst.max(found.abs());
-                assert!(found.abs() < 12.0, "{name}, string {string}, key {key}: {found} cents");
+                assert!(found.abs() < 15.0, "{name}, string {string}, key {key}: {found} cents");
             }
         });
         let mean = levels.iter().sum::<f64>() / levels.len() as f64;
@@ -67,11 +67,23 @@ fn every_note_sounds_and_is_near_its_pitch() {
             high - mean
         );
         (softest, loudest) = (softest.max(mean - low), loudest.max(high - mean));
+        farthest = farthest.max(worst);
     }
-    assert!(softest < 14.5 && loudest < 8.5, "{loudest} dB louder, {softest} dB softer than the mean");
-    let sentence = format!("up to {loudest:.0} dB louder than on the mean, and up to {softest:.0} softer");
-    let page = include_str!("../../../docs/physics.md");
-    assert!(page.contains(&sentence), "docs/physics.md does not say: {sentence}");
+    assert!(softest < 14.5 && loudest < 9.5, "{loudest} dB louder, {softest} dB softer than the mean");
+    let levels = format!("up to {loudest:.0} dB louder than on the mean, and up to {softest:.0} softer");
+    let [physics, formats] =
+        [include_str!("../../../docs/physics.md"), include_str!("../../../docs/formats.md")];
+    for (page, name, sentence) in [
+        (physics, "physics.md", levels),
+        (physics, "physics.md", format!("are off by up to {farthest:.0} cents")),
+        (
+            formats,
+            "formats.md",
+            format!("are up to {farthest:.0} cents off (`tests/tests/instrument/body.rs`)"),
+        ),
+    ] {
+        assert!(page.contains(&sentence), "docs/{name} does not say: {sentence}");
+    }
 }
 
 /// The time in which a sound would fall by 60 dB as it does from its first to its second half second.
@@ -86,7 +98,7 @@ fn decay(sound: &[f32]) -> f64 {
 fn strings_lose_to_the_body() {
     for (name, falls, rigid) in [("classical", 4.2, 15.0), ("steel", 4.0, 13.0), ("ukulele", 2.0, 8.0)] {
         let (mut with, mut without) = (Vec::new(), Vec::new());
-        each_note(name, |_, _, sound| with.push(1.0 / decay(sound)));
+        each_note(name, 12, |_, _, sound| with.push(1.0 / decay(sound)));
         let setup = at_the_bridge(&shipped(name));
         for spec in &setup.string {
             let mut stage = Stage::new(&Setup { string: vec![spec.clone()], ..setup.clone() });

@@ -1,6 +1,7 @@
 //! Instruments, and the set-ups they are built from: each file is a promise.
 
 mod body;
+mod body_evenness;
 mod display;
 mod effort;
 mod full_queues;
