@@ -222,6 +222,16 @@ impl Host {
         Performed { stereo, stems, ended, tail, slept }
     }
 
+    /// Tells the plugin something of its parameters while it is not active.
+    pub fn flush(&mut self, told: &[Action]) {
+        let score: Score = told.iter().map(|&action| (0, action)).collect();
+        let events = events_between(&score, [0, 1], |time| time, 1.0);
+        let mut handle = self.instance.inactive_plugin_handle().expect("it is not active");
+        let params = handle.get_extension::<PluginParams>().expect("the plugin has parameters");
+        let mut said = EventBuffer::new();
+        params.flush(&mut handle, &events.as_input(), &mut said.as_output());
+    }
+
     /// Chooses one of the plugin's port layouts; counts from the next activation on.
     pub fn choose_ports(&mut self, layout: u32) {
         let handle = self.instance.plugin_handle();

@@ -1,12 +1,14 @@
 //! The door through which CLAP hosts come in.
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
-//! (`in_order`), hosts are told of states that are refused (`refused`), what they ask of parameters wrongly is answered
-//! (`parameters`), and one that sleeps is woken when the editor is shown (`shown`).
+//! (`in_order`), what is set is kept whatever is added to it (`modulated`), hosts are told of states that are refused (`refused`),
+//! what they ask of parameters wrongly is answered (`parameters`), and one that sleeps is woken when the editor is shown (`shown`).
 
 mod in_order;
+mod modulated;
 mod parameters;
 mod refused;
+mod said;
 mod shown;
 
 use std::ffi::{CStr, c_char, c_void};
@@ -14,7 +16,7 @@ use std::sync::atomic::Ordering;
 use std::sync::{Arc, OnceLock};
 
 use clap_sys::entry::clap_plugin_entry;
-use clap_sys::events::clap_input_events;
+use clap_sys::events::{clap_input_events, clap_output_events};
 use clap_sys::ext::gui::CLAP_EXT_GUI;
 use clap_sys::ext::params::CLAP_EXT_PARAMS;
 use clap_sys::ext::state::CLAP_EXT_STATE;
@@ -29,6 +31,8 @@ use nice_plug::wrapper::setup_logger;
 use super::LowAction;
 use crate::engine::Engine;
 use in_order::InOrder;
+use modulated::{Apart, Modulated};
+use said::Said;
 
 /// The plugin as the host sees it, and as the framework does.
 #[repr(C)]
@@ -39,6 +43,9 @@ struct Instance {
     inside: *const clap_plugin,
     host: *const clap_host,
     in_order: InOrder,
+    /// What the host adds to parameters for the moment.
+    modulated: Modulated,
+    apart: Apart,
 }
 
 impl Instance {
@@ -54,17 +61,35 @@ impl Instance {
             let inside = (*plugin.cast::<Self>()).inside;
             let Some(next) = (*inside).process else { return CLAP_PROCESS_ERROR };
             let last = (*process).frames_count.saturating_sub(1);
-            Self::in_order(plugin, (*process).in_events, last, |in_events| {
-                next(inside, &clap_process { in_events, ..*process })
+            Self::put_right(plugin, (*process).in_events, last, |in_events| {
+                Self::listened_to(plugin, (*process).out_events, |out_events| {
+                    next(inside, &clap_process { in_events, out_events, ..*process })
+                })
             })
         }
+    }
+
+    /// Does something of which a host hears, with an eye on what is said.
+    ///
+    /// # Safety
+    /// The plugin must be what `create_plugin` gave the host, the events null or a host's, and this done by one at a time.
+    unsafe fn listened_to<T>(
+        plugin: *const clap_plugin,
+        events: *const clap_output_events,
+        say: impl FnOnce(*const clap_output_events) -> T,
+    ) -> T {
+        // SAFETY: as above.
+        let Some(host) = (unsafe { events.as_ref() }) else { return say(events) };
+        // SAFETY: as above.
+        let mut said = Said::new(host, unsafe { &(*plugin.cast::<Self>()).modulated });
+        say(&said.list())
     }
 
     /// Does something with a host's events, put right where they are not.
     ///
     /// # Safety
     /// The plugin must be what `create_plugin` gave the host, the events null or a host's, and this done by one at a time.
-    unsafe fn in_order<T>(
+    unsafe fn put_right<T>(
         plugin: *const clap_plugin,
         events: *const clap_input_events,
         last: u32,
@@ -72,13 +97,15 @@ impl Instance {
     ) -> T {
         // SAFETY: as above.
         unsafe {
-            match events.as_ref() {
-                Some(list) if !in_order::is_right(list, last) => {
-                    let instance = plugin.cast::<Self>().cast_mut();
-                    take(&InOrder::put_right(&raw mut (*instance).in_order, list, last))
-                }
-                _ => take(events),
+            let Some(mut list) = events.as_ref() else { return take(events) };
+            let instance = plugin.cast::<Self>().cast_mut();
+            let right;
+            if !in_order::is_right(list, last) {
+                right = InOrder::put_right(&raw mut (*instance).in_order, list, last);
+                list = &right;
             }
+            let apart = Apart::put(&raw mut (*instance).apart, list, &(*instance).modulated);
+            take(apart.as_ref().unwrap_or(list))
         }
     }
 
@@ -159,6 +186,7 @@ unsafe extern "C" fn create_plugin(
     let wrapper = unsafe { Wrapper::<LowAction>::new(host) };
     // It is always the same. The framework would have it 0 until somebody said otherwise, and then ask for a restart.
     wrapper.current_latency.store(Engine::LATENCY, Ordering::Relaxed);
+    let modulated = Modulated::of(&wrapper);
     // The framework takes its reference back in `destroy`.
     // SAFETY: it has just been made.
     let inside = unsafe { (*Arc::into_raw(wrapper)).clap_plugin.as_ptr() };
@@ -169,7 +197,8 @@ unsafe extern "C" fn create_plugin(
         destroy: Some(Instance::destroy),
         ..unsafe { *inside }
     };
-    Box::into_raw(Box::new(Instance { outside, inside, host, in_order: InOrder::new() })).cast()
+    let (in_order, apart) = (InOrder::new(), Apart::new());
+    Box::into_raw(Box::new(Instance { outside, inside, host, in_order, modulated, apart })).cast()
 }
 
 static FACTORY: clap_plugin_factory = clap_plugin_factory {

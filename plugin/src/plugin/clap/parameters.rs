@@ -69,5 +69,9 @@ unsafe extern "C" fn flush(
     }
     // SAFETY: the host gives back what it was given, and neither processes nor flushes meanwhile. Outside of blocks no time is too
     // late.
-    unsafe { Instance::in_order(plugin, input, u32::MAX, |input| inner(plugin, input, output)) }
+    unsafe {
+        Instance::put_right(plugin, input, u32::MAX, |input| {
+            Instance::listened_to(plugin, output, |output| inner(plugin, input, output));
+        });
+    }
 }
