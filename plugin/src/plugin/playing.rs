@@ -113,10 +113,10 @@ impl Playing {
     }
 
     /// The host begins to process again, or asks for silence: the framework tells of both in the same way. One that lets a
-    /// plugin at rest sleep begins again with every first note, and is to lose nothing by it: where nothing sounds there is
+    /// plugin at rest sleep begins again with every first note, and is to lose nothing by it: where nothing is heard there is
     /// nothing to silence, and pedals, wheels and keys are where they were. Says whether anything was.
     pub fn begin_again(&mut self) -> bool {
-        let sounds = !self.engine.is_silent();
+        let sounds = !self.engine.is_inaudible();
         if sounds {
             self.reset_sound();
         }
