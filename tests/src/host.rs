@@ -66,10 +66,20 @@ pub struct Performed {
     pub stems: Vec<Vec<f32>>,
     /// Keys of the notes that the plugin says have ended, and the end of the block in which it said so.
     pub ended: Vec<(u64, u8)>,
-    /// How long the plugin says at the end that it still sounds, samples; the largest number is endless.
-    pub tail: u32,
+    /// For how long the plugin says it may ring on, samples, before there is any sound and at the end; the largest number is
+    /// endless.
+    pub tails: [u32; 2],
     /// For how many samples a sleepy host has asked for nothing.
     pub slept: usize,
+}
+
+/// For how long a plugin says that it may ring on, samples.
+fn tail(handle: &PluginAudioProcessorHandle<'_>) -> u32 {
+    let tail = handle.get_extension::<PluginTail>().expect("the plugin tells its tail");
+    match tail.get(handle) {
+        TailLength::Finite(samples) => samples,
+        TailLength::Infinite => u32::MAX,
+    }
 }
 
 /// Somebody who looks at both channels, up to where they have sounded.
@@ -146,6 +156,7 @@ impl Host {
             PluginAudioConfiguration { sample_rate, min_frames_count: 1, max_frames_count: largest };
         let stopped = self.instance.activate(|_, _| (), configuration).expect("the plugin activates");
         let mut processor = stopped.start_processing().expect("processing starts");
+        let tail_before = tail(&processor.plugin_handle());
 
         let mut stereo = [vec![0.0; length], vec![0.0; length]];
         let mut stems = vec![vec![0.0; length]; strings];
@@ -212,14 +223,9 @@ impl Host {
             }
             start = end;
         }
-        let handle = processor.plugin_handle();
-        let tail = handle.get_extension::<PluginTail>().expect("the plugin tells its tail");
-        let tail = match tail.get(&handle) {
-            TailLength::Finite(samples) => samples,
-            TailLength::Infinite => u32::MAX,
-        };
+        let tails = [tail_before, tail(&processor.plugin_handle())];
         self.instance.deactivate(processor.stop_processing());
-        Performed { stereo, stems, ended, tail, slept }
+        Performed { stereo, stems, ended, tails, slept }
     }
 
     /// Tells the plugin something of its parameters while it is not active.

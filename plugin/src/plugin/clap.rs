@@ -2,7 +2,7 @@
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
 //! (`in_order`), what is set is kept whatever is added to it (`modulated`), hosts are told of states that are refused (`refused`),
-//! what they ask of parameters wrongly is answered (`parameters`), and one that sleeps is woken when the editor is shown (`shown`).
+//! what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything sounds (`tail`), and one that sleeps is woken when the editor is shown (`shown`).
 
 mod in_order;
 mod modulated;
@@ -10,6 +10,7 @@ mod parameters;
 mod refused;
 mod said;
 mod shown;
+mod tail;
 
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::atomic::Ordering;
@@ -20,6 +21,7 @@ use clap_sys::events::{clap_input_events, clap_output_events};
 use clap_sys::ext::gui::CLAP_EXT_GUI;
 use clap_sys::ext::params::CLAP_EXT_PARAMS;
 use clap_sys::ext::state::CLAP_EXT_STATE;
+use clap_sys::ext::tail::CLAP_EXT_TAIL;
 use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
 use clap_sys::host::clap_host;
 use clap_sys::plugin::{clap_plugin, clap_plugin_descriptor};
@@ -29,6 +31,7 @@ use nice_plug::wrapper::clap::{PluginDescriptor, Wrapper};
 use nice_plug::wrapper::setup_logger;
 
 use super::LowAction;
+use super::door::Door;
 use crate::engine::Engine;
 use in_order::InOrder;
 use modulated::{Apart, Modulated};
@@ -46,6 +49,8 @@ struct Instance {
     /// What the host adds to parameters for the moment.
     modulated: Modulated,
     apart: Apart,
+    /// What it shares with the plugin inside.
+    door: Arc<Door>,
 }
 
 impl Instance {
@@ -138,6 +143,7 @@ impl Instance {
                 id if id == CLAP_EXT_GUI => std::ptr::null(),
                 id if id == CLAP_EXT_PARAMS => parameters::around(extension.cast()).cast(),
                 id if id == CLAP_EXT_STATE => refused::around(extension.cast()).cast(),
+                id if id == CLAP_EXT_TAIL => tail::around(extension.cast()).cast(),
                 _ => extension,
             }
         }
@@ -183,7 +189,7 @@ unsafe extern "C" fn create_plugin(
         return std::ptr::null();
     }
     // SAFETY: the host outlives its plugins.
-    let wrapper = unsafe { Wrapper::<LowAction>::new(host) };
+    let (wrapper, door) = Door::shared_with(|| unsafe { Wrapper::<LowAction>::new(host) });
     // It is always the same. The framework would have it 0 until somebody said otherwise, and then ask for a restart.
     wrapper.current_latency.store(Engine::LATENCY, Ordering::Relaxed);
     let modulated = Modulated::of(&wrapper);
@@ -198,7 +204,7 @@ unsafe extern "C" fn create_plugin(
         ..unsafe { *inside }
     };
     let (in_order, apart) = (InOrder::new(), Apart::new());
-    Box::into_raw(Box::new(Instance { outside, inside, host, in_order, modulated, apart })).cast()
+    Box::into_raw(Box::new(Instance { outside, inside, host, in_order, modulated, apart, door })).cast()
 }
 
 static FACTORY: clap_plugin_factory = clap_plugin_factory {

@@ -16,7 +16,7 @@ use super::order::{self, Order};
 use super::shelf::Shelf;
 use super::voices::Voices;
 use super::workshop::{Finished, Workshop};
-use crate::engine::{Engine, INAUDIBLE, Quality};
+use crate::engine::{Engine, Quality};
 use crate::params::LowActionParams;
 use crate::performance::{Announced, PlayerEvent};
 use crate::pointer::Played;
@@ -271,12 +271,15 @@ impl Playing {
             ProcessStatus::KeepAlive
         } else if self.engine.is_silent() {
             ProcessStatus::Normal
-        } else if self.engine.level() < INAUDIBLE {
-            // Nobody hears the strings, but they move: the host is to go on, and has nothing to wait for.
-            ProcessStatus::Tail(0)
         } else {
-            // An endless tail becomes the largest number, by which hosts mean just that.
-            ProcessStatus::Tail((self.engine.tail() * f64::from(self.order.sample_rate)) as u32)
+            // Also while nobody hears the strings, as long as they move: no tail would mean in VST3 that the host need not go on.
+            ProcessStatus::Tail(self.tail())
         }
+    }
+
+    /// For how long strings can ring on, samples.
+    pub fn tail(&self) -> u32 {
+        // An endless tail becomes the largest number, by which hosts mean just that.
+        (self.engine.tail() * f64::from(self.order.sample_rate)) as u32
     }
 }

@@ -61,6 +61,7 @@ unsafe fn wake(plugin: *const clap_plugin) -> bool {
 #[cfg(test)]
 mod tests {
     use std::ffi::{CStr, c_char, c_void};
+    use std::sync::Arc;
     use std::sync::atomic::{AtomicU32, Ordering};
 
     use clap_sys::ext::gui::CLAP_EXT_GUI;
@@ -142,7 +143,8 @@ mod tests {
         let outside = clap_plugin { get_extension: Some(Instance::get_extension), ..inside };
         let host = &raw mut host;
         let (in_order, modulated, apart) = (InOrder::new(), Modulated::default(), Apart::new());
-        let instance = Instance { outside, inside: &inside, host, in_order, modulated, apart };
+        let door = Arc::default();
+        let instance = Instance { outside, inside: &inside, host, in_order, modulated, apart, door };
         let plugin = (&raw const instance).cast::<clap_plugin>();
         // SAFETY: all of them are alive.
         unsafe {

@@ -5,6 +5,7 @@ use std::time::Duration;
 use nice_plug::midi::{Channel, Key, VoiceID};
 
 use super::*;
+use crate::engine::INAUDIBLE;
 #[cfg(feature = "editor")]
 use crate::params::Start;
 use crate::pointer::pointer;

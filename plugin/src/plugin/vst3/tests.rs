@@ -147,6 +147,30 @@ fn what_is_refused_the_host_is_told_of() {
     assert!(other.load(&saved) && other.save() == saved);
 }
 
+/// The time for which the longest string rings, before it has been played, while it sounds and afterwards, also while a string moves
+/// that nobody hears: hosts cut what they export, and ask for nothing more, where there is none.
+#[test]
+fn the_tail_is_known_before_anything_sounds_and_afterwards() {
+    let host = Host::new();
+    let before = host.tail();
+    let seconds = f64::from(before) / 48e3;
+    assert!((20.0..40.0).contains(&seconds), "{seconds} s");
+    // With ten times the losses, so that it is soon silent.
+    let losses = ["Loss, all frequencies", "Loss, high frequencies"].map(|name| host.parameter(name, 1.0));
+    host.play(512, &losses, &[]);
+    let short = host.tail();
+    assert!((5.0..30.0).contains(&(f64::from(before) / f64::from(short))), "{short} after {before} samples");
+    // A key that is held, on a fret.
+    host.play(LENGTH, &[], &[on(0, 1, 53)]);
+    assert_eq!(host.tail(), short, "while it sounds");
+    while host.play(LENGTH, &[], &[]).iter().any(|sample| sample.abs() > 1e-7) {}
+    host.play(LENGTH, &[], &[]);
+    assert_eq!(host.tail(), short, "while it is held");
+    host.play(LENGTH, &[], &[off(0, 1, 53)]);
+    while host.play(LENGTH, &[], &[]).iter().any(|&sample| sample != 0.0) {}
+    assert_eq!(host.tail(), short, "when nothing moves");
+}
+
 /// As many as fill any room. What they say last counts, and the note's end is not lost.
 #[test]
 fn a_note_off_is_not_lost_among_too_many_others() {

@@ -291,6 +291,12 @@ impl Host {
         (id.expect("there is one of that name"), value)
     }
 
+    /// For how long it says that it may ring on, samples.
+    pub fn tail(&self) -> u32 {
+        // SAFETY: nothing is asked for but a number.
+        unsafe { self.processor.getTailSamples() }
+    }
+
     /// What a session would save.
     pub fn save(&self) -> Vec<u8> {
         let stream = ComWrapper::new(Stream(RefCell::default()));
