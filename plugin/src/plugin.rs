@@ -189,6 +189,7 @@ impl Plugin for LowAction {
             );
             self.playing = None;
             self.door.ring(0);
+            self.door.be_active(true);
             return true;
         }
         match &mut self.playing {
@@ -209,8 +210,13 @@ impl Plugin for LowAction {
             }
             context.set_current_voice_capacity(playing.string_count());
             self.door.ring(playing.tail());
+            self.door.be_active(true);
         }
         true
+    }
+
+    fn deactivate(&mut self) {
+        self.door.be_active(false);
     }
 
     fn reset(&mut self) {

@@ -22,13 +22,16 @@ use crate::user::isolate;
 /// The host's side of the conversation.
 pub struct Listener {
     restart_requested: AtomicBool,
+    process_requested: AtomicBool,
 }
 
 impl SharedHandler<'_> for Listener {
     fn request_restart(&self) {
         self.restart_requested.store(true, Ordering::Relaxed);
     }
-    fn request_process(&self) {}
+    fn request_process(&self) {
+        self.process_requested.store(true, Ordering::Relaxed);
+    }
     fn request_callback(&self) {}
 }
 
@@ -82,6 +85,12 @@ fn tail(handle: &PluginAudioProcessorHandle<'_>) -> u32 {
     }
 }
 
+/// What is told outside of blocks.
+fn events_of(told: &[Action]) -> EventBuffer {
+    let score: Score = told.iter().map(|&action| (0, action)).collect();
+    events_between(&score, [0, 1], |time| time, 1.0)
+}
+
 /// Somebody who looks at both channels, up to where they have sounded.
 pub type Watch = Box<dyn FnMut([&[f32]; 2])>;
 
@@ -96,6 +105,16 @@ pub struct Host {
     pub sleepy: bool,
     /// Whether it stops processing meanwhile, and starts again.
     pub stops: bool,
+    /// What it does before the first block that begins at a sample or after it.
+    pub between: Vec<(u64, Between)>,
+}
+
+/// What a host does between blocks.
+pub enum Between {
+    /// Loads a session.
+    Load(Vec<u8>),
+    /// Tells the plugin something of its parameters.
+    Flush(Vec<Action>),
 }
 
 impl Default for Host {
@@ -125,14 +144,17 @@ impl Host {
         let id = descriptor.id().expect("the plugin has an identifier").to_owned();
         let info = HostInfo::new("Low Action tests", "Low Action", "", "0").expect("no zero bytes");
         let instance = PluginInstance::new(
-            |_| Listener { restart_requested: AtomicBool::new(false) },
+            |_| Listener {
+                restart_requested: AtomicBool::new(false),
+                process_requested: AtomicBool::new(false),
+            },
             |_| MainListener,
             &entry,
             &id,
             &info,
         )
         .expect("the plugin can be created");
-        Self { instance, mistaken: None, watch: None, sleepy: false, stops: false }
+        Self { instance, mistaken: None, watch: None, sleepy: false, stops: false, between: Vec::new() }
     }
 
     /// Activates the plugin at a sample rate in Hz, plays the score for `length` samples in blocks of the
@@ -176,6 +198,20 @@ impl Host {
             let told = score.iter().filter(|(at, _)| (span[0]..span[1]).contains(at));
             let mut told = told.filter_map(|&(at, action)| Running::from(at, action, sample_rate));
             running = told.next_back().or(running);
+            while self.between.first().is_some_and(|(at, _)| *at <= start as u64) {
+                match self.between.remove(0).1 {
+                    Between::Load(session) => assert!(self.load(&session), "the session is taken in"),
+                    Between::Flush(told) => {
+                        let (events, mut said) = (events_of(&told), EventBuffer::new());
+                        let mut handle = processor.plugin_handle();
+                        let params = handle.get_extension::<PluginParams>().expect("it has parameters");
+                        params.flush_active(&mut handle, &events.as_input(), &mut said.as_output());
+                    }
+                }
+            }
+            if self.take_process_request() {
+                rests = false;
+            }
             if self.sleepy && rests && events.is_empty() {
                 slept += end - start;
                 asleep = true;
@@ -230,8 +266,7 @@ impl Host {
 
     /// Tells the plugin something of its parameters while it is not active.
     pub fn flush(&mut self, told: &[Action]) {
-        let score: Score = told.iter().map(|&action| (0, action)).collect();
-        let events = events_between(&score, [0, 1], |time| time, 1.0);
+        let events = events_of(told);
         let mut handle = self.instance.inactive_plugin_handle().expect("it is not active");
         let params = handle.get_extension::<PluginParams>().expect("the plugin has parameters");
         let mut said = EventBuffer::new();
@@ -279,6 +314,12 @@ impl Host {
         let handle = self.instance.plugin_handle();
         let params = handle.get_extension::<PluginParams>().expect("the plugin has parameters");
         params.get_value(&handle, ClapId::new(parameter))
+    }
+
+    /// Whether the plugin has asked to be processed since the last time this was asked.
+    pub fn take_process_request(&self) -> bool {
+        self.instance
+            .access_shared_handler(|listener| listener.process_requested.swap(false, Ordering::Relaxed))
     }
 
     /// Whether the plugin has asked to be activated anew since the last time this was asked.

@@ -2,7 +2,8 @@
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
 //! (`in_order`), what is set is kept whatever is added to it (`modulated`), hosts are told of states that are refused (`refused`),
-//! what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything sounds (`tail`), and one that sleeps is woken when the editor is shown (`shown`).
+//! what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything sounds (`tail`), and one that sleeps is
+//! woken when the editor is shown (`shown`), or anything has been set.
 
 mod in_order;
 mod modulated;
@@ -70,11 +71,12 @@ impl Instance {
                 Self::listened_to(plugin, (*process).out_events, |out_events| {
                     next(inside, &clap_process { in_events, out_events, ..*process })
                 })
+                .0
             })
         }
     }
 
-    /// Does something of which a host hears, with an eye on what is said.
+    /// Does something of which a host hears, with an eye on what is said; and whether anything was.
     ///
     /// # Safety
     /// The plugin must be what `create_plugin` gave the host, the events null or a host's, and this done by one at a time.
@@ -82,12 +84,13 @@ impl Instance {
         plugin: *const clap_plugin,
         events: *const clap_output_events,
         say: impl FnOnce(*const clap_output_events) -> T,
-    ) -> T {
+    ) -> (T, bool) {
         // SAFETY: as above.
-        let Some(host) = (unsafe { events.as_ref() }) else { return say(events) };
+        let Some(host) = (unsafe { events.as_ref() }) else { return (say(events), false) };
         // SAFETY: as above.
         let mut said = Said::new(host, unsafe { &(*plugin.cast::<Self>()).modulated });
-        say(&said.list())
+        let done = say(&said.list());
+        (done, said.any())
     }
 
     /// Does something with a host's events, put right where they are not.
@@ -124,6 +127,35 @@ impl Instance {
             let host = (*plugin.cast::<Self>()).host;
             let get = host.as_ref().and_then(|host| host.get_extension);
             get.is_some_and(|get| !get(host, CLAP_EXT_GUI.as_ptr()).is_null())
+        }
+    }
+
+    /// Asks the host to go on, or to begin again.
+    ///
+    /// # Safety
+    /// As above.
+    unsafe fn wake(plugin: *const clap_plugin) -> bool {
+        // SAFETY: as above; the host outlives its plugins, and this may be asked on any thread.
+        unsafe {
+            if let Some(host) = (*plugin.cast::<Self>()).host.as_ref()
+                && let Some(request) = host.request_process
+            {
+                request(host);
+            }
+        }
+        true
+    }
+
+    /// Asks the host to go on if it has stopped: what was set is to be there before the next note.
+    ///
+    /// # Safety
+    /// As above.
+    unsafe fn wake_to_change(plugin: *const clap_plugin) {
+        // SAFETY: as above.
+        unsafe {
+            if (*plugin.cast::<Self>()).door.is_active() {
+                Self::wake(plugin);
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use super::vst3::Kept;
 
@@ -19,6 +19,8 @@ pub(super) struct Door {
     pub kept: Kept,
     /// For how long what is played may ring on, samples.
     tail: AtomicU32,
+    /// Whether the host has the plugin activated.
+    active: AtomicBool,
 }
 
 impl Door {
@@ -34,6 +36,16 @@ impl Door {
         let made = make();
         SHARED.take();
         (made, door)
+    }
+
+    /// The host has it activated, or no longer.
+    pub fn be_active(&self, active: bool) {
+        self.active.store(active, Ordering::Relaxed);
+    }
+
+    /// Whether a host that had stopped may be asked to go on: one that has not activated the plugin is not to do so for that.
+    pub fn is_active(&self) -> bool {
+        self.active.load(Ordering::Relaxed)
     }
 
     /// What is played may ring on for so long from now on.

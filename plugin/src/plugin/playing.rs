@@ -264,15 +264,16 @@ impl Playing {
         }
     }
 
-    /// What to tell the host: for how long the strings can ring on, or that nothing sounds and nothing will.
+    /// What to tell the host: for how long the strings can ring on, or that nothing sounds and nothing will by itself.
     pub fn status(&self, looked_at: bool) -> ProcessStatus {
         if self.engine.is_silent() && looked_at && !self.offline {
             // What is done in the editor comes in only while the host goes on.
             ProcessStatus::KeepAlive
-        } else if self.engine.is_silent() {
+        } else if self.engine.is_silent() && (self.offline || self.asked.is_none()) {
             ProcessStatus::Normal
         } else {
-            // Also while nobody hears the strings, as long as they move: no tail would mean in VST3 that the host need not go on.
+            // Also while nobody hears the strings, as long as they move: no tail would mean in VST3 that the host need not go on. And
+            // while another instrument is on its way, which comes in only if it does, and is to be there before the next note.
             ProcessStatus::Tail(self.tail())
         }
     }

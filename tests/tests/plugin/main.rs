@@ -14,3 +14,4 @@ mod plays;
 mod rest;
 mod sessions;
 mod told;
+mod waking;

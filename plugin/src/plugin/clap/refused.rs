@@ -35,6 +35,9 @@ unsafe extern "C" fn load(plugin: *const clap_plugin, stream: *const clap_istrea
         }
         let modulated = &(*plugin.cast::<Instance>()).modulated;
         let (loaded, taken) = taken_in(|| modulated.without(|| inner(plugin, stream)));
+        if loaded && taken {
+            Instance::wake_to_change(plugin);
+        }
         loaded && taken
     }
 }

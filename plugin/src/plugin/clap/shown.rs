@@ -33,29 +33,13 @@ fn inner() -> Option<&'static clap_plugin_gui> {
 unsafe extern "C" fn set_parent(plugin: *const clap_plugin, window: *const clap_window) -> bool {
     let Some(inner) = inner().and_then(|gui| gui.set_parent) else { return false };
     // SAFETY: the host gives back what it was given, and a window.
-    unsafe { inner(plugin, window) && wake(plugin) }
+    unsafe { inner(plugin, window) && Instance::wake(plugin) }
 }
 
 unsafe extern "C" fn show(plugin: *const clap_plugin) -> bool {
     let Some(inner) = inner().and_then(|gui| gui.show) else { return false };
     // SAFETY: as above.
-    unsafe { inner(plugin) && wake(plugin) }
-}
-
-/// Asks the host to go on, or to begin again.
-///
-/// # Safety
-/// The plugin must be an [`Instance`].
-unsafe fn wake(plugin: *const clap_plugin) -> bool {
-    // SAFETY: as above; the host outlives its plugins, and this may be asked on any thread.
-    unsafe {
-        if let Some(host) = (*plugin.cast::<Instance>()).host.as_ref()
-            && let Some(request) = host.request_process
-        {
-            request(host);
-        }
-    }
-    true
+    unsafe { inner(plugin) && Instance::wake(plugin) }
 }
 
 #[cfg(test)]
