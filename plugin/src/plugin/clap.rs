@@ -1,9 +1,9 @@
 //! The door through which CLAP hosts come in.
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
-//! (`in_order`), what is set is kept whatever is added to it (`modulated`), hosts are told of states that are refused (`refused`),
-//! what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything sounds (`tail`), and one that sleeps is
-//! woken when the editor is shown (`shown`), or anything has been set.
+//! (`in_order`), what is set is kept whatever is added to it (`modulated`), hosts are told in order (`said`), also of states
+//! that are refused (`refused`), what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything
+//! sounds (`tail`), and one that sleeps is woken when the editor is shown (`shown`), or anything has been set.
 
 mod in_order;
 mod modulated;
@@ -36,7 +36,7 @@ use super::door::Door;
 use crate::engine::Engine;
 use in_order::InOrder;
 use modulated::{Apart, Modulated};
-use said::Said;
+use said::{Ends, Said};
 
 /// The plugin as the host sees it, and as the framework does.
 #[repr(C)]
@@ -50,6 +50,7 @@ struct Instance {
     /// What the host adds to parameters for the moment.
     modulated: Modulated,
     apart: Apart,
+    ends: Ends,
     /// What it shares with the plugin inside.
     door: Arc<Door>,
 }
@@ -88,9 +89,13 @@ impl Instance {
         // SAFETY: as above.
         let Some(host) = (unsafe { events.as_ref() }) else { return (say(events), false) };
         // SAFETY: as above.
-        let mut said = Said::new(host, unsafe { &(*plugin.cast::<Self>()).modulated });
+        let (modulated, ends) = unsafe {
+            let instance = plugin.cast::<Self>().cast_mut();
+            (&(*instance).modulated, &mut (*instance).ends)
+        };
+        let mut said = Said::new(host, modulated, ends);
         let done = say(&said.list());
-        (done, said.any())
+        (done, said.end())
     }
 
     /// Does something with a host's events, put right where they are not.
@@ -235,8 +240,8 @@ unsafe extern "C" fn create_plugin(
         destroy: Some(Instance::destroy),
         ..unsafe { *inside }
     };
-    let (in_order, apart) = (InOrder::new(), Apart::new());
-    Box::into_raw(Box::new(Instance { outside, inside, host, in_order, modulated, apart, door })).cast()
+    let (in_order, apart, ends) = (InOrder::new(), Apart::new(), Ends::new());
+    Box::into_raw(Box::new(Instance { outside, inside, host, in_order, modulated, apart, ends, door })).cast()
 }
 
 static FACTORY: clap_plugin_factory = clap_plugin_factory {

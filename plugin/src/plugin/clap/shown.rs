@@ -52,7 +52,7 @@ mod tests {
     use clap_sys::host::clap_host;
     use clap_sys::version::CLAP_VERSION;
 
-    use super::super::{Apart, InOrder, Modulated, descriptor};
+    use super::super::{Apart, Ends, InOrder, Modulated, descriptor};
     use super::*;
 
     static ASKED: AtomicU32 = AtomicU32::new(0);
@@ -127,8 +127,8 @@ mod tests {
         let outside = clap_plugin { get_extension: Some(Instance::get_extension), ..inside };
         let host = &raw mut host;
         let (in_order, modulated, apart) = (InOrder::new(), Modulated::default(), Apart::new());
-        let door = Arc::default();
-        let instance = Instance { outside, inside: &inside, host, in_order, modulated, apart, door };
+        let (ends, door) = (Ends::new(), Arc::default());
+        let instance = Instance { outside, inside: &inside, host, in_order, modulated, apart, ends, door };
         let plugin = (&raw const instance).cast::<clap_plugin>();
         // SAFETY: all of them are alive.
         unsafe {
