@@ -95,12 +95,13 @@ impl Default for LowAction {
 }
 
 impl LowAction {
-    /// Whether an editor is open.
+    /// Whether an editor is open, and seen.
     fn is_looked_at(&self) -> bool {
         #[cfg(feature = "editor")]
-        return self.editor.is_open();
+        let is_open = self.editor.is_open();
         #[cfg(not(feature = "editor"))]
-        false
+        let is_open = false;
+        is_open && !self.door.is_hidden()
     }
 
     /// Has the editor, if there is one, show what is new.

@@ -21,6 +21,8 @@ pub(super) struct Door {
     tail: AtomicU32,
     /// Whether the host has the plugin activated.
     active: AtomicBool,
+    /// Whether the host hides an editor that it keeps.
+    hidden: AtomicBool,
 }
 
 impl Door {
@@ -46,6 +48,16 @@ impl Door {
     /// Whether a host that had stopped may be asked to go on: one that has not activated the plugin is not to do so for that.
     pub fn is_active(&self) -> bool {
         self.active.load(Ordering::Relaxed)
+    }
+
+    /// The host hides the editor, or no longer.
+    pub fn hide(&self, hidden: bool) {
+        self.hidden.store(hidden, Ordering::Relaxed);
+    }
+
+    /// Whether nobody can see the editor, even if it is open.
+    pub fn is_hidden(&self) -> bool {
+        self.hidden.load(Ordering::Relaxed)
     }
 
     /// What is played may ring on for so long from now on.
