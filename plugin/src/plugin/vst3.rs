@@ -115,16 +115,36 @@ impl IEditControllerTrait for Instance {
         setState(state: *mut IBStream) -> tresult;
         getState(state: *mut IBStream) -> tresult;
         getParameterCount() -> int32;
-        getParameterInfo(index: int32, info: *mut ParameterInfo) -> tresult;
         getParamStringByValue(id: ParamID, value: ParamValue, text: *mut String128) -> tresult;
         getParamValueByString(id: ParamID, text: *mut TChar, value: *mut ParamValue) -> tresult;
         normalizedParamToPlain(id: ParamID, value: ParamValue) -> ParamValue;
         plainParamToNormalized(id: ParamID, value: ParamValue) -> ParamValue;
-        getParamNormalized(id: ParamID) -> ParamValue;
         setParamNormalized(id: ParamID, value: ParamValue) -> tresult;
         setComponentHandler(handler: *mut IComponentHandler) -> tresult;
         createView(name: FIDString) -> *mut IPlugView;
     } }
+
+    unsafe fn getParameterInfo(&self, index: int32, info: *mut ParameterInfo) -> tresult {
+        // The framework has every hidden one usually at 0, whatever it stands for, and at 0.5 now; and one more than there are.
+        // SAFETY: the host gives room for it, if any.
+        unsafe {
+            if index >= self.framework.getParameterCount() {
+                return kInvalidArgument;
+            }
+            let said = self.framework.getParameterInfo(index, info);
+            if let Some(info) = info.as_mut().filter(|_| said == kResultOk)
+                && let Some(usual) = self.hidden.usual(info.id)
+            {
+                info.defaultNormalizedValue = usual;
+            }
+            said
+        }
+    }
+
+    unsafe fn getParamNormalized(&self, id: ParamID) -> ParamValue {
+        // SAFETY: nothing is asked for but a number.
+        self.hidden.usual(id).unwrap_or_else(|| unsafe { self.framework.getParamNormalized(id) })
+    }
 }
 
 impl IAudioProcessorTrait for Instance {

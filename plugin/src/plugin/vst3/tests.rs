@@ -123,6 +123,27 @@ fn parameters_and_controllers_without_sound_are_as_with_the_next_samples() {
     }
 }
 
+/// Hosts that put everything back to what it usually is say nothing by it.
+#[test]
+fn controllers_are_usually_what_they_are_where_nothing_was_said() {
+    let host = Host::new();
+    let hidden = host.hidden();
+    assert_eq!(hidden.len(), 16 * 130);
+    for &(id, usual) in &hidden {
+        assert_eq!(host.value(id), usual, "{id}");
+    }
+    for (number, usual) in [(64, 0.0), (129, 0.5), (11, 1.0)] {
+        let meant = host.controller(0, number, usual);
+        assert!(hidden.contains(&meant), "{number}");
+    }
+    let notes = [on(0, 1, 52), on(0, 2, 59)];
+    let plain = Host::new().play(LENGTH, &[], &notes);
+    assert!(host.play(LENGTH, &hidden, &notes) == plain);
+    // Of all of them at once, those that count are seen.
+    let told: Vec<_> = hidden.iter().map(|&(id, _)| (id, 0.0)).collect();
+    assert!(Host::new().play(LENGTH, &told, &notes) != plain);
+}
+
 #[test]
 fn what_is_refused_the_host_is_told_of() {
     let host = Host::new();
