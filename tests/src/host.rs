@@ -2,6 +2,7 @@
 
 mod score;
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clack_extensions::audio_ports_config::PluginAudioPortsConfig;
@@ -105,6 +106,8 @@ pub struct Host {
     pub sleepy: bool,
     /// Whether it stops processing meanwhile, and starts again.
     pub stops: bool,
+    /// The samples in which it has nothing to be played into: blocks that begin there are told of no outputs.
+    pub deaf: Range<usize>,
     /// What it does before the first block that begins at a sample or after it.
     pub between: Vec<(u64, Between)>,
 }
@@ -154,7 +157,15 @@ impl Host {
             &info,
         )
         .expect("the plugin can be created");
-        Self { instance, mistaken: None, watch: None, sleepy: false, stops: false, between: Vec::new() }
+        Self {
+            instance,
+            mistaken: None,
+            watch: None,
+            sleepy: false,
+            stops: false,
+            deaf: 0..0,
+            between: Vec::new(),
+        }
     }
 
     /// Activates the plugin at a sample rate in Hz, plays the score for `length` samples in blocks of the
@@ -223,15 +234,22 @@ impl Host {
             }
             let mut parts: Vec<Vec<&mut [f32]>> =
                 vec![stereo.iter_mut().map(|channel| &mut channel[start..end]).collect()];
+            let deaf = self.deaf.contains(&start);
             parts.extend(stems.iter_mut().map(|channel| vec![&mut channel[start..end]]));
+            if deaf {
+                parts.clear();
+            }
             let mut buffers = ports.with_output_buffers(parts.into_iter().map(|channels| AudioPortBuffer {
                 latency: 0,
                 channels: AudioPortBufferType::f32_output_only(channels.into_iter()),
             }));
+            // Where there are no outputs, how long the block is stands with the inputs.
+            // SAFETY: there are no buffers that could be shorter.
+            let inputs = unsafe { InputAudioBuffers::from_raw_buffers(&[], (end - start) as u32) };
             let mut said = EventBuffer::with_capacity(256 + 2 * score.len());
             let status = processor
                 .process(
-                    &InputAudioBuffers::empty(),
+                    &inputs,
                     &mut buffers,
                     &events.as_input(),
                     &mut said.as_output(),

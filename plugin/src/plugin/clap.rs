@@ -1,12 +1,13 @@
 //! The door through which CLAP hosts come in.
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
-//! (`in_order`), what is set is kept whatever is added to it (`modulated`), hosts are told in order (`said`), also of states
+//! (`in_order`), there is something to play into (`outputs`), what is set is kept whatever is added to it (`modulated`), hosts are told in order (`said`), also of states
 //! that are refused (`refused`), what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything
 //! sounds (`tail`), and one that sleeps is woken when the editor is shown (`shown`), or anything has been set.
 
 mod in_order;
 mod modulated;
+mod outputs;
 mod parameters;
 mod refused;
 mod said;
@@ -19,6 +20,7 @@ use std::sync::{Arc, OnceLock};
 
 use clap_sys::entry::clap_plugin_entry;
 use clap_sys::events::{clap_input_events, clap_output_events};
+use clap_sys::ext::audio_ports::{CLAP_EXT_AUDIO_PORTS, clap_plugin_audio_ports};
 use clap_sys::ext::gui::CLAP_EXT_GUI;
 use clap_sys::ext::params::CLAP_EXT_PARAMS;
 use clap_sys::ext::state::CLAP_EXT_STATE;
@@ -36,6 +38,7 @@ use super::door::Door;
 use crate::engine::Engine;
 use in_order::InOrder;
 use modulated::{Apart, Modulated};
+use outputs::Outputs;
 use said::{Ends, Said};
 
 /// The plugin as the host sees it, and as the framework does.
@@ -51,11 +54,30 @@ struct Instance {
     modulated: Modulated,
     apart: Apart,
     ends: Ends,
+    outputs: Outputs,
     /// What it shares with the plugin inside.
     door: Arc<Door>,
 }
 
 impl Instance {
+    unsafe extern "C" fn activate(plugin: *const clap_plugin, rate: f64, least: u32, most: u32) -> bool {
+        if plugin.is_null() {
+            return false;
+        }
+        // SAFETY: the host gives back what `create_plugin` gave it, and does not process meanwhile.
+        unsafe {
+            let inside = (*plugin.cast::<Self>()).inside;
+            let (Some(get), Some(activate)) = ((*inside).get_extension, (*inside).activate) else {
+                return false;
+            };
+            let ports = get(inside, CLAP_EXT_AUDIO_PORTS.as_ptr()).cast::<clap_plugin_audio_ports>();
+            let count = ports.as_ref().and_then(|ports| ports.count).map_or(0, |count| count(inside, false));
+            let outputs = &mut (*plugin.cast::<Self>().cast_mut()).outputs;
+            outputs.make_room(count as usize, most as usize);
+            activate(inside, rate, least, most)
+        }
+    }
+
     unsafe extern "C" fn process(
         plugin: *const clap_plugin,
         process: *const clap_process,
@@ -70,7 +92,10 @@ impl Instance {
             let last = (*process).frames_count.saturating_sub(1);
             Self::put_right(plugin, (*process).in_events, last, |in_events| {
                 Self::listened_to(plugin, (*process).out_events, |out_events| {
-                    next(inside, &clap_process { in_events, out_events, ..*process })
+                    let process = clap_process { in_events, out_events, ..*process };
+                    let outputs = &mut (*plugin.cast::<Self>().cast_mut()).outputs;
+                    let done = outputs.within(&process, |process| next(inside, process));
+                    done.unwrap_or(CLAP_PROCESS_ERROR)
                 })
                 .0
             })
@@ -235,13 +260,25 @@ unsafe extern "C" fn create_plugin(
     let inside = unsafe { (*Arc::into_raw(wrapper)).clap_plugin.as_ptr() };
     // SAFETY: as above. All functions find their way by `plugin_data`, so that they can be called with either.
     let outside = clap_plugin {
+        activate: Some(Instance::activate),
         process: Some(Instance::process),
         get_extension: Some(Instance::get_extension),
         destroy: Some(Instance::destroy),
         ..unsafe { *inside }
     };
-    let (in_order, apart, ends) = (InOrder::new(), Apart::new(), Ends::new());
-    Box::into_raw(Box::new(Instance { outside, inside, host, in_order, modulated, apart, ends, door })).cast()
+    let (in_order, apart, ends, outputs) = (InOrder::new(), Apart::new(), Ends::new(), Outputs::default());
+    Box::into_raw(Box::new(Instance {
+        outside,
+        inside,
+        host,
+        in_order,
+        modulated,
+        apart,
+        ends,
+        outputs,
+        door,
+    }))
+    .cast()
 }
 
 static FACTORY: clap_plugin_factory = clap_plugin_factory {

@@ -8,6 +8,7 @@ mod documents;
 mod exchange;
 mod modulated;
 mod notes;
+mod outputs;
 mod parameters;
 mod passes;
 mod plays;

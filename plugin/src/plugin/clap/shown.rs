@@ -90,7 +90,7 @@ mod tests {
     use clap_sys::host::clap_host;
     use clap_sys::version::CLAP_VERSION;
 
-    use super::super::{Apart, Ends, InOrder, Modulated, descriptor};
+    use super::super::{Apart, Ends, InOrder, Modulated, Outputs, descriptor};
     use super::*;
 
     static ASKED: AtomicU32 = AtomicU32::new(0);
@@ -168,8 +168,9 @@ mod tests {
         let outside = clap_plugin { get_extension: Some(Instance::get_extension), ..inside };
         let host = &raw mut host;
         let (in_order, modulated, apart) = (InOrder::new(), Modulated::default(), Apart::new());
-        let (ends, door) = (Ends::new(), Arc::default());
-        let instance = Instance { outside, inside: &inside, host, in_order, modulated, apart, ends, door };
+        let (ends, outputs, door) = (Ends::new(), Outputs::default(), Arc::default());
+        let instance =
+            Instance { outside, inside: &inside, host, in_order, modulated, apart, ends, outputs, door };
         let plugin = (&raw const instance).cast::<clap_plugin>();
         // SAFETY: all of them are alive.
         unsafe {
