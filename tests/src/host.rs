@@ -118,6 +118,8 @@ pub enum Between {
     Load(Vec<u8>),
     /// Tells the plugin something of its parameters.
     Flush(Vec<Action>),
+    /// Has it play a block that has no samples.
+    Nothing(Vec<Action>),
 }
 
 impl Default for Host {
@@ -212,6 +214,16 @@ impl Host {
             while self.between.first().is_some_and(|(at, _)| *at <= start as u64) {
                 match self.between.remove(0).1 {
                     Between::Load(session) => assert!(self.load(&session), "the session is taken in"),
+                    Between::Nothing(told) => {
+                        let (events, mut said) = (events_of(&told), EventBuffer::new());
+                        // SAFETY: there are no buffers that could be shorter.
+                        let inputs = unsafe { InputAudioBuffers::from_raw_buffers(&[], 0) };
+                        let (events, said) = (events.as_input(), &mut said.as_output());
+                        let mut nowhere = OutputAudioBuffers::empty();
+                        processor
+                            .process(&inputs, &mut nowhere, &events, said, None, None)
+                            .expect("processing succeeds");
+                    }
                     Between::Flush(told) => {
                         let (events, mut said) = (events_of(&told), EventBuffer::new());
                         let mut handle = processor.plugin_handle();

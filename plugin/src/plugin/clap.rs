@@ -1,9 +1,10 @@
 //! The door through which CLAP hosts come in.
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
-//! (`in_order`), there is something to play into (`outputs`), what is set is kept whatever is added to it (`modulated`), hosts are told in order (`said`), also of states
-//! that are refused (`refused`), what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything
-//! sounds (`tail`), and one that sleeps is woken when the editor is shown (`shown`), or anything has been set.
+//! (`in_order`), what is said of notes waits where there are no samples (`waiting`), there is something to play into (`outputs`),
+//! what is set is kept whatever is added to it (`modulated`), hosts are told in order (`said`), also of states that are refused
+//! (`refused`), what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything sounds (`tail`),
+//! and one that sleeps is woken (`wake`) when the editor is shown (`shown`), or anything has been set.
 
 mod in_order;
 mod modulated;
@@ -13,6 +14,8 @@ mod refused;
 mod said;
 mod shown;
 mod tail;
+mod waiting;
+mod wake;
 
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::atomic::Ordering;
@@ -40,6 +43,7 @@ use in_order::InOrder;
 use modulated::{Apart, Modulated};
 use outputs::Outputs;
 use said::{Ends, Said};
+use waiting::Waiting;
 
 /// The plugin as the host sees it, and as the framework does.
 #[repr(C)]
@@ -55,11 +59,24 @@ struct Instance {
     apart: Apart,
     ends: Ends,
     outputs: Outputs,
+    waiting: Waiting,
     /// What it shares with the plugin inside.
     door: Arc<Door>,
 }
 
 impl Instance {
+    fn new(
+        outside: clap_plugin,
+        inside: *const clap_plugin,
+        host: *const clap_host,
+        modulated: Modulated,
+        door: Arc<Door>,
+    ) -> Self {
+        let (in_order, apart, ends) = (InOrder::new(), Apart::new(), Ends::new());
+        let (outputs, waiting) = (Outputs::default(), Waiting::new());
+        Self { outside, inside, host, in_order, modulated, apart, ends, outputs, waiting, door }
+    }
+
     unsafe extern "C" fn activate(plugin: *const clap_plugin, rate: f64, least: u32, most: u32) -> bool {
         if plugin.is_null() {
             return false;
@@ -74,6 +91,7 @@ impl Instance {
             let count = ports.as_ref().and_then(|ports| ports.count).map_or(0, |count| count(inside, false));
             let outputs = &mut (*plugin.cast::<Self>().cast_mut()).outputs;
             outputs.make_room(count as usize, most as usize);
+            (*plugin.cast::<Self>().cast_mut()).waiting.forget();
             activate(inside, rate, least, most)
         }
     }
@@ -90,7 +108,11 @@ impl Instance {
             let inside = (*plugin.cast::<Self>()).inside;
             let Some(next) = (*inside).process else { return CLAP_PROCESS_ERROR };
             let last = (*process).frames_count.saturating_sub(1);
-            Self::put_right(plugin, (*process).in_events, last, |in_events| {
+            let waiting = &raw mut (*plugin.cast::<Self>().cast_mut()).waiting;
+            let has_samples = (*process).frames_count > 0;
+            let before = if has_samples { Waiting::before(waiting, (*process).in_events) } else { None };
+            let events = before.as_ref().map_or((*process).in_events, |events| &raw const *events);
+            let said = Self::put_right(plugin, events, last, |in_events| {
                 Self::listened_to(plugin, (*process).out_events, |out_events| {
                     let process = clap_process { in_events, out_events, ..*process };
                     let outputs = &mut (*plugin.cast::<Self>().cast_mut()).outputs;
@@ -98,7 +120,13 @@ impl Instance {
                     done.unwrap_or(CLAP_PROCESS_ERROR)
                 })
                 .0
-            })
+            });
+            if has_samples {
+                (*waiting).forget();
+            } else {
+                (*waiting).keep((*process).in_events);
+            }
+            said
         }
     }
 
@@ -157,35 +185,6 @@ impl Instance {
             let host = (*plugin.cast::<Self>()).host;
             let get = host.as_ref().and_then(|host| host.get_extension);
             get.is_some_and(|get| !get(host, CLAP_EXT_GUI.as_ptr()).is_null())
-        }
-    }
-
-    /// Asks the host to go on, or to begin again.
-    ///
-    /// # Safety
-    /// As above.
-    unsafe fn wake(plugin: *const clap_plugin) -> bool {
-        // SAFETY: as above; the host outlives its plugins, and this may be asked on any thread.
-        unsafe {
-            if let Some(host) = (*plugin.cast::<Self>()).host.as_ref()
-                && let Some(request) = host.request_process
-            {
-                request(host);
-            }
-        }
-        true
-    }
-
-    /// Asks the host to go on if it has stopped: what was set is to be there before the next note.
-    ///
-    /// # Safety
-    /// As above.
-    unsafe fn wake_to_change(plugin: *const clap_plugin) {
-        // SAFETY: as above.
-        unsafe {
-            if (*plugin.cast::<Self>()).door.is_active() {
-                Self::wake(plugin);
-            }
         }
     }
 
@@ -266,19 +265,7 @@ unsafe extern "C" fn create_plugin(
         destroy: Some(Instance::destroy),
         ..unsafe { *inside }
     };
-    let (in_order, apart, ends, outputs) = (InOrder::new(), Apart::new(), Ends::new(), Outputs::default());
-    Box::into_raw(Box::new(Instance {
-        outside,
-        inside,
-        host,
-        in_order,
-        modulated,
-        apart,
-        ends,
-        outputs,
-        door,
-    }))
-    .cast()
+    Box::into_raw(Box::new(Instance::new(outside, inside, host, modulated, door))).cast()
 }
 
 static FACTORY: clap_plugin_factory = clap_plugin_factory {

@@ -1,7 +1,7 @@
 //! Promise: a host that gives nothing to be played into for a while, or not all that a layout has, misses nothing else: notes and
 //! parameters that come meanwhile count, and the rest has the same bits.
 
-use low_action_tests::host::{Action, Host, Score, parameter};
+use low_action_tests::host::{Action, Between, Host, Score, parameter};
 
 const RATE: f64 = 48_000.0;
 const LENGTH: usize = 24_000;
@@ -38,4 +38,25 @@ fn strings_whose_outputs_are_missing_are_heard_in_the_stereo_one() {
         assert!(found.stereo[0] == expected, "{given} of 8");
         assert!(found.stems.iter().flatten().any(|&sample| sample != 0.0) == (given > 0), "{given} of 8");
     }
+}
+
+#[test]
+fn what_comes_in_a_block_without_samples_comes_with_the_next_ones() {
+    let on = Action::NoteOn { channel: 0, key: 57, velocity: 100 };
+    let off = Action::NoteOff { channel: 0, key: 45 };
+    let (force, bend) = (Action::Parameter(parameter("pluck_force"), 0.2), Action::Midi([0xE0, 0, 96]));
+    let score = |own: &[Action]| -> Score {
+        let first = (0, Action::NoteOn { channel: 0, key: 45, velocity: 100 });
+        [first].into_iter().chain(own.iter().map(|&action| (5000, action))).collect()
+    };
+    let [expected, _] = Host::new().play(RATE, &score(&[off, force, bend, on]), LENGTH, &[500]);
+    let play = |between| {
+        let mut host = Host::new();
+        host.between = between;
+        let [found, _] = host.play(RATE, &score(&[on]), LENGTH, &[500]);
+        found
+    };
+    let two = vec![(5000, Between::Nothing(vec![off, force])), (5000, Between::Nothing(vec![bend]))];
+    assert!(play(two) == expected);
+    assert!(play(Vec::new()) != expected);
 }

@@ -90,7 +90,7 @@ mod tests {
     use clap_sys::host::clap_host;
     use clap_sys::version::CLAP_VERSION;
 
-    use super::super::{Apart, Ends, InOrder, Modulated, Outputs, descriptor};
+    use super::super::{Modulated, descriptor};
     use super::*;
 
     static ASKED: AtomicU32 = AtomicU32::new(0);
@@ -167,10 +167,7 @@ mod tests {
         };
         let outside = clap_plugin { get_extension: Some(Instance::get_extension), ..inside };
         let host = &raw mut host;
-        let (in_order, modulated, apart) = (InOrder::new(), Modulated::default(), Apart::new());
-        let (ends, outputs, door) = (Ends::new(), Outputs::default(), Arc::default());
-        let instance =
-            Instance { outside, inside: &inside, host, in_order, modulated, apart, ends, outputs, door };
+        let instance = Instance::new(outside, &inside, host, Modulated::default(), Arc::default());
         let plugin = (&raw const instance).cast::<clap_plugin>();
         // SAFETY: all of them are alive.
         unsafe {
