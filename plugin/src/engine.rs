@@ -38,6 +38,8 @@ pub const QUIET: f64 = 2.5e-4;
 
 /// A sound below this is over in any case: −120 dBFS, under the last bit of 16.
 pub const INAUDIBLE: f64 = 1e-6;
+/// By so long after a hand has come to a string whatever it does there is heard, s.
+const LONGEST_ATTACK: f64 = 0.25;
 
 /// Everything an engine is built from.
 #[derive(Debug, Clone)]
@@ -137,6 +139,8 @@ pub struct Engine {
     instrument: Instrument,
     waiting: VecDeque<Waiting>,
     lost: u64,
+    /// Sample of the last gesture by which a string may begin to sound.
+    touched: u64,
     /// How long it rings at most, s.
     tail: f64,
     threads: NonZeroUsize,
@@ -159,13 +163,14 @@ impl Engine {
         let (performance, instrument) = options.build()?;
         let waiting = VecDeque::with_capacity(WAITING_EVENTS);
         let (tail, threads) = (options.tail(), options.threads);
-        Ok(Self { performance, instrument, waiting, lost: 0, tail, threads, outgoing: None, record: None })
+        let (lost, touched, outgoing, record) = (0, 0, None, None);
+        Ok(Self { performance, instrument, waiting, lost, touched, tail, threads, outgoing, record })
     }
 
     /// Has the hands act differently from the next sample on.
     pub fn touch(&mut self, touching: &Touching) {
         let now = self.instrument.now();
-        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.record);
+        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.touched, &mut self.record);
         self.performance.touch(now, touching, &mut sink);
     }
 
@@ -286,6 +291,14 @@ impl Engine {
         self.waiting.is_empty() && !self.is_behind() && self.instrument.is_silent()
     }
 
+    /// Whether nothing is heard, nor will be until somebody plays, though strings may move yet: as under a finger that holds a note
+    /// which has died away, under which a string never comes to rest by itself.
+    pub fn is_inaudible(&self) -> bool {
+        let left_alone = self.waiting.is_empty() && !self.is_behind() && !self.instrument.is_fading();
+        let since = self.now().saturating_sub(self.touched) as f64 / self.instrument.sample_rate();
+        self.is_silent() || left_alone && since >= LONGEST_ATTACK && self.level() < INAUDIBLE
+    }
+
     /// Whether notes are yet to come, of chords that have more than there are strings.
     pub fn is_behind(&self) -> bool {
         self.performance.is_behind()
@@ -337,7 +350,7 @@ impl Engine {
     fn forget(&mut self) {
         self.instrument.reset();
         self.waiting.clear();
-        self.lost = 0;
+        (self.lost, self.touched) = (0, 0);
         if let Some(record) = &mut self.record {
             **record = Record::default();
         }
@@ -351,7 +364,8 @@ impl Engine {
             prepared += STEP.min(frames - prepared);
             let until = self.instrument.now() + prepared as u64;
             self.deliver(until);
-            let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.record);
+            let mut sink =
+                Sink::of(&mut self.instrument, &mut self.lost, &mut self.touched, &mut self.record);
             self.performance.advance(until, &mut sink);
             let alone = self.threads == NonZeroUsize::MIN;
             if alone || prepared == frames || self.instrument.waiting() > MANY_GESTURES {
@@ -362,7 +376,7 @@ impl Engine {
 
     /// Hands the player all events before sample `until`.
     fn deliver(&mut self, until: u64) {
-        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.record);
+        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.touched, &mut self.record);
         while let Some(&Waiting { time, event }) = self.waiting.front().filter(|next| next.time < until) {
             self.waiting.pop_front();
             self.performance.event(time, event, &mut sink);

@@ -8,6 +8,7 @@
 
 mod budget;
 mod clap;
+mod door;
 mod events;
 pub mod layout;
 mod level;
@@ -35,12 +36,12 @@ use crate::params::{LowActionParams, start};
 use crate::performance::Announced;
 use crate::pointer::{Played, pointer};
 pub use clap::clap_entry;
+use door::Door;
 use level::Output;
 use meters::Meters;
 use order::Order;
 use playing::Playing;
 use transport::{Transport, Turn};
-use vst3::Kept;
 
 /// Strings that have an output of their own, where a host asks for them.
 const STRING_OUTPUTS: usize = crate::params::TUNED_STRINGS;
@@ -63,8 +64,8 @@ pub struct LowAction {
     display: Writer,
     /// What is played in those pictures.
     played: Played,
-    /// What a VST3 host has sent without having anything played.
-    kept: Arc<Kept>,
+    /// What it shares with the door through which the host came in.
+    door: Arc<Door>,
     /// Blocks asked for so far, for whoever wants to know whether there are any.
     blocks: Arc<AtomicU64>,
     #[cfg(feature = "editor")]
@@ -87,19 +88,20 @@ impl Default for LowAction {
             transport: Transport::default(),
             display,
             played,
-            kept: Kept::of_the_new(),
+            door: Door::of_the_new(),
             blocks: start().blocks,
         }
     }
 }
 
 impl LowAction {
-    /// Whether an editor is open.
+    /// Whether an editor is open, and seen.
     fn is_looked_at(&self) -> bool {
         #[cfg(feature = "editor")]
-        return self.editor.is_open();
+        let is_open = self.editor.is_open();
         #[cfg(not(feature = "editor"))]
-        false
+        let is_open = false;
+        is_open && !self.door.is_hidden()
     }
 
     /// Has the editor, if there is one, show what is new.
@@ -176,7 +178,7 @@ impl Plugin for LowAction {
         self.output.activate(buffers.sample_rate, self.params.output.bypass.value());
         self.transport = Transport::of_blocks(buffers.max_buffer_size);
         self.played.clear();
-        self.kept.make_room();
+        self.door.kept.make_room();
         self.announced = self.playing.as_ref().and_then(Playing::announced).or(self.announced);
         // A host that asks for another rate is better off with a silent instrument, which says so in the log, than with one that
         // cannot be activated.
@@ -187,6 +189,8 @@ impl Plugin for LowAction {
                 buffers.sample_rate
             );
             self.playing = None;
+            self.door.ring(0);
+            self.door.be_active(true);
             return true;
         }
         match &mut self.playing {
@@ -206,14 +210,20 @@ impl Plugin for LowAction {
                 playing.announce(&self.params, announced);
             }
             context.set_current_voice_capacity(playing.string_count());
+            self.door.ring(playing.tail());
+            self.door.be_active(true);
         }
         true
+    }
+
+    fn deactivate(&mut self) {
+        self.door.be_active(false);
     }
 
     fn reset(&mut self) {
         self.played.clear();
         if self.playing.as_mut().is_none_or(Playing::begin_again) {
-            self.kept.forget();
+            self.door.kept.forget();
         }
     }
 
@@ -229,7 +239,7 @@ impl Plugin for LowAction {
         self.blocks.fetch_add(1, Ordering::Relaxed);
         let looked_at = self.is_looked_at();
         let Some(playing) = &mut self.playing else {
-            self.kept.forget();
+            self.door.kept.forget();
             left.fill(0.0);
             right.fill(0.0);
             return ProcessStatus::Normal;
@@ -242,7 +252,7 @@ impl Plugin for LowAction {
         }
         playing.follow(&self.params);
         playing.take_up(&self.played);
-        self.kept.hand_over(|event| playing.event(event, &self.params));
+        self.door.kept.hand_over(|event| playing.event(event, &self.params));
         let is_vst3 = context.plugin_api() == PluginApi::Vst3;
         while let Some(event) = context.next_event() {
             playing.event(if is_vst3 { vst3::mended(event) } else { event }, &self.params);
@@ -259,6 +269,7 @@ impl Plugin for LowAction {
         playing.play(&self.params, left, right, &mut stems[..count]);
         // Another instrument may have come in; the host hears of it if it has other strings.
         context.set_current_voice_capacity(playing.string_count());
+        self.door.ring(playing.tail());
         self.output.shape(&self.params.output, left, right, &mut stems[..count]);
         self.meters.see_output(left, right);
         playing.end_voices(left.len(), |event| context.try_send_event(event).is_ok());

@@ -2,6 +2,7 @@
 
 mod score;
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clack_extensions::audio_ports_config::PluginAudioPortsConfig;
@@ -22,13 +23,16 @@ use crate::user::isolate;
 /// The host's side of the conversation.
 pub struct Listener {
     restart_requested: AtomicBool,
+    process_requested: AtomicBool,
 }
 
 impl SharedHandler<'_> for Listener {
     fn request_restart(&self) {
         self.restart_requested.store(true, Ordering::Relaxed);
     }
-    fn request_process(&self) {}
+    fn request_process(&self) {
+        self.process_requested.store(true, Ordering::Relaxed);
+    }
     fn request_callback(&self) {}
 }
 
@@ -66,10 +70,26 @@ pub struct Performed {
     pub stems: Vec<Vec<f32>>,
     /// Keys of the notes that the plugin says have ended, and the end of the block in which it said so.
     pub ended: Vec<(u64, u8)>,
-    /// How long the plugin says at the end that it still sounds, samples; the largest number is endless.
-    pub tail: u32,
+    /// For how long the plugin says it may ring on, samples, before there is any sound and at the end; the largest number is
+    /// endless.
+    pub tails: [u32; 2],
     /// For how many samples a sleepy host has asked for nothing.
     pub slept: usize,
+}
+
+/// For how long a plugin says that it may ring on, samples.
+fn tail(handle: &PluginAudioProcessorHandle<'_>) -> u32 {
+    let tail = handle.get_extension::<PluginTail>().expect("the plugin tells its tail");
+    match tail.get(handle) {
+        TailLength::Finite(samples) => samples,
+        TailLength::Infinite => u32::MAX,
+    }
+}
+
+/// What is told outside of blocks.
+fn events_of(told: &[Action]) -> EventBuffer {
+    let score: Score = told.iter().map(|&action| (0, action)).collect();
+    events_between(&score, [0, 1], |time| time, 1.0)
 }
 
 /// Somebody who looks at both channels, up to where they have sounded.
@@ -86,6 +106,20 @@ pub struct Host {
     pub sleepy: bool,
     /// Whether it stops processing meanwhile, and starts again.
     pub stops: bool,
+    /// The samples in which it has nothing to be played into: blocks that begin there are told of no outputs.
+    pub deaf: Range<usize>,
+    /// What it does before the first block that begins at a sample or after it.
+    pub between: Vec<(u64, Between)>,
+}
+
+/// What a host does between blocks.
+pub enum Between {
+    /// Loads a session.
+    Load(Vec<u8>),
+    /// Tells the plugin something of its parameters.
+    Flush(Vec<Action>),
+    /// Has it play a block that has no samples.
+    Nothing(Vec<Action>),
 }
 
 impl Default for Host {
@@ -115,14 +149,25 @@ impl Host {
         let id = descriptor.id().expect("the plugin has an identifier").to_owned();
         let info = HostInfo::new("Low Action tests", "Low Action", "", "0").expect("no zero bytes");
         let instance = PluginInstance::new(
-            |_| Listener { restart_requested: AtomicBool::new(false) },
+            |_| Listener {
+                restart_requested: AtomicBool::new(false),
+                process_requested: AtomicBool::new(false),
+            },
             |_| MainListener,
             &entry,
             &id,
             &info,
         )
         .expect("the plugin can be created");
-        Self { instance, mistaken: None, watch: None, sleepy: false, stops: false }
+        Self {
+            instance,
+            mistaken: None,
+            watch: None,
+            sleepy: false,
+            stops: false,
+            deaf: 0..0,
+            between: Vec::new(),
+        }
     }
 
     /// Activates the plugin at a sample rate in Hz, plays the score for `length` samples in blocks of the
@@ -146,6 +191,7 @@ impl Host {
             PluginAudioConfiguration { sample_rate, min_frames_count: 1, max_frames_count: largest };
         let stopped = self.instance.activate(|_, _| (), configuration).expect("the plugin activates");
         let mut processor = stopped.start_processing().expect("processing starts");
+        let tail_before = tail(&processor.plugin_handle());
 
         let mut stereo = [vec![0.0; length], vec![0.0; length]];
         let mut stems = vec![vec![0.0; length]; strings];
@@ -165,6 +211,30 @@ impl Host {
             let told = score.iter().filter(|(at, _)| (span[0]..span[1]).contains(at));
             let mut told = told.filter_map(|&(at, action)| Running::from(at, action, sample_rate));
             running = told.next_back().or(running);
+            while self.between.first().is_some_and(|(at, _)| *at <= start as u64) {
+                match self.between.remove(0).1 {
+                    Between::Load(session) => assert!(self.load(&session), "the session is taken in"),
+                    Between::Nothing(told) => {
+                        let (events, mut said) = (events_of(&told), EventBuffer::new());
+                        // SAFETY: there are no buffers that could be shorter.
+                        let inputs = unsafe { InputAudioBuffers::from_raw_buffers(&[], 0) };
+                        let (events, said) = (events.as_input(), &mut said.as_output());
+                        let mut nowhere = OutputAudioBuffers::empty();
+                        processor
+                            .process(&inputs, &mut nowhere, &events, said, None, None)
+                            .expect("processing succeeds");
+                    }
+                    Between::Flush(told) => {
+                        let (events, mut said) = (events_of(&told), EventBuffer::new());
+                        let mut handle = processor.plugin_handle();
+                        let params = handle.get_extension::<PluginParams>().expect("it has parameters");
+                        params.flush_active(&mut handle, &events.as_input(), &mut said.as_output());
+                    }
+                }
+            }
+            if self.take_process_request() {
+                rests = false;
+            }
             if self.sleepy && rests && events.is_empty() {
                 slept += end - start;
                 asleep = true;
@@ -176,15 +246,22 @@ impl Host {
             }
             let mut parts: Vec<Vec<&mut [f32]>> =
                 vec![stereo.iter_mut().map(|channel| &mut channel[start..end]).collect()];
+            let deaf = self.deaf.contains(&start);
             parts.extend(stems.iter_mut().map(|channel| vec![&mut channel[start..end]]));
+            if deaf {
+                parts.clear();
+            }
             let mut buffers = ports.with_output_buffers(parts.into_iter().map(|channels| AudioPortBuffer {
                 latency: 0,
                 channels: AudioPortBufferType::f32_output_only(channels.into_iter()),
             }));
+            // Where there are no outputs, how long the block is stands with the inputs.
+            // SAFETY: there are no buffers that could be shorter.
+            let inputs = unsafe { InputAudioBuffers::from_raw_buffers(&[], (end - start) as u32) };
             let mut said = EventBuffer::with_capacity(256 + 2 * score.len());
             let status = processor
                 .process(
-                    &InputAudioBuffers::empty(),
+                    &inputs,
                     &mut buffers,
                     &events.as_input(),
                     &mut said.as_output(),
@@ -212,14 +289,18 @@ impl Host {
             }
             start = end;
         }
-        let handle = processor.plugin_handle();
-        let tail = handle.get_extension::<PluginTail>().expect("the plugin tells its tail");
-        let tail = match tail.get(&handle) {
-            TailLength::Finite(samples) => samples,
-            TailLength::Infinite => u32::MAX,
-        };
+        let tails = [tail_before, tail(&processor.plugin_handle())];
         self.instance.deactivate(processor.stop_processing());
-        Performed { stereo, stems, ended, tail, slept }
+        Performed { stereo, stems, ended, tails, slept }
+    }
+
+    /// Tells the plugin something of its parameters while it is not active.
+    pub fn flush(&mut self, told: &[Action]) {
+        let events = events_of(told);
+        let mut handle = self.instance.inactive_plugin_handle().expect("it is not active");
+        let params = handle.get_extension::<PluginParams>().expect("the plugin has parameters");
+        let mut said = EventBuffer::new();
+        params.flush(&mut handle, &events.as_input(), &mut said.as_output());
     }
 
     /// Chooses one of the plugin's port layouts; counts from the next activation on.
@@ -263,6 +344,12 @@ impl Host {
         let handle = self.instance.plugin_handle();
         let params = handle.get_extension::<PluginParams>().expect("the plugin has parameters");
         params.get_value(&handle, ClapId::new(parameter))
+    }
+
+    /// Whether the plugin has asked to be processed since the last time this was asked.
+    pub fn take_process_request(&self) -> bool {
+        self.instance
+            .access_shared_handler(|listener| listener.process_requested.swap(false, Ordering::Relaxed))
     }
 
     /// Whether the plugin has asked to be activated anew since the last time this was asked.

@@ -1,6 +1,6 @@
 //! Where gestures go from the player.
 
-use low_action_dsp::{Instrument, TimedGesture};
+use low_action_dsp::{Gesture, Instrument, TimedGesture};
 
 use super::Record;
 use crate::performance::{GestureSink, TimedAnnotation, Unplayed};
@@ -9,6 +9,7 @@ use crate::performance::{GestureSink, TimedAnnotation, Unplayed};
 pub(super) struct Sink<'a> {
     instrument: &'a mut Instrument,
     lost: &'a mut u64,
+    touched: &'a mut u64,
     record: Option<&'a mut Record>,
 }
 
@@ -16,9 +17,10 @@ impl<'a> Sink<'a> {
     pub(super) fn of(
         instrument: &'a mut Instrument,
         lost: &'a mut u64,
+        touched: &'a mut u64,
         record: &'a mut Option<Box<Record>>,
     ) -> Self {
-        Self { instrument, lost, record: record.as_deref_mut() }
+        Self { instrument, lost, touched, record: record.as_deref_mut() }
     }
 }
 
@@ -29,6 +31,10 @@ impl GestureSink for Sink<'_> {
         match self.instrument.schedule(gesture) {
             Err(_) => *self.lost += 1,
             Ok(()) => {
+                // What bends or stills a string makes no sound of it.
+                if !matches!(gesture.gesture, Gesture::Bend { .. } | Gesture::Still { .. }) {
+                    *self.touched = gesture.time.max(*self.touched);
+                }
                 if let Some(record) = &mut self.record {
                     record.gestures.push(gesture);
                 }

@@ -1,23 +1,33 @@
 //! The door through which CLAP hosts come in.
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
-//! (`in_order`), hosts are told of states that are refused (`refused`), what they ask of parameters wrongly is answered
-//! (`parameters`), and one that sleeps is woken when the editor is shown (`shown`).
+//! (`in_order`), what is said of notes waits where there are no samples (`waiting`), there is something to play into (`outputs`),
+//! what is set is kept whatever is added to it (`modulated`), hosts are told in order (`said`), also of states that are refused
+//! (`refused`), what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything sounds (`tail`),
+//! and one that sleeps is woken (`wake`) when the editor is shown (`shown`), or anything has been set.
 
 mod in_order;
+mod modulated;
+mod outputs;
 mod parameters;
 mod refused;
+mod said;
 mod shown;
+mod tail;
+mod waiting;
+mod wake;
 
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, OnceLock};
 
 use clap_sys::entry::clap_plugin_entry;
-use clap_sys::events::clap_input_events;
+use clap_sys::events::{clap_input_events, clap_output_events};
+use clap_sys::ext::audio_ports::{CLAP_EXT_AUDIO_PORTS, clap_plugin_audio_ports};
 use clap_sys::ext::gui::CLAP_EXT_GUI;
 use clap_sys::ext::params::CLAP_EXT_PARAMS;
 use clap_sys::ext::state::CLAP_EXT_STATE;
+use clap_sys::ext::tail::CLAP_EXT_TAIL;
 use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
 use clap_sys::host::clap_host;
 use clap_sys::plugin::{clap_plugin, clap_plugin_descriptor};
@@ -27,8 +37,13 @@ use nice_plug::wrapper::clap::{PluginDescriptor, Wrapper};
 use nice_plug::wrapper::setup_logger;
 
 use super::LowAction;
+use super::door::Door;
 use crate::engine::Engine;
 use in_order::InOrder;
+use modulated::{Apart, Modulated};
+use outputs::Outputs;
+use said::{Ends, Said};
+use waiting::Waiting;
 
 /// The plugin as the host sees it, and as the framework does.
 #[repr(C)]
@@ -39,9 +54,48 @@ struct Instance {
     inside: *const clap_plugin,
     host: *const clap_host,
     in_order: InOrder,
+    /// What the host adds to parameters for the moment.
+    modulated: Modulated,
+    apart: Apart,
+    ends: Ends,
+    outputs: Outputs,
+    waiting: Waiting,
+    /// What it shares with the plugin inside.
+    door: Arc<Door>,
 }
 
 impl Instance {
+    fn new(
+        outside: clap_plugin,
+        inside: *const clap_plugin,
+        host: *const clap_host,
+        modulated: Modulated,
+        door: Arc<Door>,
+    ) -> Self {
+        let (in_order, apart, ends) = (InOrder::new(), Apart::new(), Ends::new());
+        let (outputs, waiting) = (Outputs::default(), Waiting::new());
+        Self { outside, inside, host, in_order, modulated, apart, ends, outputs, waiting, door }
+    }
+
+    unsafe extern "C" fn activate(plugin: *const clap_plugin, rate: f64, least: u32, most: u32) -> bool {
+        if plugin.is_null() {
+            return false;
+        }
+        // SAFETY: the host gives back what `create_plugin` gave it, and does not process meanwhile.
+        unsafe {
+            let inside = (*plugin.cast::<Self>()).inside;
+            let (Some(get), Some(activate)) = ((*inside).get_extension, (*inside).activate) else {
+                return false;
+            };
+            let ports = get(inside, CLAP_EXT_AUDIO_PORTS.as_ptr()).cast::<clap_plugin_audio_ports>();
+            let count = ports.as_ref().and_then(|ports| ports.count).map_or(0, |count| count(inside, false));
+            let outputs = &mut (*plugin.cast::<Self>().cast_mut()).outputs;
+            outputs.make_room(count as usize, most as usize);
+            (*plugin.cast::<Self>().cast_mut()).waiting.forget();
+            activate(inside, rate, least, most)
+        }
+    }
+
     unsafe extern "C" fn process(
         plugin: *const clap_plugin,
         process: *const clap_process,
@@ -54,17 +108,54 @@ impl Instance {
             let inside = (*plugin.cast::<Self>()).inside;
             let Some(next) = (*inside).process else { return CLAP_PROCESS_ERROR };
             let last = (*process).frames_count.saturating_sub(1);
-            Self::in_order(plugin, (*process).in_events, last, |in_events| {
-                next(inside, &clap_process { in_events, ..*process })
-            })
+            let waiting = &raw mut (*plugin.cast::<Self>().cast_mut()).waiting;
+            let has_samples = (*process).frames_count > 0;
+            let before = if has_samples { Waiting::before(waiting, (*process).in_events) } else { None };
+            let events = before.as_ref().map_or((*process).in_events, |events| &raw const *events);
+            let said = Self::put_right(plugin, events, last, |in_events| {
+                Self::listened_to(plugin, (*process).out_events, |out_events| {
+                    let process = clap_process { in_events, out_events, ..*process };
+                    let outputs = &mut (*plugin.cast::<Self>().cast_mut()).outputs;
+                    let done = outputs.within(&process, |process| next(inside, process));
+                    done.unwrap_or(CLAP_PROCESS_ERROR)
+                })
+                .0
+            });
+            if has_samples {
+                (*waiting).forget();
+            } else {
+                (*waiting).keep((*process).in_events);
+            }
+            said
         }
+    }
+
+    /// Does something of which a host hears, with an eye on what is said; and whether anything was.
+    ///
+    /// # Safety
+    /// The plugin must be what `create_plugin` gave the host, the events null or a host's, and this done by one at a time.
+    unsafe fn listened_to<T>(
+        plugin: *const clap_plugin,
+        events: *const clap_output_events,
+        say: impl FnOnce(*const clap_output_events) -> T,
+    ) -> (T, bool) {
+        // SAFETY: as above.
+        let Some(host) = (unsafe { events.as_ref() }) else { return (say(events), false) };
+        // SAFETY: as above.
+        let (modulated, ends) = unsafe {
+            let instance = plugin.cast::<Self>().cast_mut();
+            (&(*instance).modulated, &mut (*instance).ends)
+        };
+        let mut said = Said::new(host, modulated, ends);
+        let done = say(&said.list());
+        (done, said.end())
     }
 
     /// Does something with a host's events, put right where they are not.
     ///
     /// # Safety
     /// The plugin must be what `create_plugin` gave the host, the events null or a host's, and this done by one at a time.
-    unsafe fn in_order<T>(
+    unsafe fn put_right<T>(
         plugin: *const clap_plugin,
         events: *const clap_input_events,
         last: u32,
@@ -72,13 +163,15 @@ impl Instance {
     ) -> T {
         // SAFETY: as above.
         unsafe {
-            match events.as_ref() {
-                Some(list) if !in_order::is_right(list, last) => {
-                    let instance = plugin.cast::<Self>().cast_mut();
-                    take(&InOrder::put_right(&raw mut (*instance).in_order, list, last))
-                }
-                _ => take(events),
+            let Some(mut list) = events.as_ref() else { return take(events) };
+            let instance = plugin.cast::<Self>().cast_mut();
+            let right;
+            if !in_order::is_right(list, last) {
+                right = InOrder::put_right(&raw mut (*instance).in_order, list, last);
+                list = &right;
             }
+            let apart = Apart::put(&raw mut (*instance).apart, list, &(*instance).modulated);
+            take(apart.as_ref().unwrap_or(list))
         }
     }
 
@@ -111,6 +204,7 @@ impl Instance {
                 id if id == CLAP_EXT_GUI => std::ptr::null(),
                 id if id == CLAP_EXT_PARAMS => parameters::around(extension.cast()).cast(),
                 id if id == CLAP_EXT_STATE => refused::around(extension.cast()).cast(),
+                id if id == CLAP_EXT_TAIL => tail::around(extension.cast()).cast(),
                 _ => extension,
             }
         }
@@ -156,20 +250,22 @@ unsafe extern "C" fn create_plugin(
         return std::ptr::null();
     }
     // SAFETY: the host outlives its plugins.
-    let wrapper = unsafe { Wrapper::<LowAction>::new(host) };
+    let (wrapper, door) = Door::shared_with(|| unsafe { Wrapper::<LowAction>::new(host) });
     // It is always the same. The framework would have it 0 until somebody said otherwise, and then ask for a restart.
     wrapper.current_latency.store(Engine::LATENCY, Ordering::Relaxed);
+    let modulated = Modulated::of(&wrapper);
     // The framework takes its reference back in `destroy`.
     // SAFETY: it has just been made.
     let inside = unsafe { (*Arc::into_raw(wrapper)).clap_plugin.as_ptr() };
     // SAFETY: as above. All functions find their way by `plugin_data`, so that they can be called with either.
     let outside = clap_plugin {
+        activate: Some(Instance::activate),
         process: Some(Instance::process),
         get_extension: Some(Instance::get_extension),
         destroy: Some(Instance::destroy),
         ..unsafe { *inside }
     };
-    Box::into_raw(Box::new(Instance { outside, inside, host, in_order: InOrder::new() })).cast()
+    Box::into_raw(Box::new(Instance::new(outside, inside, host, modulated, door))).cast()
 }
 
 static FACTORY: clap_plugin_factory = clap_plugin_factory {

@@ -16,7 +16,7 @@ use super::order::{self, Order};
 use super::shelf::Shelf;
 use super::voices::Voices;
 use super::workshop::{Finished, Workshop};
-use crate::engine::{Engine, INAUDIBLE, Quality};
+use crate::engine::{Engine, Quality};
 use crate::params::LowActionParams;
 use crate::performance::{Announced, PlayerEvent};
 use crate::pointer::Played;
@@ -113,10 +113,10 @@ impl Playing {
     }
 
     /// The host begins to process again, or asks for silence: the framework tells of both in the same way. One that lets a
-    /// plugin at rest sleep begins again with every first note, and is to lose nothing by it: where nothing sounds there is
+    /// plugin at rest sleep begins again with every first note, and is to lose nothing by it: where nothing is heard there is
     /// nothing to silence, and pedals, wheels and keys are where they were. Says whether anything was.
     pub fn begin_again(&mut self) -> bool {
-        let sounds = !self.engine.is_silent();
+        let sounds = !self.engine.is_inaudible();
         if sounds {
             self.reset_sound();
         }
@@ -264,19 +264,23 @@ impl Playing {
         }
     }
 
-    /// What to tell the host: for how long the strings can ring on, or that nothing sounds and nothing will.
+    /// What to tell the host: for how long the strings can ring on, or that nothing sounds and nothing will by itself.
     pub fn status(&self, looked_at: bool) -> ProcessStatus {
         if self.engine.is_silent() && looked_at && !self.offline {
             // What is done in the editor comes in only while the host goes on.
             ProcessStatus::KeepAlive
-        } else if self.engine.is_silent() {
+        } else if self.engine.is_silent() && (self.offline || self.asked.is_none()) {
             ProcessStatus::Normal
-        } else if self.engine.level() < INAUDIBLE {
-            // Nobody hears the strings, but they move: the host is to go on, and has nothing to wait for.
-            ProcessStatus::Tail(0)
         } else {
-            // An endless tail becomes the largest number, by which hosts mean just that.
-            ProcessStatus::Tail((self.engine.tail() * f64::from(self.order.sample_rate)) as u32)
+            // Also while nobody hears the strings, as long as they move: no tail would mean in VST3 that the host need not go on. And
+            // while another instrument is on its way, which comes in only if it does, and is to be there before the next note.
+            ProcessStatus::Tail(self.tail())
         }
+    }
+
+    /// For how long strings can ring on, samples.
+    pub fn tail(&self) -> u32 {
+        // An endless tail becomes the largest number, by which hosts mean just that.
+        (self.engine.tail() * f64::from(self.order.sample_rate)) as u32
     }
 }

@@ -5,7 +5,7 @@
 //! note expressions "expression" and "brightness" the wrong way round. And where a call has nothing to play into, it loses the
 //! call's notes; where the memory it has to play into is nowhere, it follows the address. So hosts are given a class of our own, in
 //! which the framework's is told everything twice that it takes late, what it loses is kept ([`Kept`]), it plays only into what is
-//! there (`outputs`), hosts are told of a state that is refused, and events pass [`mended`]. (`cargo xtask hosts` plays the first two.)
+//! there (`outputs`), hosts are told of a state that is refused and of the tail before anything sounds, and events pass [`mended`]. (`cargo xtask hosts` plays the first two.)
 
 mod heard;
 mod kept;
@@ -25,6 +25,7 @@ use nice_plug::wrapper::vst3::vst3::{Class, ComWrapper};
 use nice_plug::wrapper::vst3::{PluginInfo, Wrapper};
 
 use super::LowAction;
+use super::door::Door;
 use super::state::taken_in;
 use crate::engine::Engine;
 use heard::Hidden;
@@ -46,16 +47,16 @@ pub(super) fn mended(event: NoteEvent<()>) -> NoteEvent<()> {
 /// The plugin as hosts see it.
 struct Instance {
     framework: Wrapper<LowAction>,
-    /// What the framework would lose, shared with the plugin in it.
-    kept: Arc<Kept>,
+    /// What it shares with the plugin in that.
+    door: Arc<Door>,
     hidden: Hidden,
 }
 
 impl Instance {
     fn new() -> Self {
-        let (framework, kept) = Kept::shared_with(Wrapper::new);
+        let (framework, door) = Door::shared_with(Wrapper::new);
         let hidden = Hidden::of(&framework);
-        Self { framework, kept, hidden }
+        Self { framework, door, hidden }
     }
 }
 
@@ -114,16 +115,36 @@ impl IEditControllerTrait for Instance {
         setState(state: *mut IBStream) -> tresult;
         getState(state: *mut IBStream) -> tresult;
         getParameterCount() -> int32;
-        getParameterInfo(index: int32, info: *mut ParameterInfo) -> tresult;
         getParamStringByValue(id: ParamID, value: ParamValue, text: *mut String128) -> tresult;
         getParamValueByString(id: ParamID, text: *mut TChar, value: *mut ParamValue) -> tresult;
         normalizedParamToPlain(id: ParamID, value: ParamValue) -> ParamValue;
         plainParamToNormalized(id: ParamID, value: ParamValue) -> ParamValue;
-        getParamNormalized(id: ParamID) -> ParamValue;
         setParamNormalized(id: ParamID, value: ParamValue) -> tresult;
         setComponentHandler(handler: *mut IComponentHandler) -> tresult;
         createView(name: FIDString) -> *mut IPlugView;
     } }
+
+    unsafe fn getParameterInfo(&self, index: int32, info: *mut ParameterInfo) -> tresult {
+        // The framework has every hidden one usually at 0, whatever it stands for, and at 0.5 now; and one more than there are.
+        // SAFETY: the host gives room for it, if any.
+        unsafe {
+            if index >= self.framework.getParameterCount() {
+                return kInvalidArgument;
+            }
+            let said = self.framework.getParameterInfo(index, info);
+            if let Some(info) = info.as_mut().filter(|_| said == kResultOk)
+                && let Some(usual) = self.hidden.usual(info.id)
+            {
+                info.defaultNormalizedValue = usual;
+            }
+            said
+        }
+    }
+
+    unsafe fn getParamNormalized(&self, id: ParamID) -> ParamValue {
+        // SAFETY: nothing is asked for but a number.
+        self.hidden.usual(id).unwrap_or_else(|| unsafe { self.framework.getParamNormalized(id) })
+    }
 }
 
 impl IAudioProcessorTrait for Instance {
@@ -137,12 +158,17 @@ impl IAudioProcessorTrait for Instance {
         getBusArrangement(way: BusDirection, index: int32, arrangement: *mut SpeakerArrangement) -> tresult;
         canProcessSampleSize(size: int32) -> tresult;
         setProcessing(state: TBool) -> tresult;
-        getTailSamples() -> uint32;
     } }
 
     unsafe fn getLatencySamples(&self) -> uint32 {
         // The framework knows of none until somebody tells it, and then asks for a restart.
         Engine::LATENCY
+    }
+
+    unsafe fn getTailSamples(&self) -> uint32 {
+        // The framework knows of one only while something sounds.
+        // SAFETY: nothing is asked for but a number.
+        self.door.tail(unsafe { self.framework.getTailSamples() })
     }
 
     unsafe fn setupProcessing(&self, setup: *mut ProcessSetup) -> tresult {
@@ -158,9 +184,9 @@ impl IAudioProcessorTrait for Instance {
         // SAFETY: what the host promises is what the framework asks for, and what it has sent stays until this returns.
         unsafe {
             let Some(data) = data.as_ref() else { return kInvalidArgument };
-            self.kept.begin_call();
+            self.door.kept.begin_call();
             let said = outputs::within(data, |data| self.framework.process(data));
-            self.kept.end_call(data, self.hidden);
+            self.door.kept.end_call(data, self.hidden);
             said
         }
     }

@@ -19,7 +19,7 @@ use nice_plug::prelude::Plugin;
 use crate::plugin::LowAction;
 
 /// Events of one block that can be put in order; a wrong block's events beyond are dropped.
-const MOST_EVENTS: usize = LowAction::INPUT_EVENT_CAPACITY;
+pub(super) const MOST_EVENTS: usize = LowAction::INPUT_EVENT_CAPACITY;
 /// Events of one block that can be given another time, and room for the largest kind there is.
 const MOST_MOVED: usize = 1024;
 const ROOM: usize = 16;
@@ -115,7 +115,7 @@ impl InOrder {
 ///
 /// # Safety
 /// The list must be a host's.
-unsafe fn events(list: &clap_input_events) -> impl Iterator<Item = *const clap_event_header> {
+pub(super) unsafe fn events(list: &clap_input_events) -> impl Iterator<Item = *const clap_event_header> {
     // SAFETY: as above.
     let count = list.size.map_or(0, |size| unsafe { size(list) });
     // SAFETY: as above, and the index is below the count.

@@ -69,5 +69,13 @@ unsafe extern "C" fn flush(
     }
     // SAFETY: the host gives back what it was given, and neither processes nor flushes meanwhile. Outside of blocks no time is too
     // late.
-    unsafe { Instance::in_order(plugin, input, u32::MAX, |input| inner(plugin, input, output)) }
+    unsafe {
+        let told = input.as_ref().is_some_and(|list| list.size.is_some_and(|size| size(list) > 0));
+        let ((), said) = Instance::put_right(plugin, input, u32::MAX, |input| {
+            Instance::listened_to(plugin, output, |output| inner(plugin, input, output))
+        });
+        if told || said {
+            Instance::wake_to_change(plugin);
+        }
+    }
 }

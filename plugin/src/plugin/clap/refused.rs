@@ -1,4 +1,4 @@
-//! The host hears of a state that is refused.
+//! The host hears of a state that is refused; and one that is taken in is what is set, whatever is added to it (`modulated`).
 //!
 //! The framework (nice-plug 0.4.2) takes what the plugin has made empty as loaded. A host that believed it would save what is there
 //! over a session of a newer program.
@@ -9,6 +9,7 @@ use clap_sys::ext::state::clap_plugin_state;
 use clap_sys::plugin::clap_plugin;
 use clap_sys::stream::clap_istream;
 
+use super::Instance;
 use crate::plugin::state::taken_in;
 
 /// The framework's functions for states, and ours around them: the same for all instances.
@@ -28,6 +29,15 @@ pub(super) unsafe fn around(extension: *const clap_plugin_state) -> *const clap_
 unsafe extern "C" fn load(plugin: *const clap_plugin, stream: *const clap_istream) -> bool {
     let Some(inner) = FUNCTIONS.get().and_then(|[inner, _]| inner.load) else { return false };
     // SAFETY: the host gives back what it was given, and a stream.
-    let (loaded, taken) = taken_in(|| unsafe { inner(plugin, stream) });
-    loaded && taken
+    unsafe {
+        if plugin.is_null() {
+            return false;
+        }
+        let modulated = &(*plugin.cast::<Instance>()).modulated;
+        let (loaded, taken) = taken_in(|| modulated.without(|| inner(plugin, stream)));
+        if loaded && taken {
+            Instance::wake_to_change(plugin);
+        }
+        loaded && taken
+    }
 }

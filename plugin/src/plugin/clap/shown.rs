@@ -1,8 +1,10 @@
-//! The host goes on when the editor is shown.
+//! The host goes on when the editor is shown, and need not when it is hidden.
 //!
 //! While the editor is open the plugin never says that it rests, so that what is done there is heard. A host that had
-//! stopped before has to be asked to go on, which the framework (nice-plug 0.4.2) never does.
+//! stopped before has to be asked to go on, which the framework (nice-plug 0.4.2) never does. And one that is only hidden is open to
+//! the framework: nobody looks at it.
 
+use std::ffi::c_char;
 use std::sync::OnceLock;
 
 use clap_sys::ext::gui::{clap_plugin_gui, clap_window};
@@ -21,7 +23,9 @@ pub(super) unsafe fn around(extension: *const clap_plugin_gui) -> *const clap_pl
     // SAFETY: as above.
     let Some(inner) = (unsafe { extension.as_ref() }) else { return std::ptr::null() };
     let [_, outer] = FUNCTIONS.get_or_init(|| {
-        [*inner, clap_plugin_gui { set_parent: Some(set_parent), show: Some(show), ..*inner }]
+        let (create, set_parent) = (Some(create as _), Some(set_parent as _));
+        let (show, hide) = (Some(show as _), Some(hide as _));
+        [*inner, clap_plugin_gui { create, set_parent, show, hide, ..*inner }]
     });
     outer
 }
@@ -30,44 +34,63 @@ fn inner() -> Option<&'static clap_plugin_gui> {
     FUNCTIONS.get().map(|[inner, _]| inner)
 }
 
+unsafe extern "C" fn create(plugin: *const clap_plugin, api: *const c_char, is_floating: bool) -> bool {
+    let Some(inner) = inner().and_then(|gui| gui.create) else { return false };
+    // SAFETY: the host gives back what it was given, and names a kind of windows.
+    unsafe { inner(plugin, api, is_floating) && is_hidden(plugin) }
+}
+
 unsafe extern "C" fn set_parent(plugin: *const clap_plugin, window: *const clap_window) -> bool {
     let Some(inner) = inner().and_then(|gui| gui.set_parent) else { return false };
     // SAFETY: the host gives back what it was given, and a window.
-    unsafe { inner(plugin, window) && wake(plugin) }
+    unsafe { inner(plugin, window) && is_shown(plugin) }
 }
 
 unsafe extern "C" fn show(plugin: *const clap_plugin) -> bool {
     let Some(inner) = inner().and_then(|gui| gui.show) else { return false };
     // SAFETY: as above.
-    unsafe { inner(plugin) && wake(plugin) }
+    unsafe { inner(plugin) && is_shown(plugin) }
 }
 
-/// Asks the host to go on, or to begin again.
+unsafe extern "C" fn hide(plugin: *const clap_plugin) -> bool {
+    let Some(inner) = inner().and_then(|gui| gui.hide) else { return false };
+    // SAFETY: as above.
+    unsafe { inner(plugin) && is_hidden(plugin) }
+}
+
+/// It is there and nobody sees it: it has just been made, or hidden.
 ///
 /// # Safety
 /// The plugin must be an [`Instance`].
-unsafe fn wake(plugin: *const clap_plugin) -> bool {
-    // SAFETY: as above; the host outlives its plugins, and this may be asked on any thread.
-    unsafe {
-        if let Some(host) = (*plugin.cast::<Instance>()).host.as_ref()
-            && let Some(request) = host.request_process
-        {
-            request(host);
-        }
-    }
+unsafe fn is_hidden(plugin: *const clap_plugin) -> bool {
+    // SAFETY: as above.
+    unsafe { (*plugin.cast::<Instance>()).door.hide(true) };
     true
+}
+
+/// It is shown: also by hosts that put it into a window of theirs and say no more.
+///
+/// # Safety
+/// The plugin must be an [`Instance`].
+unsafe fn is_shown(plugin: *const clap_plugin) -> bool {
+    // SAFETY: as above.
+    unsafe {
+        (*plugin.cast::<Instance>()).door.hide(false);
+        Instance::wake(plugin)
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::ffi::{CStr, c_char, c_void};
+    use std::ffi::{CStr, c_void};
+    use std::sync::Arc;
     use std::sync::atomic::{AtomicU32, Ordering};
 
     use clap_sys::ext::gui::CLAP_EXT_GUI;
     use clap_sys::host::clap_host;
     use clap_sys::version::CLAP_VERSION;
 
-    use super::super::{InOrder, descriptor};
+    use super::super::{Modulated, descriptor};
     use super::*;
 
     static ASKED: AtomicU32 = AtomicU32::new(0);
@@ -78,6 +101,9 @@ mod tests {
     unsafe extern "C" fn shows(_: *const clap_plugin) -> bool {
         true
     }
+    unsafe extern "C" fn makes(_: *const clap_plugin, _: *const c_char, _: bool) -> bool {
+        true
+    }
     unsafe extern "C" fn refuses(_: *const clap_plugin, _: *const clap_window) -> bool {
         false
     }
@@ -85,7 +111,7 @@ mod tests {
         static GUI: clap_plugin_gui = clap_plugin_gui {
             is_api_supported: None,
             get_preferred_api: None,
-            create: None,
+            create: Some(makes),
             destroy: None,
             set_scale: None,
             get_size: None,
@@ -97,7 +123,7 @@ mod tests {
             set_transient: None,
             suggest_title: None,
             show: Some(shows),
-            hide: None,
+            hide: Some(shows),
         };
         // SAFETY: only the test below asks.
         if unsafe { CStr::from_ptr(id) } == CLAP_EXT_GUI { (&raw const GUI).cast() } else { std::ptr::null() }
@@ -112,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_host_is_woken_when_the_window_is_shown() {
+    fn a_host_is_woken_when_the_window_is_shown_until_it_is_hidden() {
         let mut host = clap_host {
             clap_version: CLAP_VERSION,
             host_data: std::ptr::null_mut(),
@@ -141,18 +167,30 @@ mod tests {
         };
         let outside = clap_plugin { get_extension: Some(Instance::get_extension), ..inside };
         let host = &raw mut host;
-        let instance = Instance { outside, inside: &inside, host, in_order: InOrder::new() };
+        let instance = Instance::new(outside, &inside, host, Modulated::default(), Arc::default());
         let plugin = (&raw const instance).cast::<clap_plugin>();
         // SAFETY: all of them are alive.
         unsafe {
             assert!(Instance::get_extension(plugin, c"clap.tail".as_ptr()).is_null());
             let gui = Instance::get_extension(plugin, CLAP_EXT_GUI.as_ptr()).cast::<clap_plugin_gui>();
             let gui = gui.as_ref().expect("there is a window");
+            assert!(gui.create.expect("it can be made")(plugin, c"x11".as_ptr(), false));
+            assert!(instance.door.is_hidden(), "it is only made");
             assert!(!gui.set_parent.expect("it can be put into another")(plugin, std::ptr::null()));
             assert_eq!(ASKED.load(Ordering::Relaxed), 0, "it could not be");
             assert!(gui.show.expect("it can be shown")(plugin));
+            assert!(!instance.door.is_hidden());
+            assert!(gui.hide.expect("it can be hidden")(plugin));
+            assert!(instance.door.is_hidden(), "nobody sees it");
         }
         assert_eq!(ASKED.load(Ordering::Relaxed), 1);
+        // SAFETY: as above.
+        let show = unsafe {
+            Instance::get_extension(plugin, CLAP_EXT_GUI.as_ptr()).cast::<clap_plugin_gui>().as_ref()
+        };
+        let show = show.and_then(|gui| gui.show).expect("it can be shown");
+        // SAFETY: as above.
+        assert!(unsafe { show(plugin) } && !instance.door.is_hidden(), "it is seen again");
         // The framework would take it at its word, and panic.
         for knows in [Some(knows_nothing as _), None] {
             // SAFETY: as above.

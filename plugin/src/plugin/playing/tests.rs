@@ -5,6 +5,7 @@ use std::time::Duration;
 use nice_plug::midi::{Channel, Key, VoiceID};
 
 use super::*;
+use crate::engine::INAUDIBLE;
 #[cfg(feature = "editor")]
 use crate::params::Start;
 use crate::pointer::pointer;
@@ -122,6 +123,50 @@ fn a_keyswitch_for_a_string_is_let_go_of_by_its_number() {
     block(on(2, 52));
     let fingers = |string| playing.engine.instrument().state(string).fingers().iter().flatten().count();
     assert_eq!(fingers(5), 0, "the keyswitch still asks for its string");
+}
+
+/// Under the finger that holds it a string moves on long after it is heard.
+#[test]
+fn a_reset_while_nothing_is_heard_changes_nothing() {
+    let params = LowActionParams::default();
+    let block = |playing: &mut Playing| {
+        let (mut left, mut right) = ([0.0; 4800], [0.0; 4800]);
+        playing.play(&params, &mut left, &mut right, &mut []);
+        left
+    };
+    let meters = Arc::new(Meters::default());
+    let [down, up] = [1.0, 0.0].map(|value| PlayerEvent::Controller { channel: 0, number: 64, value });
+    let on = |key| PlayerEvent::NoteOn { channel: 0, key, velocity: 1.0 };
+    let off = |key| PlayerEvent::NoteOff { channel: 0, key };
+    let heard = |reset: bool, pedal: PlayerEvent| {
+        let mut playing = playing(order(), false, &meters);
+        playing.touch(on(48));
+        // A pluck that nobody has heard yet will be.
+        assert!(playing.engine.level() < INAUDIBLE && !playing.engine.is_inaudible(), "it has not begun");
+        let blocks = (0..600).take_while(|_| {
+            block(&mut playing);
+            !playing.engine.is_inaudible()
+        });
+        let blocks = blocks.count();
+        assert!((10..600).contains(&blocks), "it is heard for {blocks} tenths of a second");
+        assert!(!playing.engine.is_silent(), "the string rests under the finger");
+        playing.touch(pedal);
+        block(&mut playing);
+        if reset {
+            assert!(!playing.begin_again(), "something was heard");
+        }
+        playing.touch(on(57));
+        block(&mut playing);
+        playing.touch(off(57));
+        playing.touch(off(48));
+        block(&mut playing);
+        let sound = block(&mut playing);
+        assert!(playing.begin_again() && playing.engine.is_silent(), "what sounds is not silenced");
+        sound
+    };
+    let [held, damped] = [down, up].map(|pedal| heard(false, pedal));
+    assert!(held != damped, "there is no pedal");
+    assert!(heard(true, down) == held, "the pedal is up");
 }
 
 #[test]

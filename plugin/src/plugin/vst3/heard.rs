@@ -7,6 +7,12 @@ use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::Event_::EventTypes_::*;
 use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::*;
 use nice_plug::wrapper::vst3::vst3::Steinberg::kResultOk;
 
+use crate::performance::controller;
+
+/// What stands beside the 128 controllers of a channel.
+const PRESSURE: u8 = 128;
+const WHEEL: u8 = 129;
+
 /// The parameters that stand for controllers, which are hidden: so many of each channel, one after another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hidden {
@@ -27,14 +33,31 @@ impl Hidden {
         Self { first, of_each: second - first }
     }
 
+    /// Channel and controller that a parameter stands for, if it does.
+    fn place(&self, id: ParamID) -> Option<(u8, u8)> {
+        let place = id.checked_sub(self.first).filter(|&place| place < 16 * self.of_each)?;
+        Some(((place / self.of_each) as u8, (place % self.of_each) as u8))
+    }
+
     /// The event that a change of a parameter is, if it stands for a controller.
     pub fn event(&self, id: ParamID, at: i32, value: ParamValue) -> Option<NoteEvent<()>> {
-        let place = id.checked_sub(self.first).filter(|&place| place < 16 * self.of_each)?;
-        let (timing, channel, value) = (timing(at), (place / self.of_each) as u8, value as f32);
-        Some(match (place % self.of_each) as u8 {
-            128 => NoteEvent::MidiChannelPressure { timing, channel, pressure: value },
-            129 => NoteEvent::MidiPitchBend { timing, channel, value },
+        let (channel, number) = self.place(id)?;
+        let (timing, value) = (timing(at), value as f32);
+        Some(match number {
+            PRESSURE => NoteEvent::MidiChannelPressure { timing, channel, pressure: value },
+            WHEEL => NoteEvent::MidiPitchBend { timing, channel, value },
             cc => NoteEvent::MidiCC { timing, channel, cc, value },
+        })
+    }
+
+    /// What a parameter is where nothing was said, if it stands for a controller: what a channel is then.
+    pub fn usual(&self, id: ParamID) -> Option<ParamValue> {
+        use controller::{ACCENT, BREATH, BRIGHTNESS, EXPRESSION, PARAMETER_LOWER, PARAMETER_UPPER};
+        self.place(id).map(|(_, number)| match number {
+            WHEEL => 0.5,
+            BREATH | EXPRESSION | PARAMETER_LOWER | PARAMETER_UPPER => 1.0,
+            ACCENT | BRIGHTNESS => 64.0 / 127.0,
+            _ => 0.0,
         })
     }
 }

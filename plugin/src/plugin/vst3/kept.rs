@@ -2,8 +2,7 @@
 //! outputs, or no memory behind them. The framework takes parameters from such a call and forgets the rest, so that a key that went up
 //! in it would be down for ever. Here it waits for the next block, and is played at its first sample.
 
-use std::cell::Cell;
-use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::sync::{Mutex, MutexGuard, TryLockError};
 
 use nice_plug::midi::{Channel, Key, VoiceID};
 use nice_plug::prelude::*;
@@ -15,11 +14,6 @@ use super::heard::{Hidden, note_event, points};
 
 /// How many events can wait. Notes and what is said of them get no more than half of that: what ends them finds room for longer.
 const ROOM: usize = 4_096;
-
-thread_local! {
-    /// What the next plugin that is made on this thread shares with its wrapper, which the framework lets nobody hand to it.
-    static SHARED: Cell<Option<Arc<Kept>>> = const { Cell::new(None) };
-}
 
 /// What waits for a block, for the wrapper to put in and the plugin to take out.
 #[derive(Default)]
@@ -36,20 +30,6 @@ struct Waiting {
 }
 
 impl Kept {
-    /// That of the plugin that is being made.
-    pub fn of_the_new() -> Arc<Self> {
-        SHARED.take().unwrap_or_default()
-    }
-
-    /// What is made with a plugin in it, and what that shares.
-    pub(super) fn shared_with<T>(make: impl FnOnce() -> T) -> (T, Arc<Self>) {
-        let kept = Arc::new(Self::default());
-        SHARED.set(Some(kept.clone()));
-        let made = make();
-        SHARED.take();
-        (made, kept)
-    }
-
     /// For as long as nobody else looks, which no host has reason to: nobody waits on the audio thread.
     fn open(&self) -> Option<MutexGuard<'_, Waiting>> {
         match self.0.try_lock() {

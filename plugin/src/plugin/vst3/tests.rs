@@ -123,6 +123,27 @@ fn parameters_and_controllers_without_sound_are_as_with_the_next_samples() {
     }
 }
 
+/// Hosts that put everything back to what it usually is say nothing by it.
+#[test]
+fn controllers_are_usually_what_they_are_where_nothing_was_said() {
+    let host = Host::new();
+    let hidden = host.hidden();
+    assert_eq!(hidden.len(), 16 * 130);
+    for &(id, usual) in &hidden {
+        assert_eq!(host.value(id), usual, "{id}");
+    }
+    for (number, usual) in [(64, 0.0), (129, 0.5), (11, 1.0)] {
+        let meant = host.controller(0, number, usual);
+        assert!(hidden.contains(&meant), "{number}");
+    }
+    let notes = [on(0, 1, 52), on(0, 2, 59)];
+    let plain = Host::new().play(LENGTH, &[], &notes);
+    assert!(host.play(LENGTH, &hidden, &notes) == plain);
+    // Of all of them at once, those that count are seen.
+    let told: Vec<_> = hidden.iter().map(|&(id, _)| (id, 0.0)).collect();
+    assert!(Host::new().play(LENGTH, &told, &notes) != plain);
+}
+
 #[test]
 fn what_is_refused_the_host_is_told_of() {
     let host = Host::new();
@@ -145,6 +166,30 @@ fn what_is_refused_the_host_is_told_of() {
         assert!(other.save() == before, "{what} was taken in");
     }
     assert!(other.load(&saved) && other.save() == saved);
+}
+
+/// The time for which the longest string rings, before it has been played, while it sounds and afterwards, also while a string moves
+/// that nobody hears: hosts cut what they export, and ask for nothing more, where there is none.
+#[test]
+fn the_tail_is_known_before_anything_sounds_and_afterwards() {
+    let host = Host::new();
+    let before = host.tail();
+    let seconds = f64::from(before) / 48e3;
+    assert!((20.0..40.0).contains(&seconds), "{seconds} s");
+    // With ten times the losses, so that it is soon silent.
+    let losses = ["Loss, all frequencies", "Loss, high frequencies"].map(|name| host.parameter(name, 1.0));
+    host.play(512, &losses, &[]);
+    let short = host.tail();
+    assert!((5.0..30.0).contains(&(f64::from(before) / f64::from(short))), "{short} after {before} samples");
+    // A key that is held, on a fret.
+    host.play(LENGTH, &[], &[on(0, 1, 53)]);
+    assert_eq!(host.tail(), short, "while it sounds");
+    while host.play(LENGTH, &[], &[]).iter().any(|sample| sample.abs() > 1e-7) {}
+    host.play(LENGTH, &[], &[]);
+    assert_eq!(host.tail(), short, "while it is held");
+    host.play(LENGTH, &[], &[off(0, 1, 53)]);
+    while host.play(LENGTH, &[], &[]).iter().any(|&sample| sample != 0.0) {}
+    assert_eq!(host.tail(), short, "when nothing moves");
 }
 
 /// As many as fill any room. What they say last counts, and the note's end is not lost.

@@ -291,6 +291,28 @@ impl Host {
         (id.expect("there is one of that name"), value)
     }
 
+    /// For how long it says that it may ring on, samples.
+    pub fn tail(&self) -> u32 {
+        // SAFETY: nothing is asked for but a number.
+        unsafe { self.processor.getTailSamples() }
+    }
+
+    /// All parameters that are hidden, and what they usually are.
+    pub fn hidden(&self) -> Vec<(ParamID, f64)> {
+        let controller = self.part::<IEditController>();
+        // SAFETY: there is room for each, of plain numbers.
+        unsafe {
+            let count = controller.getParameterCount();
+            let mut info: ParameterInfo = std::mem::zeroed();
+            assert_eq!(controller.getParameterInfo(count, &mut info), kInvalidArgument, "there is one more");
+            let all = (0..count).filter_map(|index| {
+                assert_eq!(controller.getParameterInfo(index, &mut info), kResultOk);
+                (info.flags & (1 << 4) != 0).then_some((info.id, info.defaultNormalizedValue))
+            });
+            all.collect()
+        }
+    }
+
     /// What a session would save.
     pub fn save(&self) -> Vec<u8> {
         let stream = ComWrapper::new(Stream(RefCell::default()));

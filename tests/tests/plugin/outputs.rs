@@ -1,0 +1,62 @@
+//! Promise: a host that gives nothing to be played into for a while, or not all that a layout has, misses nothing else: notes and
+//! parameters that come meanwhile count, and the rest has the same bits.
+
+use low_action_tests::host::{Action, Between, Host, Score, parameter};
+
+const RATE: f64 = 48_000.0;
+const LENGTH: usize = 24_000;
+
+fn score() -> Score {
+    vec![
+        (0, Action::NoteOn { channel: 0, key: 45, velocity: 100 }),
+        (5000, Action::NoteOff { channel: 0, key: 45 }),
+        (5500, Action::NoteOn { channel: 0, key: 57, velocity: 100 }),
+        (6000, Action::Parameter(parameter("level"), 0.5)),
+        (15_000, Action::NoteOff { channel: 0, key: 57 }),
+    ]
+}
+
+#[test]
+fn what_comes_while_nothing_can_be_played_into_counts() {
+    let [expected, _] = Host::new().play(RATE, &score(), LENGTH, &[500]);
+    let mut host = Host::new();
+    host.deaf = 4000..8000;
+    let [found, _] = host.play(RATE, &score(), LENGTH, &[500]);
+    assert!(
+        found[4000..8000].iter().all(|&sample| sample == 0.0) && expected[4000..8000] != found[4000..8000]
+    );
+    assert!(found[..4000] == expected[..4000] && found[8000..] == expected[8000..]);
+}
+
+#[test]
+fn strings_whose_outputs_are_missing_are_heard_in_the_stereo_one() {
+    let [expected, _] = Host::new().play(RATE, &score(), LENGTH, &[500]);
+    for given in [0, 3] {
+        let mut host = Host::new();
+        host.choose_ports(1);
+        let found = host.perform(RATE, &score(), LENGTH, &[500], given);
+        assert!(found.stereo[0] == expected, "{given} of 8");
+        assert!(found.stems.iter().flatten().any(|&sample| sample != 0.0) == (given > 0), "{given} of 8");
+    }
+}
+
+#[test]
+fn what_comes_in_a_block_without_samples_comes_with_the_next_ones() {
+    let on = Action::NoteOn { channel: 0, key: 57, velocity: 100 };
+    let off = Action::NoteOff { channel: 0, key: 45 };
+    let (force, bend) = (Action::Parameter(parameter("pluck_force"), 0.2), Action::Midi([0xE0, 0, 96]));
+    let score = |own: &[Action]| -> Score {
+        let first = (0, Action::NoteOn { channel: 0, key: 45, velocity: 100 });
+        [first].into_iter().chain(own.iter().map(|&action| (5000, action))).collect()
+    };
+    let [expected, _] = Host::new().play(RATE, &score(&[off, force, bend, on]), LENGTH, &[500]);
+    let play = |between| {
+        let mut host = Host::new();
+        host.between = between;
+        let [found, _] = host.play(RATE, &score(&[on]), LENGTH, &[500]);
+        found
+    };
+    let two = vec![(5000, Between::Nothing(vec![off, force])), (5000, Between::Nothing(vec![bend]))];
+    assert!(play(two) == expected);
+    assert!(play(Vec::new()) != expected);
+}
