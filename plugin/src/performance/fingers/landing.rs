@@ -56,8 +56,8 @@ impl Fingers {
     }
 
     /// How the string is set down behind a fret with a force, N. What a finger does to it under a hand that stills it is lost, and could
-    /// not take up what the fret does later: a finger that would come before such a hand has gone comes from so high that it meets the
-    /// string then.
+    /// not take up what the fret does later: a finger that would be down only after such a hand has come is so high that it meets the
+    /// string when that goes.
     pub(super) fn set_down(
         &self,
         fret: usize,
@@ -79,7 +79,8 @@ impl Fingers {
         let time = period * (by_itself.min(longest) / period).round().max(1.0);
         touch.hand_damping = damping_in(time).min(MOST_DAMPING);
         let rise = landing.min(LANDING_RISE * period);
-        let later = stilled.filter(|[comes, _]| *comes < time).map_or(0.0, |[_, gone]| gone);
+        let later =
+            stilled.filter(|[comes, _]| *comes < time).map_or(0.0, |[_, gone]| gone - MET_BEFORE * period);
         // In the air only the hand brakes it, once it has gathered speed.
         let travels = (later - 0.5 * rise - touch.mass / touch.hand_damping).max(0.0);
         SetDown { touch, clearance: hover + travels * force / touch.hand_damping, rise }
