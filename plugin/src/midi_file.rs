@@ -29,6 +29,9 @@ pub const LARGEST_FILE: usize = 32 << 20;
 /// The channel of percussion in General MIDI, counted from 0.
 const DRUM_CHANNEL: u8 = 9;
 
+/// The meta event that changes the tempo.
+const TEMPO: u8 = 0x51;
+
 /// Which of a file's notes are played. Tempo changes always count, and so do registered parameters: MPE and how far
 /// wheels reach are announced on other channels than those of the notes, and often in another track.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -200,6 +203,8 @@ impl Reader {
                     break;
                 }
                 TrackEventKind::Meta(MetaMessage::Tempo(tempo)) => self.tempo(tempo.as_int()),
+                // One of fewer than its three bytes.
+                TrackEventKind::Meta(MetaMessage::Unknown(TEMPO, _)) => self.tempo(0),
                 TrackEventKind::Midi { channel, message } => {
                     let chosen = |only| only == channel.as_int() + 1;
                     let selected = self.selects(index) && self.selection.channel.is_none_or(chosen);
@@ -220,7 +225,7 @@ impl Reader {
         Ok(track)
     }
 
-    /// A change of tempo, microseconds a beat. Beats that take no time would be played all at once.
+    /// A change of tempo, microseconds a beat, 0 for one that says none. Beats that take no time would be played all at once.
     fn tempo(&mut self, tempo: u32) -> Option<TickKind> {
         if tempo == 0 {
             self.no_tempos += usize::from(self.division.follows_tempo());

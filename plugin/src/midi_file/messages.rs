@@ -134,7 +134,7 @@ pub enum SongWarning {
         /// Track, counted from 1.
         track: usize,
     },
-    /// Changes to a tempo of 0 microseconds a beat, which is none, were passed over.
+    /// Changes to a tempo of 0 microseconds a beat, which is none, or of too few bytes, were passed over.
     NoTempo {
         /// How many.
         changes: usize,
@@ -187,8 +187,8 @@ impl fmt::Display for SongWarning {
                     if *changes == 1 { "1 change".to_owned() } else { format!("{changes} changes") };
                 write!(
                     out,
-                    "a tempo must be 1 to 16777215 microseconds a beat: {changes} to 0 passed over, the tempo \
-                     before goes on"
+                    "a tempo must be 1 to 16777215 microseconds a beat, in three bytes: {changes} to another \
+                     passed over, the tempo before goes on"
                 )
             }
         }

@@ -230,3 +230,17 @@ fn the_sostenuto_pedal_catches_notes_that_wait_for_a_string() {
         assert_eq!(heard(pedals), 0, "{pedals:?}");
     }
 }
+
+/// However often a key is struck while its thumb is still on the way, that bounces off once, and the palm comes back once. (Each stroke
+/// had a bounce of its own, and seven of them found no room.)
+#[test]
+fn a_thumb_that_strikes_again_at_once_bounces_off_once() {
+    let mut events = vec![(0, cc(22, 4)), (0, cc(65, 127)), (0, cc(20, 64)), (0, on(KEY - 2, 80))];
+    events.extend((0..20).map(|n| (WHILE + 60 * n, press(0).1)));
+    events.push((3 * WHILE, off(KEY - 2)));
+    let gestures = play(&events);
+    let bounce = |g: &&TimedGesture| matches!(g.gesture, Gesture::Lift { finger: 4, .. }) && g.time > WHILE;
+    let last = WHILE + 60 * 19;
+    let bounces = gestures.iter().filter(bounce).filter(|g| (last..2 * WHILE).contains(&g.time)).count();
+    assert_eq!(bounces, 1, "{gestures:#?}");
+}

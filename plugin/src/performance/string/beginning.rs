@@ -88,6 +88,7 @@ impl StringPlayer {
         }
         let towards_antinode = self.towards_antinode();
         let Some(note) = &mut self.note else { return };
+        note.met = at.after(stilled.map_or(0.0, |[_, gone]| gone));
         note.struck.beside += towards_antinode;
         let struck = note.struck;
         if start.wait > 0.0 {
@@ -119,6 +120,7 @@ impl StringPlayer {
             velocity: start.velocity,
             began: time,
             since: time + self.samples(start.wait),
+            met: time,
             presses: start.presses,
             caught: start.caught,
             fret: start.fret,

@@ -1,5 +1,7 @@
 //! What is yet to be done to a note that sounds: strokes that are on their way, and touches that end.
 
+use std::mem::discriminant;
+
 use super::StringPlayer;
 use super::stilling::Stilling;
 use crate::performance::articulation::Stroke;
@@ -55,17 +57,26 @@ pub(super) enum Deed {
     LeaveGraze,
 }
 
-/// Deeds in any order; a note has a handful at most.
+/// Deeds in any order, one of each kind: there is room for all ten.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Deeds([Option<(u64, Deed)>; 6]);
+pub(super) struct Deeds([Option<(u64, Deed)>; 10]);
 
 impl Deeds {
-    /// Adds one; where there is no room left, which no note comes near, it is left out.
+    /// Adds one, in place of another of its kind.
     pub(super) fn plan(&mut self, time: u64, deed: Deed) {
-        let free = self.0.iter_mut().find(|deed| deed.is_none());
-        debug_assert!(free.is_some(), "no room for {deed:?}");
-        if let Some(free) = free {
-            *free = Some((time, deed));
+        let same = |other: &Deed| discriminant(other) == discriminant(&deed);
+        let place = self.0.iter().position(|slot| slot.is_some_and(|(_, other)| same(&other)));
+        let place = place.or_else(|| self.0.iter().position(Option::is_none));
+        debug_assert!(place.is_some(), "no room for {deed:?}");
+        if let Some(place) = place {
+            self.0[place] = Some((time, deed));
+        }
+    }
+
+    /// The palm does not come back: the thumb strikes once more.
+    fn forget_laying(&mut self) {
+        for deed in &mut self.0 {
+            *deed = deed.filter(|(_, deed)| *deed != Deed::LayPalm);
         }
     }
 
@@ -116,13 +127,6 @@ impl Deeds {
     fn forget_tremolo(&mut self) {
         for deed in &mut self.0 {
             *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Tremolo));
-        }
-    }
-
-    /// A finger stays at its node.
-    fn forget_leaving(&mut self) {
-        for deed in &mut self.0 {
-            *deed = deed.filter(|(_, deed)| *deed != Deed::LeaveNode);
         }
     }
 
@@ -190,7 +194,6 @@ impl StringPlayer {
     pub(super) fn touch_node(&mut self, wait: f64, at: &mut Moment<impl GestureSink>) {
         if let Some(order) = self.note.and_then(|note| note.partial) {
             self.fingers.touch_node(order, at);
-            self.deeds.forget_leaving();
             self.deeds.plan(at.after(wait + AT_NODE), Deed::LeaveNode);
         }
     }
@@ -255,6 +258,7 @@ impl StringPlayer {
         if stroke == Stroke::Slap {
             let thrown = self.fingers.slap(strength, at);
             self.tells_sound(0.0, self.fingers.excitation(Technique::Slap, Some(thrown), None), at);
+            self.deeds.forget_laying();
             return self.deeds.plan(at.after(SLAP_TIME), Deed::Bounce);
         }
         let pinched = (stroke == Stroke::Pinch).then(|| self.fingers.pinched_partial(moved));

@@ -29,9 +29,7 @@ impl StringPlayer {
     pub(super) fn end(&mut self, time: u64) {
         self.under = [None; UNDER];
         self.touched = None;
-        // A finger that comes when a hand that stills the string has gone is down by then, too.
-        let since = self.note.take().map(|note| note.since.max(self.stilled));
-        let heard = since.map_or(0, |since| since + self.samples(SHORTEST_NOTE));
+        let heard = self.note.take().map_or(0, |note| note.since.max(note.met) + self.samples(SHORTEST_NOTE));
         self.ending = Some((time.max(heard), Ending::Damp));
     }
 

@@ -140,7 +140,7 @@ impl StringPlayer {
             self.called_off += u64::from(awaited);
             let heard = time.saturating_sub(self.samples(SHORTEST_NOTE));
             if let Some(note) = self.note.as_mut().filter(|note| note.since > time) {
-                note.since = heard;
+                (note.since, note.met) = (heard, heard);
             }
             self.end(time);
         } else if let Some((damped, Ending::Damp)) = self.ending
