@@ -51,7 +51,7 @@ fn repeated_notes_are_as_loud_as_the_first() {
         for (setup, string, open) in STRINGS {
             let mut stage = Stage::alone(setup, string);
             for fret in [0, 5, 12] {
-                for rate in [2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0] {
+                for rate in [2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 40.0 / 3.0] {
                     let levels = levels(&mut stage, open + fret, velocity, rate, NOTES);
                     for level in &levels[1..] {
                         let off = level - levels[0];
