@@ -200,6 +200,7 @@ mod solver;
 pub mod state;
 pub mod string;
 mod threads;
+mod times;
 mod together;
 mod touching;
 mod voice;

@@ -5,6 +5,7 @@ use toml::{Table, Value};
 
 use crate::error::Error;
 use crate::setup::Setup;
+use crate::times::refuse_times;
 
 /// The set-ups that show what strings over frets can do: name and file.
 const FILES: [(&str, &str); 16] = [
@@ -58,6 +59,7 @@ pub(crate) fn read<T: DeserializeOwned>(
     base: impl Fn(&str) -> Result<&'static str, Error>,
 ) -> Result<T, Error> {
     let mut table: Table = toml::from_str(text).map_err(|error| Error::syntax(&error, text))?;
+    refuse_times(&table)?;
     let Some(name) = table.remove(BASE) else {
         return toml::from_str(text).map_err(|error| Error::syntax(&error, text));
     };

@@ -15,6 +15,7 @@ use crate::curve::{CountOrList, Curve, OneOrEach};
 use crate::error::Error;
 use crate::gesture::Touch;
 use crate::setup::Body;
+use crate::times::refuse_times;
 
 /// A whole simulation: strings, what they may hit, what acts on them, what is listened to.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -53,6 +54,9 @@ impl Scene {
     /// the grid (a string too short for it, a stiffness too high for it) is refused when the scene is
     /// built.
     pub fn from_toml(text: &str) -> Result<Scene, Error> {
+        if let Ok(table) = toml::from_str(text) {
+            refuse_times(&table)?;
+        }
         let scene: Scene = toml::from_str(text).map_err(|error| Error::syntax(&error, text))?;
         scene.check()?;
         Ok(scene)

@@ -369,6 +369,7 @@ fn what_is_not_a_scene_is_refused() {
             "loss_0 = 100000000000000000000",
             &["line 8, loss_0", "integer `100000000000000000000`, expected one of at most 18 digits"],
         ),
+        ("loss_0 = 1.0", "loss_0 = 1979-05-27", &["loss_0: invalid type: date or time `1979-05-27`"]),
         ("loss_0 = 1.0", "loss_0 = ", &["line 8, loss_0"]),
         ("loss_0 = 1.0", "loss_0 = abc", &["line 8, loss_0: this is no value", "0.5 or 5e-3"]),
         ("loss_0 = 1.0", "loss_0 = 5 mm", &["line 8, loss_0: this is no value"]),

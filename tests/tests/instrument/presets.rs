@@ -409,6 +409,11 @@ fn limits_are_short_and_accepted_and_values_as_given() {
 fn what_is_wrong_with_a_change_is_named_by_its_keys() {
     let seventh = format!("{}pitch = 35.0", "[[string]]\n".repeat(7));
     for (change, expected) in [
+        ("[neck]\naction = 1979-05-27", "neck.action: invalid type: date or time `1979-05-27`, of which"),
+        (
+            "[[string]]\npitch = 40\n[[string]]\npitch = 07:32:00",
+            "string[2].pitch: invalid type: date or time `07:32:00`, of which",
+        ),
         ("[neck]\naction = \"low\"", "neck.action: invalid type: string \"low\", expected a number"),
         ("[neck]\nactoin = 0.003", "neck: unknown key `actoin`, expected one of"),
         ("[neck]\nworn = [[3]]", "neck.worn: invalid length 1, expected a list of 2"),
