@@ -220,9 +220,10 @@ impl Host {
                         let inputs = unsafe { InputAudioBuffers::from_raw_buffers(&[], 0) };
                         let (events, said) = (events.as_input(), &mut said.as_output());
                         let mut nowhere = OutputAudioBuffers::empty();
-                        processor
+                        let status = processor
                             .process(&inputs, &mut nowhere, &events, said, None, None)
                             .expect("processing succeeds");
+                        rests &= status != ProcessStatus::Continue;
                     }
                     Between::Flush(told) => {
                         let (events, mut said) = (events_of(&told), EventBuffer::new());

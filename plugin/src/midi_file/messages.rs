@@ -187,7 +187,7 @@ impl fmt::Display for SongWarning {
                     if *changes == 1 { "1 change".to_owned() } else { format!("{changes} changes") };
                 write!(
                     out,
-                    "a tempo must be 1 to 16777215 microseconds a beat, in three bytes: {changes} to another \
+                    "a tempo must be 1 to 16777215 microseconds a beat, in three bytes: {changes} to anything else \
                      passed over, the tempo before goes on"
                 )
             }

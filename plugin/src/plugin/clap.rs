@@ -31,7 +31,7 @@ use clap_sys::ext::tail::CLAP_EXT_TAIL;
 use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
 use clap_sys::host::clap_host;
 use clap_sys::plugin::{clap_plugin, clap_plugin_descriptor};
-use clap_sys::process::{CLAP_PROCESS_ERROR, clap_process, clap_process_status};
+use clap_sys::process::{CLAP_PROCESS_CONTINUE, CLAP_PROCESS_ERROR, clap_process, clap_process_status};
 use clap_sys::version::CLAP_VERSION;
 use nice_plug::wrapper::clap::{PluginDescriptor, Wrapper};
 use nice_plug::wrapper::setup_logger;
@@ -92,6 +92,7 @@ impl Instance {
             let outputs = &mut (*plugin.cast::<Self>().cast_mut()).outputs;
             outputs.make_room(count as usize, most as usize);
             (*plugin.cast::<Self>().cast_mut()).waiting.forget();
+            (*plugin.cast::<Self>().cast_mut()).ends.forget();
             activate(inside, rate, least, most)
         }
     }
@@ -121,12 +122,14 @@ impl Instance {
                 })
                 .0
             });
-            if has_samples {
-                (*waiting).forget();
-            } else {
-                (*waiting).keep((*process).in_events);
+            match has_samples {
+                // A block that was refused has played nothing.
+                true if said != CLAP_PROCESS_ERROR => (*waiting).forget(),
+                true => {}
+                false => (*waiting).keep((*process).in_events),
             }
-            said
+            // The host is to go on where anything waits to be played.
+            if said == CLAP_PROCESS_ERROR || (*waiting).is_empty() { said } else { CLAP_PROCESS_CONTINUE }
         }
     }
 

@@ -60,3 +60,16 @@ fn what_comes_in_a_block_without_samples_comes_with_the_next_ones() {
     assert!(play(two) == expected);
     assert!(play(Vec::new()) != expected);
 }
+
+/// A host that lets the plugin sleep is to go on for what it has said in such a block.
+#[test]
+fn a_note_of_a_block_without_samples_wakes_a_plugin_that_sleeps() {
+    let mut host = Host::new();
+    host.sleepy = true;
+    let on = Action::NoteOn { channel: 0, key: 57, velocity: 100 };
+    host.between = vec![(12_000, Between::Nothing(vec![on]))];
+    let played = host.perform(RATE, &Vec::new(), LENGTH, &[500], 0);
+    assert!(played.slept >= 10_000, "{} samples", played.slept);
+    let [before, after] = [&played.stereo[0][..12_000], &played.stereo[0][12_000..]];
+    assert!(before.iter().all(|&sample| sample == 0.0) && after.iter().any(|&sample| sample != 0.0));
+}

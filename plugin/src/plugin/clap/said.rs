@@ -23,6 +23,11 @@ impl Ends {
     pub(super) fn new() -> Self {
         Self(Vec::with_capacity(MOST_ENDS))
     }
+
+    /// None is to be told any more.
+    pub(super) fn forget(&mut self) {
+        self.0.clear();
+    }
 }
 
 /// Where a block's events go.

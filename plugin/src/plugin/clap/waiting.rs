@@ -32,6 +32,10 @@ impl Waiting {
         self.events.clear();
     }
 
+    pub(super) fn is_empty(&self) -> bool {
+        self.events.is_empty()
+    }
+
     /// Has wait what is said of notes. Nothing is allocated.
     ///
     /// # Safety

@@ -71,7 +71,7 @@ impl Apart {
                 }
                 _ => {}
             }
-            if self.given.len() >= MOST_EVENTS {
+            if self.given.len() - self.made.len() >= MOST_EVENTS {
                 // What is added is still to be known at the next block.
                 continue;
             }
