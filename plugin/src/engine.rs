@@ -38,7 +38,8 @@ pub const QUIET: f64 = 2.5e-4;
 
 /// A sound below this is over in any case: −120 dBFS, under the last bit of 16.
 pub const INAUDIBLE: f64 = 1e-6;
-/// By so long after a hand has come to a string whatever it does there is heard, s.
+/// By so long after a hand has come to a string whatever it does there is heard, s: the slowest finger is on its fret after 51 ms, and
+/// the period of a low B is 32 (docs/gestures.md).
 const LONGEST_ATTACK: f64 = 0.25;
 
 /// Everything an engine is built from.

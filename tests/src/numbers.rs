@@ -18,6 +18,11 @@ pub fn rms(sound: &[f32]) -> f64 {
     (sound.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / sound.len() as f64).sqrt()
 }
 
+/// How far differences are from none: root mean square.
+pub fn root_mean_square(differences: &[f64]) -> f64 {
+    (differences.iter().map(|x| x * x).sum::<f64>() / differences.len() as f64).sqrt()
+}
+
 /// Size of a sound's differences beside the sound itself: grows with the share of high partials.
 pub fn brightness(sound: &[f32]) -> f64 {
     let differences: Vec<f32> = sound.windows(2).map(|pair| pair[1] - pair[0]).collect();

@@ -1,7 +1,7 @@
 //! The promise: a stopped note is as loud on a string that sounds, or is being damped, as on one at rest. The hand that stills such a
 //! string takes nothing of what the finger does: that meets the string when the hand has gone.
 
-use low_action_tests::numbers::largest;
+use low_action_tests::numbers::{largest, root_mean_square};
 use low_action_tests::stage::{Stage, level, off, on};
 
 const RATE: f64 = 48_000.0;
@@ -64,7 +64,7 @@ fn a_stopped_note_is_as_loud_after_another_as_from_rest() {
                 .map(|(setup, string, open)| scope.spawn(move || differences(setup, string, open, velocity)));
             strings.into_iter().flat_map(|string| string.join().expect("it plays")).collect()
         });
-        let spread = (found.iter().map(|off| off * off).sum::<f64>() / found.len() as f64).sqrt();
+        let spread = root_mean_square(&found);
         let farthest = largest(found.iter().map(|off| off.abs()));
         println!("velocity {velocity}: {spread} dB, {farthest} at most");
         assert!(spread < usual && farthest < most, "velocity {velocity}: {spread} dB, {farthest} at most");

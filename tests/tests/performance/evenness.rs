@@ -2,7 +2,7 @@
 //! of it so that no string that comes up is heard in a soft note's place; a finger that stays down behind leaves the pitch alone.
 
 use low_action::performance::PlayerEvent;
-use low_action_tests::numbers::largest;
+use low_action_tests::numbers::{largest, root_mean_square};
 use low_action_tests::pitch::{cents, frequency_near};
 use low_action_tests::stage::{Stage, cc, hertz, level, off, on};
 
@@ -113,7 +113,7 @@ fn a_note_is_as_loud_after_another_on_its_string_as_alone() {
     let page = include_str!("../../../docs/gestures.md");
     let mut rows = String::new();
     for ((velocity, usual, _), found) in velocities.into_iter().zip(found) {
-        let spread = (found.iter().map(|off| off * off).sum::<f64>() / found.len() as f64).sqrt();
+        let spread = root_mean_square(&found);
         assert!(spread < usual, "velocity {velocity}: {spread} dB");
         let most = largest(found.iter().map(|off| off.abs()));
         rows += &format!("| {velocity} | {spread:.1} dB | {most:.1} dB |\n");

@@ -2,7 +2,7 @@
 //! whole periods of what sounds, and so takes up again what it sends along the string.
 
 use low_action_dsp::Setup;
-use low_action_tests::numbers::largest;
+use low_action_tests::numbers::{largest, root_mean_square};
 use low_action_tests::stage::{Stage, level, off, on};
 
 const RATE: f64 = 48_000.0;
@@ -69,7 +69,7 @@ fn a_finger_that_lands_makes_a_note_no_louder_and_no_softer() {
                 found.push(off);
             }
         }
-        let spread = (found.iter().map(|off| off * off).sum::<f64>() / found.len() as f64).sqrt();
+        let spread = root_mean_square(&found);
         assert!(spread < usual, "velocity {velocity}: {spread} dB");
         let most = largest(found.iter().map(|off| off.abs()));
         rows += &format!("| {velocity} | {spread:.1} dB | {most:.1} dB |\n");

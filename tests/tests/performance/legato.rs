@@ -1,7 +1,7 @@
 //! The promise: a run that one stroke begins and the left hand goes on with is about as loud throughout as if each note were plucked:
 //! down the neck by pull-offs, up by hammers, and to and fro.
 
-use low_action_tests::numbers::largest;
+use low_action_tests::numbers::{largest, root_mean_square};
 use low_action_tests::stage::{Stage, cc, level, off, on};
 
 const RATE: f64 = 48_000.0;
@@ -60,7 +60,7 @@ fn notes_of_a_run_that_the_left_hand_plays_are_as_loud_as_plucked() {
                     found.extend(louder_than_plucked(&mut stage, open, &run, apart, velocity));
                 }
             }
-            let spread = (found.iter().map(|off| off * off).sum::<f64>() / found.len() as f64).sqrt();
+            let spread = root_mean_square(&found);
             assert!(spread < usual, "velocity {velocity}, {run:?}: {spread} dB");
             row += &format!(" {spread:.1} dB | {:.1} dB |", largest(found.iter().map(|off| off.abs())));
         }

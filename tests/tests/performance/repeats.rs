@@ -3,7 +3,7 @@
 
 use low_action::performance::InputMode;
 use low_action_dsp::Gesture;
-use low_action_tests::numbers::largest;
+use low_action_tests::numbers::{largest, root_mean_square};
 use low_action_tests::stage::{Stage, cc, level, off, on};
 
 const RATE: f64 = 48_000.0;
@@ -64,7 +64,7 @@ fn repeated_notes_are_as_loud_as_the_first() {
                 }
             }
         }
-        let spread = (found.iter().map(|off| off * off).sum::<f64>() / found.len() as f64).sqrt();
+        let spread = root_mean_square(&found);
         assert!(spread < 2.0, "velocity {velocity}: {spread} dB");
         let most = largest(found.iter().map(|off| off.abs()));
         rows += &format!("| {velocity} | {spread:.1} dB | {most:.1} dB |\n");

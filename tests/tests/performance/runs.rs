@@ -2,7 +2,7 @@
 //! the way down a finger lets the string come up for each note, which is a pluck by itself.
 
 use low_action_dsp::Gesture;
-use low_action_tests::numbers::largest;
+use low_action_tests::numbers::{largest, root_mean_square};
 use low_action_tests::stage::{Stage, level, off, on};
 
 const RATE: f64 = 48_000.0;
@@ -71,7 +71,7 @@ fn notes_of_a_run_are_as_loud_as_alone() {
                     }
                 }
             }
-            let spread = (found.iter().map(|off| off * off).sum::<f64>() / found.len() as f64).sqrt();
+            let spread = root_mean_square(&found);
             assert!(spread < usual, "velocity {velocity}, down {down}: {spread} dB");
             row += &format!(" {spread:.1} dB | {:.1} dB |", largest(found.iter().map(|off| off.abs())));
         }

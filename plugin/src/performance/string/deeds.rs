@@ -73,27 +73,28 @@ impl Deeds {
         }
     }
 
+    /// Only such are done.
+    fn keep(&mut self, is_done: impl Fn(&Deed) -> bool) {
+        for deed in &mut self.0 {
+            *deed = deed.filter(|(_, deed)| is_done(deed));
+        }
+    }
+
     /// The palm does not come back: the thumb strikes once more.
     fn forget_laying(&mut self) {
-        for deed in &mut self.0 {
-            *deed = deed.filter(|(_, deed)| *deed != Deed::LayPalm);
-        }
+        self.keep(|deed| *deed != Deed::LayPalm);
     }
 
     /// The string is stopped elsewhere: a finger that was to strike does not, and no thumb grazes what has no node there any more.
     pub(super) fn forget_touches(&mut self) {
-        for deed in &mut self.0 {
-            *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Tap { .. } | Deed::Graze(_)));
-        }
+        self.keep(|deed| !matches!(deed, Deed::Tap { .. } | Deed::Graze(_)));
     }
 
     /// No stroke comes any more.
     pub(super) fn forget_strokes(&mut self) {
-        for deed in &mut self.0 {
-            *deed = deed.filter(|(_, deed)| {
-                !matches!(deed, Deed::Strike(_) | Deed::Still(_) | Deed::Tremolo | Deed::Tap { .. })
-            });
-        }
+        self.keep(|deed| {
+            !matches!(deed, Deed::Strike(_) | Deed::Still(_) | Deed::Tremolo | Deed::Tap { .. })
+        });
     }
 
     /// Whether a stroke or a tap is yet to come.
@@ -110,24 +111,18 @@ impl Deeds {
             }
             _ => None,
         })?;
-        for deed in &mut self.0 {
-            *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Still(_)));
-        }
+        self.keep(|deed| !matches!(deed, Deed::Still(_)));
         Some(struck)
     }
 
     /// A palm waits no more.
     pub(super) fn forget_palm(&mut self) {
-        for deed in &mut self.0 {
-            *deed = deed.filter(|(_, deed)| *deed != Deed::LiftPalm);
-        }
+        self.keep(|deed| *deed != Deed::LiftPalm);
     }
 
     /// A tremolo ends.
     fn forget_tremolo(&mut self) {
-        for deed in &mut self.0 {
-            *deed = deed.filter(|(_, deed)| !matches!(deed, Deed::Tremolo));
-        }
+        self.keep(|deed| !matches!(deed, Deed::Tremolo));
     }
 
     /// When the next one is due.
