@@ -20,6 +20,7 @@ pub mod state;
 mod transport;
 mod voices;
 mod vst3;
+mod waiting;
 mod workshop;
 
 use std::sync::Arc;
@@ -178,7 +179,7 @@ impl Plugin for LowAction {
         self.output.activate(buffers.sample_rate, self.params.output.bypass.value());
         self.transport = Transport::of_blocks(buffers.max_buffer_size);
         self.played.clear();
-        self.door.kept.make_room();
+        self.door.waiting.make_room();
         self.announced = self.playing.as_ref().and_then(Playing::announced).or(self.announced);
         // A host that asks for another rate is better off with a silent instrument, which says so in the log, than with one that
         // cannot be activated.
@@ -223,7 +224,7 @@ impl Plugin for LowAction {
     fn reset(&mut self) {
         self.played.clear();
         if self.playing.as_mut().is_none_or(Playing::begin_again) {
-            self.door.kept.forget();
+            self.door.waiting.forget();
         }
     }
 
@@ -239,7 +240,7 @@ impl Plugin for LowAction {
         self.blocks.fetch_add(1, Ordering::Relaxed);
         let looked_at = self.is_looked_at();
         let Some(playing) = &mut self.playing else {
-            self.door.kept.forget();
+            self.door.waiting.forget();
             left.fill(0.0);
             right.fill(0.0);
             return ProcessStatus::Normal;
@@ -252,7 +253,7 @@ impl Plugin for LowAction {
         }
         playing.follow(&self.params);
         playing.take_up(&self.played);
-        self.door.kept.hand_over(|event| playing.event(event, &self.params));
+        self.door.waiting.hand_over(|event| playing.event(event, &self.params));
         let is_vst3 = context.plugin_api() == PluginApi::Vst3;
         while let Some(event) = context.next_event() {
             playing.event(if is_vst3 { vst3::mended(event) } else { event }, &self.params);

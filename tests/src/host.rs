@@ -120,6 +120,8 @@ pub enum Between {
     Flush(Vec<Action>),
     /// Has it play a block that has no samples.
     Nothing(Vec<Action>),
+    /// Asks for silence.
+    Reset,
 }
 
 impl Default for Host {
@@ -225,6 +227,7 @@ impl Host {
                             .expect("processing succeeds");
                         rests &= status != ProcessStatus::Continue;
                     }
+                    Between::Reset => processor.reset(),
                     Between::Flush(told) => {
                         let (events, mut said) = (events_of(&told), EventBuffer::new());
                         let mut handle = processor.plugin_handle();

@@ -1,11 +1,12 @@
 //! The door through which CLAP hosts come in.
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
-//! (`in_order`), what is said of notes waits where there are no samples (`waiting`), there is something to play into (`outputs`),
+//! (`in_order`), what is said to players is heard (`heard`) and waits where there are no samples, there is something to play into (`outputs`),
 //! what is set is kept whatever is added to it (`modulated`), hosts are told in order (`said`), also of states that are refused
 //! (`refused`), what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything sounds (`tail`),
 //! and one that sleeps is woken (`wake`) when the editor is shown (`shown`), or anything has been set.
 
+mod heard;
 mod in_order;
 mod modulated;
 mod outputs;
@@ -14,7 +15,6 @@ mod refused;
 mod said;
 mod shown;
 mod tail;
-mod waiting;
 mod wake;
 
 use std::ffi::{CStr, c_char, c_void};
@@ -43,7 +43,6 @@ use in_order::InOrder;
 use modulated::{Apart, Modulated};
 use outputs::Outputs;
 use said::{Ends, Said};
-use waiting::Waiting;
 
 /// The plugin as the host sees it, and as the framework does.
 #[repr(C)]
@@ -59,7 +58,6 @@ struct Instance {
     apart: Apart,
     ends: Ends,
     outputs: Outputs,
-    waiting: Waiting,
     /// What it shares with the plugin inside.
     door: Arc<Door>,
 }
@@ -73,8 +71,8 @@ impl Instance {
         door: Arc<Door>,
     ) -> Self {
         let (in_order, apart, ends) = (InOrder::new(), Apart::new(), Ends::new());
-        let (outputs, waiting) = (Outputs::default(), Waiting::new());
-        Self { outside, inside, host, in_order, modulated, apart, ends, outputs, waiting, door }
+        let outputs = Outputs::default();
+        Self { outside, inside, host, in_order, modulated, apart, ends, outputs, door }
     }
 
     unsafe extern "C" fn activate(plugin: *const clap_plugin, rate: f64, least: u32, most: u32) -> bool {
@@ -91,7 +89,6 @@ impl Instance {
             let count = ports.as_ref().and_then(|ports| ports.count).map_or(0, |count| count(inside, false));
             let outputs = &mut (*plugin.cast::<Self>().cast_mut()).outputs;
             outputs.make_room(count as usize, most as usize);
-            (*plugin.cast::<Self>().cast_mut()).waiting.forget();
             (*plugin.cast::<Self>().cast_mut()).ends.forget();
             activate(inside, rate, least, most)
         }
@@ -109,11 +106,9 @@ impl Instance {
             let inside = (*plugin.cast::<Self>()).inside;
             let Some(next) = (*inside).process else { return CLAP_PROCESS_ERROR };
             let last = (*process).frames_count.saturating_sub(1);
-            let waiting = &raw mut (*plugin.cast::<Self>().cast_mut()).waiting;
-            let has_samples = (*process).frames_count > 0;
-            let before = if has_samples { Waiting::before(waiting, (*process).in_events) } else { None };
-            let events = before.as_ref().map_or((*process).in_events, |events| &raw const *events);
-            let said = Self::put_right(plugin, events, last, |in_events| {
+            let waiting = &(&(*plugin.cast::<Self>()).door).waiting;
+            waiting.begin_call();
+            let said = Self::put_right(plugin, (*process).in_events, last, |in_events| {
                 Self::listened_to(plugin, (*process).out_events, |out_events| {
                     let process = clap_process { in_events, out_events, ..*process };
                     let outputs = &mut (*plugin.cast::<Self>().cast_mut()).outputs;
@@ -122,14 +117,21 @@ impl Instance {
                 })
                 .0
             });
-            match has_samples {
-                // A block that was refused has played nothing.
-                true if said != CLAP_PROCESS_ERROR => (*waiting).forget(),
-                true => {}
-                false => (*waiting).keep((*process).in_events),
-            }
+            Self::have_wait(plugin, (*process).in_events);
             // The host is to go on where anything waits to be played.
-            if said == CLAP_PROCESS_ERROR || (*waiting).is_empty() { said } else { CLAP_PROCESS_CONTINUE }
+            if said == CLAP_PROCESS_ERROR || waiting.is_empty() { said } else { CLAP_PROCESS_CONTINUE }
+        }
+    }
+
+    /// A call of the host's ends, and what it has brought for players waits if nothing was played.
+    ///
+    /// # Safety
+    /// The plugin must be what `create_plugin` gave the host, and the events null or a host's.
+    unsafe fn have_wait(plugin: *const clap_plugin, events: *const clap_input_events) {
+        // SAFETY: as above.
+        unsafe {
+            let (door, modulated) = (&(*plugin.cast::<Self>()).door, &(*plugin.cast::<Self>()).modulated);
+            door.waiting.end_call(|keep| heard::each(events, modulated, keep));
         }
     }
 
@@ -145,11 +147,11 @@ impl Instance {
         // SAFETY: as above.
         let Some(host) = (unsafe { events.as_ref() }) else { return (say(events), false) };
         // SAFETY: as above.
-        let (modulated, ends) = unsafe {
+        let (modulated, brought, ends) = unsafe {
             let instance = plugin.cast::<Self>().cast_mut();
-            (&(*instance).modulated, &mut (*instance).ends)
+            (&(*instance).modulated, &(*instance).apart, &mut (*instance).ends)
         };
-        let mut said = Said::new(host, modulated, ends);
+        let mut said = Said::new(host, modulated, brought, ends);
         let done = say(&said.list());
         (done, said.end())
     }

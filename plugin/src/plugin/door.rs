@@ -5,7 +5,7 @@ use std::cell::Cell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use super::vst3::Kept;
+use super::waiting::Waiting;
 
 thread_local! {
     /// What the next plugin that is made on this thread shares with its door.
@@ -15,8 +15,8 @@ thread_local! {
 /// The plugin's side and the host's.
 #[derive(Default)]
 pub(super) struct Door {
-    /// What a VST3 host has sent without having anything played.
-    pub kept: Kept,
+    /// What a host has sent without having anything played.
+    pub waiting: Waiting,
     /// For how long what is played may ring on, samples.
     tail: AtomicU32,
     /// Whether the host has the plugin activated.

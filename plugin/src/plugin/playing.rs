@@ -269,11 +269,11 @@ impl Playing {
         if self.engine.is_silent() && looked_at && !self.offline {
             // What is done in the editor comes in only while the host goes on.
             ProcessStatus::KeepAlive
-        } else if self.engine.is_silent() && (self.offline || self.asked.is_none()) {
+        } else if self.engine.is_silent() && (self.offline || self.asked.is_none() && !self.awaits()) {
             ProcessStatus::Normal
         } else {
             // Also while nobody hears the strings, as long as they move: no tail would mean in VST3 that the host need not go on. And
-            // while another instrument is on its way, which comes in only if it does, and is to be there before the next note.
+            // while another instrument or its file is on its way, which comes in only if it does, and is to be there before the next note.
             ProcessStatus::Tail(self.tail())
         }
     }

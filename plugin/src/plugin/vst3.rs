@@ -4,11 +4,10 @@
 //! bounce would be played as if live, and what is played after it would wait for coefficients on the audio thread. And it has the
 //! note expressions "expression" and "brightness" the wrong way round. And where a call has nothing to play into, it loses the
 //! call's notes; where the memory it has to play into is nowhere, it follows the address. So hosts are given a class of our own, in
-//! which the framework's is told everything twice that it takes late, what it loses is kept ([`Kept`]), it plays only into what is
+//! which the framework's is told everything twice that it takes late, what it loses waits ([`Waiting`](super::waiting::Waiting)), it plays only into what is
 //! there (`outputs`), hosts are told of a state that is refused and of the tail before anything sounds, and events pass [`mended`]. (`cargo xtask hosts` plays the first two.)
 
 mod heard;
-mod kept;
 mod outputs;
 #[cfg(test)]
 mod tests;
@@ -29,7 +28,6 @@ use super::door::Door;
 use super::state::taken_in;
 use crate::engine::Engine;
 use heard::Hidden;
-pub(super) use kept::Kept;
 
 /// An event as the host meant it.
 pub(super) fn mended(event: NoteEvent<()>) -> NoteEvent<()> {
@@ -184,9 +182,9 @@ impl IAudioProcessorTrait for Instance {
         // SAFETY: what the host promises is what the framework asks for, and what it has sent stays until this returns.
         unsafe {
             let Some(data) = data.as_ref() else { return kInvalidArgument };
-            self.door.kept.begin_call();
+            self.door.waiting.begin_call();
             let said = outputs::within(data, |data| self.framework.process(data));
-            self.door.kept.end_call(data, self.hidden);
+            self.door.waiting.end_call(|keep| heard::each(data, self.hidden, keep));
             said
         }
     }

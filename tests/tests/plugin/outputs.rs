@@ -1,6 +1,7 @@
 //! Promise: a host that gives nothing to be played into for a while, or not all that a layout has, misses nothing else: notes and
 //! parameters that come meanwhile count, and the rest has the same bits.
 
+use clack_host::events::event_types::NoteExpressionType;
 use low_action_tests::host::{Action, Between, Host, Score, parameter};
 
 const RATE: f64 = 48_000.0;
@@ -59,6 +60,71 @@ fn what_comes_in_a_block_without_samples_comes_with_the_next_ones() {
     let two = vec![(5000, Between::Nothing(vec![off, force])), (5000, Between::Nothing(vec![bend]))];
     assert!(play(two) == expected);
     assert!(play(Vec::new()) != expected);
+}
+
+/// What is heard of a note over which something is said in a block without samples, or in one with.
+fn said_at_5000(said: &[Action], without_samples: bool) -> Vec<f32> {
+    let first = (0, Action::Begin { number: 45, channel: 0, key: 45 });
+    let mut host = Host::new();
+    let score = if without_samples {
+        host.between = vec![(5000, Between::Nothing(said.to_vec()))];
+        vec![first]
+    } else {
+        [first].into_iter().chain(said.iter().map(|&action| (5000, action))).collect()
+    };
+    let [found, _] = host.play(RATE, &score, LENGTH, &[500]);
+    found
+}
+
+#[test]
+fn all_that_is_said_of_notes_without_samples_counts() {
+    let usual = said_at_5000(&[], false);
+    let (channel, key) = (0, 45);
+    let modulation = |amount| Action::Modulate { parameter: parameter("pluck_position"), key, amount };
+    let again = Action::NoteOn { channel, key, velocity: 100 };
+    use NoteExpressionType::{Brightness, Pressure, Tuning, Vibrato, Volume};
+    let express = |what, value| Action::Express { what, channel, key, value };
+    let said = [
+        vec![modulation(0.3), again],
+        // What holds for all changes under it.
+        vec![modulation(-0.2), Action::Parameter(parameter("pluck_position"), 0.6), again],
+        vec![Action::Lift { number: 45 }],
+        vec![Action::Choke { channel, key }],
+        vec![Action::ChokeAll],
+        vec![Action::Midi([0x80, 45, 0])],
+        vec![express(Tuning, 1.5)],
+        vec![express(Vibrato, 1.0)],
+        vec![express(Volume, 0.2), again],
+        vec![express(Brightness, 1.0), again],
+        vec![express(NoteExpressionType::Expression, 0.2), again],
+        vec![Action::Midi([0xB0, 1, 127]), express(Pressure, 0.9)],
+    ];
+    for said in said {
+        let expected = said_at_5000(&said, false);
+        assert!(said_at_5000(&said, true) == expected, "{said:?}");
+        assert!(expected != usual, "{said:?} says nothing");
+    }
+}
+
+#[test]
+fn an_end_of_a_note_is_not_lost_among_thousands_of_events_without_samples() {
+    let bend = Action::Midi([0xE0, 0, 96]);
+    let (on, off) =
+        (Action::NoteOn { channel: 1, key: 64, velocity: 1 }, Action::NoteOff { channel: 0, key: 45 });
+    let many = [vec![bend; 5000], vec![on; 5000], vec![off]].concat();
+    let expected = said_at_5000(&[bend, Action::Choke { channel: 0, key: 45 }], false);
+    assert!(said_at_5000(&many, true) == expected);
+}
+
+#[test]
+fn what_waits_is_forgotten_when_a_host_asks_for_silence() {
+    let on = Action::NoteOn { channel: 0, key: 57, velocity: 100 };
+    let mut host = Host::new();
+    host.between = vec![(5000, Between::Nothing(vec![on])), (5000, Between::Reset)];
+    let [found, _] =
+        host.play(RATE, &vec![(0, Action::NoteOn { channel: 0, key: 45, velocity: 100 })], LENGTH, &[500]);
+    assert!(found[..5000].iter().any(|&sample| sample != 0.0));
+    assert!(found[5000..].iter().all(|&sample| sample == 0.0), "what waited is played");
 }
 
 /// A host that lets the plugin sleep is to go on for what it has said in such a block.

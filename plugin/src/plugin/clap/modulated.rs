@@ -60,29 +60,38 @@ impl Modulated {
         self.0.binary_search_by_key(&id, |added| added.id).ok().and_then(|place| self.0.get(place))
     }
 
+    /// The number by which players know a parameter that can be modulated for each note, and the steps it is told in; nothing for
+    /// others.
+    pub(super) fn by_note(&self, id: clap_id) -> Option<(u32, f32)> {
+        let added = self.find(id)?;
+        // SAFETY: parameters live as long as the plugin, to which this belongs.
+        unsafe { added.param.poly_modulation_id() }.map(|number| (number, added.steps()))
+    }
+
     /// What is added to a parameter, if anything is.
     fn added(&self, id: clap_id) -> Option<f64> {
         self.find(id).map(Added::amount).filter(|&amount| amount != 0.0)
     }
 
-    /// Notes what the host adds from now on; for single notes of those that can have it so, it is another matter.
-    fn note(&self, id: clap_id, note: i32, amount: f64) {
-        let Some(added) = self.find(id).filter(|_| amount.is_finite()) else { return };
-        // SAFETY: parameters live as long as the plugin, to which this belongs.
-        if note == -1 || unsafe { added.param.poly_modulation_id() }.is_none() {
-            added.amount.store(amount.to_bits(), Ordering::Relaxed);
-        }
+    /// Notes what the host adds from now on, and says what it was before; for single notes of those that can have it so, it is
+    /// another matter.
+    fn note(&self, id: clap_id, note: i32, amount: f64) -> Option<f64> {
+        let added = self.find(id).filter(|_| amount.is_finite())?;
+        let is_of_all = note == -1 || self.by_note(id).is_none();
+        is_of_all.then(|| f64::from_bits(added.amount.swap(amount.to_bits(), Ordering::Relaxed)))
     }
 
-    /// Sets once more what the framework has just set, if something is added to it.
-    pub(super) fn set(&self, id: clap_id, value: f64) {
-        let Some(added) = self.find(id).filter(|added| added.amount() != 0.0 && value.is_finite()) else {
+    /// Sets once more what the framework has just set at a time in a block, if something is added to it then.
+    pub(super) fn set(&self, id: clap_id, value: f64, time: u32, block: &Apart) {
+        let Some(added) = self.find(id).filter(|_| value.is_finite()) else { return };
+        let amount = block.added_at(time, id).unwrap_or_else(|| added.amount());
+        if amount == 0.0 {
             return;
-        };
+        }
         added.add(0.0);
         // SAFETY: parameters live as long as the plugin, to which this belongs.
         unsafe { added.param._internal_set_normalized_value(value as f32 / added.steps()) };
-        added.add(added.amount());
+        added.add(amount);
     }
 
     /// Does something that may set any parameter while nothing is added.
@@ -110,32 +119,4 @@ impl Modulated {
 }
 
 #[cfg(test)]
-mod tests {
-    use nice_plug::prelude::*;
-
-    use super::*;
-
-    /// What the editor sets the framework has set already, when it comes by.
-    #[test]
-    fn what_was_set_under_what_is_added_is_set() {
-        let param = FloatParam::new("", 0.0, FloatRange::Linear { min: 0.0, max: 2.0 });
-        let amount = AtomicU64::new(0.0_f64.to_bits());
-        let modulated = Modulated(vec![Added { id: 3, param: param.as_ptr(), amount }]);
-        let added = &modulated.0[0];
-        let framework_sets = |value| {
-            // SAFETY: it is alive.
-            unsafe { param.as_ptr()._internal_set_normalized_value(value) };
-        };
-        modulated.note(3, -1, 1.0);
-        added.add(1.0);
-        framework_sets(0.25);
-        assert_eq!((param.unmodulated_plain_value(), param.value()), (0.0, 2.0), "the framework is mended");
-        modulated.set(3, 0.25);
-        assert_eq!((param.unmodulated_plain_value(), param.value()), (0.5, 2.0));
-        modulated.without(|| framework_sets(0.75));
-        assert_eq!((param.unmodulated_plain_value(), param.value()), (1.5, 2.0));
-        modulated.note(3, -1, 0.0);
-        added.add(0.0);
-        assert_eq!(param.value(), 1.5);
-    }
-}
+mod tests;

@@ -11,7 +11,7 @@ use clap_sys::events::{
     clap_event_note, clap_event_param_value, clap_output_events,
 };
 
-use super::modulated::Modulated;
+use super::modulated::{Apart, Modulated};
 
 /// Ends of notes that can wait; beyond that the plugin says them again after the next block.
 const MOST_ENDS: usize = 256;
@@ -34,13 +34,20 @@ impl Ends {
 pub(super) struct Said<'a> {
     host: &'a clap_output_events,
     modulated: &'a Modulated,
+    /// What the host brought in the block.
+    brought: &'a Apart,
     ends: &'a mut Ends,
     any: bool,
 }
 
 impl<'a> Said<'a> {
-    pub(super) fn new(host: &'a clap_output_events, modulated: &'a Modulated, ends: &'a mut Ends) -> Self {
-        Self { host, modulated, ends, any: false }
+    pub(super) fn new(
+        host: &'a clap_output_events,
+        modulated: &'a Modulated,
+        brought: &'a Apart,
+        ends: &'a mut Ends,
+    ) -> Self {
+        Self { host, modulated, brought, ends, any: false }
     }
 
     /// What the framework is given in place of the host's; good as long as this is.
@@ -81,7 +88,7 @@ impl<'a> Said<'a> {
                 }
                 (CLAP_CORE_EVENT_SPACE_ID, CLAP_EVENT_PARAM_VALUE) => {
                     let set = &*event.cast::<clap_event_param_value>();
-                    self.modulated.set(set.param_id, set.value);
+                    self.modulated.set(set.param_id, set.value, set.header.time, self.brought);
                 }
                 _ => {}
             }
@@ -138,8 +145,8 @@ mod tests {
     fn told(ends: &mut Ends, room: usize, said: &[(u16, u32)]) -> Vec<(u16, u32)> {
         let mut host = Host { room, told: Vec::new() };
         let list = clap_output_events { ctx: (&raw mut host).cast(), try_push: Some(write) };
-        let modulated = Modulated::default();
-        let mut saying = Said::new(&list, &modulated, ends);
+        let (modulated, brought) = (Modulated::default(), Apart::new());
+        let mut saying = Said::new(&list, &modulated, &brought, ends);
         let framework = saying.list();
         for &(kind, time) in said {
             let (note_id, port_index, channel, key) = (1, 0, 0, 60);

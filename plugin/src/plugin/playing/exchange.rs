@@ -73,7 +73,7 @@ impl Playing {
     }
 
     /// Whether what is wanted now is to be passed over: a mixture of one file's values and another's.
-    fn awaits(&self) -> bool {
+    pub(super) fn awaits(&self) -> bool {
         let patience = (PATIENCE * f64::from(self.order.sample_rate)) as u64;
         self.awaits_since.is_some_and(|since| self.engine.now().saturating_sub(since) < patience)
     }

@@ -66,14 +66,34 @@ fn timing(offset: i32) -> u32 {
     u32::try_from(offset).unwrap_or(0)
 }
 
+/// All that a call brings for players.
+///
+/// # Safety
+/// It is what a host has to bring.
+pub(super) unsafe fn each(data: &ProcessData, hidden: Hidden, mut take: impl FnMut(NoteEvent<()>)) {
+    // SAFETY: all of it lives until the host's call returns, and is as it says it is.
+    unsafe {
+        // Controllers of a sample come before its notes, as in the framework.
+        if let Some(changes) = ComRef::from_raw(data.inputParameterChanges) {
+            points(changes, |id, at, value| hidden.event(id, at, value).into_iter().for_each(&mut take));
+        }
+        if let Some(events) = ComRef::from_raw(data.inputEvents) {
+            for index in 0..events.getEventCount() {
+                // All bits of an event may be 0.
+                let mut event = std::mem::zeroed();
+                if events.getEvent(index, &mut event) == kResultOk {
+                    note_event(&event).into_iter().for_each(&mut take);
+                }
+            }
+        }
+    }
+}
+
 /// All changes of parameters: whose, at which sample, to what.
 ///
 /// # Safety
 /// They must be what a host has to give.
-pub(super) unsafe fn points(
-    changes: ComRef<'_, IParameterChanges>,
-    mut take: impl FnMut(ParamID, i32, ParamValue),
-) {
+unsafe fn points(changes: ComRef<'_, IParameterChanges>, mut take: impl FnMut(ParamID, i32, ParamValue)) {
     // SAFETY: they live, and there is room for both numbers.
     unsafe {
         let queues = (0..changes.getParameterCount()).map(|index| changes.getParameterData(index));
@@ -92,7 +112,7 @@ pub(super) unsafe fn points(
 ///
 /// # Safety
 /// It must be of the type that it says.
-pub(super) unsafe fn note_event(event: &Event) -> Option<NoteEvent<()>> {
+unsafe fn note_event(event: &Event) -> Option<NoteEvent<()>> {
     let (timing, data) = (timing(event.sampleOffset), &event.__field0);
     let voice = |id: i32| if id >= 0 { VoiceID::ID(id) } else { VoiceID::Wildcard };
     let channel = |number: i16| match u8::try_from(number) {

@@ -1,5 +1,6 @@
 //! The events of a block in which what is set stands apart from what is added to it: around each value for a parameter to which
-//! something is added stand two events that take that away and put it back.
+//! something is added stand two events that take that away and put it back. And what is added when, as the editor may set something
+//! in the middle of a block.
 
 use std::ffi::c_void;
 use std::mem::size_of;
@@ -17,17 +18,41 @@ use crate::plugin::clap::in_order::{MOST_EVENTS, events};
 /// put in order.
 const MOST_VALUES: usize = 2048;
 
+/// Up to a time in the block this was added to a parameter.
+struct Until {
+    time: u32,
+    id: clap_id,
+    amount: f64,
+}
+
 /// A block's events, with values apart.
 pub(in super::super) struct Apart {
     given: Vec<*const clap_event_header>,
     /// What is given beside the host's own.
     made: Vec<clap_event_param_mod>,
+    /// What is no longer added at the block's end, in the order of times.
+    ends: Vec<Until>,
 }
 
 impl Apart {
     pub fn new() -> Self {
         let most_made = 2 * MOST_VALUES;
-        Self { given: Vec::with_capacity(MOST_EVENTS + most_made), made: Vec::with_capacity(most_made) }
+        Self {
+            given: Vec::with_capacity(MOST_EVENTS + most_made),
+            made: Vec::with_capacity(most_made),
+            ends: Vec::with_capacity(MOST_EVENTS),
+        }
+    }
+
+    /// What was added to a parameter at a time in the block when the events of that time had been taken in, if it is not what is
+    /// added at the block's end.
+    pub fn added_at(&self, time: u32, id: clap_id) -> Option<f64> {
+        self.ends.iter().find(|until| until.id == id && until.time > time).map(|until| until.amount)
+    }
+
+    /// All that the host brought is taken in at once: at any time what counts is what is added at the end.
+    pub fn take_in_at_once(&mut self) {
+        self.ends.clear();
     }
 
     /// The events of a block with values apart, good until the next block's; nothing where they can pass as they are. Nothing
@@ -53,6 +78,7 @@ impl Apart {
     unsafe fn take(&mut self, list: &clap_input_events, modulated: &Modulated) -> bool {
         self.given.clear();
         self.made.clear();
+        self.ends.clear();
         // SAFETY: as above.
         for event in unsafe { events(list) } {
             // SAFETY: hosts give pointers to events, or none.
@@ -62,7 +88,10 @@ impl Apart {
                 (CLAP_CORE_EVENT_SPACE_ID, CLAP_EVENT_PARAM_MOD) => {
                     // SAFETY: events of a kind are such.
                     let event = unsafe { &*event.cast::<clap_event_param_mod>() };
-                    modulated.note(event.param_id, event.note_id, event.amount);
+                    let (time, id) = (header.time, event.param_id);
+                    let before = modulated.note(id, event.note_id, event.amount);
+                    let before = before.filter(|_| self.ends.len() < MOST_EVENTS);
+                    self.ends.extend(before.map(|amount| Until { time, id, amount }));
                 }
                 (CLAP_CORE_EVENT_SPACE_ID, CLAP_EVENT_PARAM_VALUE) => {
                     // SAFETY: as above.

@@ -6,21 +6,16 @@ use std::sync::{Mutex, MutexGuard, TryLockError};
 
 use nice_plug::midi::{Channel, Key, VoiceID};
 use nice_plug::prelude::*;
-use nice_plug::wrapper::vst3::vst3::ComRef;
-use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::*;
-use nice_plug::wrapper::vst3::vst3::Steinberg::kResultOk;
-
-use super::heard::{Hidden, note_event, points};
 
 /// How many events can wait. Notes and what is said of them get no more than half of that: what ends them finds room for longer.
 const ROOM: usize = 4_096;
 
 /// What waits for a block, for the wrapper to put in and the plugin to take out.
 #[derive(Default)]
-pub(in crate::plugin) struct Kept(Mutex<Waiting>);
+pub(super) struct Waiting(Mutex<List>);
 
 #[derive(Default)]
-struct Waiting {
+struct List {
     /// In order.
     events: Vec<NoteEvent<()>>,
     /// Keys of each channel that went up when there was no room left.
@@ -29,9 +24,9 @@ struct Waiting {
     played: bool,
 }
 
-impl Kept {
+impl Waiting {
     /// For as long as nobody else looks, which no host has reason to: nobody waits on the audio thread.
-    fn open(&self) -> Option<MutexGuard<'_, Waiting>> {
+    fn open(&self) -> Option<MutexGuard<'_, List>> {
         match self.0.try_lock() {
             Ok(waiting) => Some(waiting),
             Err(TryLockError::Poisoned(waiting)) => Some(waiting.into_inner()),
@@ -71,44 +66,29 @@ impl Kept {
     }
 
     /// A call of the host's begins.
-    pub(super) fn begin_call(&self) {
+    pub fn begin_call(&self) {
         if let Some(mut waiting) = self.open() {
             waiting.played = false;
         }
     }
 
     /// The call ends. If nothing was played in it, what it brought waits.
-    ///
-    /// # Safety
-    /// What the call brought is what a host has to bring.
-    pub(super) unsafe fn end_call(&self, data: &ProcessData, hidden: Hidden) {
+    pub fn end_call(&self, bring: impl FnOnce(&mut dyn FnMut(NoteEvent<()>))) {
         let Some(mut waiting) = self.open() else { return };
         if waiting.played {
             return;
         }
         let first = waiting.events.len();
-        // SAFETY: all of it lives until the host's call returns, and is as it says it is.
-        unsafe {
-            // Controllers of a sample come before its notes, as in the framework.
-            if let Some(changes) = ComRef::from_raw(data.inputParameterChanges) {
-                points(changes, |id, at, value| {
-                    hidden.event(id, at, value).into_iter().for_each(|event| waiting.put(first, event));
-                });
-            }
-            if let Some(events) = ComRef::from_raw(data.inputEvents) {
-                for index in 0..events.getEventCount() {
-                    // All bits of an event may be 0.
-                    let mut event = std::mem::zeroed();
-                    if events.getEvent(index, &mut event) == kResultOk {
-                        note_event(&event).into_iter().for_each(|event| waiting.put(first, event));
-                    }
-                }
-            }
-        }
+        bring(&mut |event| waiting.put(first, event));
+    }
+
+    /// Whether nothing waits.
+    pub fn is_empty(&self) -> bool {
+        self.open().is_none_or(|waiting| waiting.events.is_empty())
     }
 }
 
-impl Waiting {
+impl List {
     /// An event comes, in a call whose first has or would have had the index `first`: after those of its sample and before later
     /// ones, which is moved and not sorted since sorting may allocate.
     fn put(&mut self, first: usize, event: NoteEvent<()>) {
@@ -122,7 +102,7 @@ impl Waiting {
             return;
         }
         match event {
-            NoteEvent::NoteOff { channel, key, .. } => {
+            NoteEvent::NoteOff { channel, key, .. } | NoteEvent::Choke { channel, key, .. } => {
                 let keys = key.number().map_or(u128::MAX, |key| 1 << (key & 127));
                 let meant = |own: u8| channel.number().is_none_or(|channel| channel == own);
                 let channels = (0..).zip(lifted).filter(|&(own, _)| meant(own));
@@ -140,17 +120,26 @@ impl Waiting {
 
 /// Whether it ends something, or may.
 fn ends(event: &NoteEvent<()>) -> bool {
-    use NoteEvent::{MidiCC, MidiChannelPressure, MidiPitchBend, NoteOff};
-    matches!(event, NoteOff { .. } | MidiCC { .. } | MidiChannelPressure { .. } | MidiPitchBend { .. })
+    use NoteEvent::{Choke, MidiCC, MidiChannelPressure, MidiPitchBend, MonoAutomation, NoteOff};
+    matches!(
+        event,
+        NoteOff { .. }
+            | Choke { .. }
+            | MidiCC { .. }
+            | MidiChannelPressure { .. }
+            | MidiPitchBend { .. }
+            | MonoAutomation { .. }
+    )
 }
 
-/// Whether both say something of the same controller of a channel.
+/// Whether both say something of the same controller of a channel, or of the same parameter.
 fn is_of_the_same(one: &NoteEvent<()>, other: &NoteEvent<()>) -> bool {
     let controller = |event: &NoteEvent<()>| match *event {
-        NoteEvent::MidiCC { channel, cc, .. } => Some((channel, Some(cc))),
+        NoteEvent::MidiCC { channel, cc, .. } => Some((u32::from(channel), Some(cc))),
         NoteEvent::MidiPitchBend { channel, .. } | NoteEvent::MidiChannelPressure { channel, .. } => {
-            Some((channel, None))
+            Some((u32::from(channel), None))
         }
+        NoteEvent::MonoAutomation { poly_modulation_id, .. } => Some((poly_modulation_id, None)),
         _ => None,
     };
     std::mem::discriminant(one) == std::mem::discriminant(other) && controller(one) == controller(other)
@@ -173,38 +162,60 @@ mod tests {
         NoteEvent::MidiCC { timing: 0, channel: 2, cc: 64, value }
     }
 
-    fn played(kept: &Kept) -> Vec<NoteEvent<()>> {
+    fn choke(key: u8) -> NoteEvent<()> {
+        let (voice_id, channel) = (VoiceID::Wildcard, Channel::Number(2));
+        NoteEvent::Choke { timing: 0, voice_id, channel, key: Key::Number(key) }
+    }
+
+    /// A call in which nothing is played brings this.
+    fn call(waiting: &Waiting, events: &[NoteEvent<()>]) {
+        waiting.begin_call();
+        waiting.end_call(|keep| events.iter().for_each(|&event| keep(event)));
+    }
+
+    fn played(waiting: &Waiting) -> Vec<NoteEvent<()>> {
         let mut events = Vec::new();
-        kept.hand_over(|event| events.push(event));
+        waiting.hand_over(|event| events.push(event));
         events
     }
 
     #[test]
     fn events_of_a_call_are_in_order_of_their_samples_and_calls_one_after_another() {
-        let kept = Kept::default();
-        kept.make_room();
-        let mut waiting = kept.open().expect("nobody looks");
-        [on(9, 1), on(3, 2), on(9, 3), on(0, 4)].into_iter().for_each(|event| waiting.put(0, event));
-        [on(5, 5), on(0, 6)].into_iter().for_each(|event| waiting.put(4, event));
-        drop(waiting);
-        assert_eq!(played(&kept), [4, 2, 1, 3, 6, 5].map(|key| on(0, key)));
-        assert!(played(&kept).is_empty());
+        let waiting = Waiting::default();
+        waiting.make_room();
+        call(&waiting, &[on(9, 1), on(3, 2), on(9, 3), on(0, 4)]);
+        call(&waiting, &[on(5, 5), on(0, 6)]);
+        assert!(!waiting.is_empty());
+        assert_eq!(played(&waiting), [4, 2, 1, 3, 6, 5].map(|key| on(0, key)));
+        assert!(waiting.is_empty() && played(&waiting).is_empty());
+    }
+
+    #[test]
+    fn what_was_played_does_not_wait() {
+        let waiting = Waiting::default();
+        waiting.make_room();
+        call(&waiting, &[on(0, 1)]);
+        waiting.begin_call();
+        assert_eq!(played(&waiting), [on(0, 1)]);
+        waiting.end_call(|keep| keep(on(0, 2)));
+        assert!(waiting.is_empty());
     }
 
     #[test]
     fn room_is_made_once_and_what_ends_notes_is_not_lost() {
-        let kept = Kept::default();
-        kept.make_room();
-        let room = kept.open().expect("nobody looks").events.capacity();
-        let put = |event| kept.open().expect("nobody looks").put(0, event);
+        let waiting = Waiting::default();
+        waiting.make_room();
+        let room = waiting.open().expect("nobody looks").events.capacity();
+        let put = |event| waiting.open().expect("nobody looks").put(0, event);
         put(cc(1.0));
         (0..9_000).for_each(|_| put(on(0, 60)));
         (0..9_000).for_each(|_| put(off(Channel::Number(2), Key::Number(60))));
         put(off(Channel::Number(3), Key::Wildcard));
         put(off(Channel::Wildcard, Key::Number(7)));
+        put(choke(61));
         put(cc(0.0));
-        assert_eq!(kept.open().expect("nobody looks").events.capacity(), room);
-        let events = played(&kept);
+        assert_eq!(waiting.open().expect("nobody looks").events.capacity(), room);
+        let events = played(&waiting);
         assert_eq!(events[0], cc(0.0), "the pedal is up at last");
         assert_eq!(events.iter().filter(|&&event| event == on(0, 60)).count(), ROOM / 2 - 1);
         let ended: Vec<_> = events
@@ -214,12 +225,16 @@ mod tests {
                 _ => None,
             })
             .collect();
-        assert!(ended.contains(&(2, 60)) && (0..128).all(|key| ended.contains(&(3, key))));
+        assert!(
+            ended.contains(&(2, 60))
+                && ended.contains(&(2, 61))
+                && (0..128).all(|key| ended.contains(&(3, key)))
+        );
         assert!((0..16).all(|channel| ended.contains(&(channel, 7))));
-        assert_eq!(ended.len(), 1 + 128 + 15);
-        assert!(played(&kept).is_empty());
+        assert_eq!(ended.len(), 2 + 128 + 15);
+        assert!(played(&waiting).is_empty());
         // Before there is any, nothing waits.
-        let closed = Kept::default();
+        let closed = Waiting::default();
         closed.open().expect("nobody looks").put(0, on(0, 60));
         assert!(played(&closed).is_empty());
     }
