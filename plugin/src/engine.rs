@@ -203,7 +203,7 @@ impl Engine {
         let time = now + u64::from(offset);
         if self.waiting.len() == WAITING_EVENTS {
             // Those of the present sample need not wait.
-            self.deliver(now + 1);
+            self.deliver_present();
         }
         if self.waiting.len() == WAITING_EVENTS {
             self.lost += 1;
@@ -212,6 +212,11 @@ impl Engine {
         // Hosts send events in order, so this looks at the last one and is done.
         let after = self.waiting.iter().rev().take_while(|other| other.time > time).count();
         self.waiting.insert(self.waiting.len() - after, Waiting { time, event });
+    }
+
+    /// Has the events of the next sample happen at once, so that what hands are told from now on comes after them.
+    pub fn deliver_present(&mut self) {
+        self.deliver(self.instrument.now() + 1);
     }
 
     /// Plays the next block. Both channels must be of one length; it may be any.

@@ -108,7 +108,6 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let rendering = Rendering {
         engine,
         touching,
-        begins_anew: false,
         song: &song,
         source,
         files,

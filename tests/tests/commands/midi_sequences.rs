@@ -93,11 +93,26 @@ fn a_sequence_sounds_in_the_whole_as_alone() {
         assert_eq!(list(&whole, "notes").len(), 2, "{input:?}");
         // The first note ends with its sequence, whatever holds it.
         let ends = &list(&whole, "notes")[0];
-        assert_eq!((sample(ends, "end_sample"), ends["end_by"].as_str()), (7_999, Some("damped")), "{ends}");
+        assert_eq!((sample(ends, "end_sample"), ends["end_by"].as_str()), (8_000, Some("damped")), "{ends}");
         let (whole, alone) = (labelled(&whole, 8_000), labelled(&alone, 0));
         assert_eq!(whole, alone, "{input:?}, channel {}", channel + 1);
         assert_eq!(whole.0.len(), 1);
         assert!(!whole.1.is_empty(), "it is bent");
+    }
+}
+
+/// Three sequences of a second, in each of which a key is let go of at the very end; that of the last has no other after it.
+#[test]
+fn a_key_let_go_of_at_the_end_of_a_sequence_is_so_at_its_sample() {
+    let one = |key| track(&[(0, &[0x90, key, 100]), (192, &[0x80, key, 0])]);
+    for rate in [8_000, 11_025] {
+        let options = ["--quality", "draft", "--sample-rate", &rate.to_string(), "--tail", "0.1"];
+        let labels = render(PROGRAM, &file(2, 96, &[one(45), one(52), one(45)]), &options).labels;
+        let at = |key| -> Vec<usize> { list(&labels, "notes").iter().map(|note| sample(note, key)).collect() };
+        for key in ["released_sample", "end_sample"] {
+            assert_eq!(at(key), [rate, 2 * rate, 3 * rate], "{key}");
+        }
+        assert_eq!(at("asked_sample"), [0, rate, 2 * rate]);
     }
 }
 

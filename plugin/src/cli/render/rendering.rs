@@ -37,8 +37,6 @@ pub(super) struct Rendering<'a> {
     pub engine: Engine,
     /// How hands act, as the engine has been told.
     pub touching: Touching,
-    /// Whether a sequence of the song is over, and the next one begins at this sample.
-    pub begins_anew: bool,
     pub song: &'a Song,
     pub source: Source<'a>,
     pub files: Files,
@@ -114,20 +112,19 @@ impl Rendering<'_> {
         events: &mut Peekable<impl Iterator<Item = (u64, PlayerEvent)>>,
         frames: u64,
     ) -> u64 {
-        if std::mem::take(&mut self.begins_anew) {
-            self.forget_reach();
-        }
         let now = self.engine.now();
         while let Some(&(time, event)) = events.peek() {
             let offset = time.saturating_sub(now);
-            if offset > 0 && (offset >= frames || !self.engine.has_room()) {
+            let sequence_ends = event == PlayerEvent::AllNotesOff;
+            if offset > 0 && (offset >= frames || sequence_ends || !self.engine.has_room()) {
                 return offset.min(frames);
             }
             self.engine.event(offset as u32, event);
             events.next();
-            if event == PlayerEvent::AllNotesOff {
-                self.begins_anew = true;
-                return (offset + 1).min(frames);
+            if sequence_ends {
+                // What no event puts back is put back between what ends and what begins at this sample.
+                self.engine.deliver_present();
+                self.forget_reach();
             }
         }
         frames

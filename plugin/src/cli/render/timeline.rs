@@ -3,8 +3,8 @@
 use crate::midi_file::Song;
 use crate::performance::PlayerEvent;
 
-/// All events in order. A sequence of format 2 is over, and let go of, a sample before the next one begins: between them there is
-/// time to put back what no event puts back. One that has no sample is not heard.
+/// All events in order. A sequence of format 2 is over, and let go of, at the sample at which the next one begins. One that has no
+/// sample is not heard.
 pub(super) fn timeline(song: &Song, sample_rate: u32) -> Vec<(u64, PlayerEvent)> {
     let mut events: Vec<(u64, PlayerEvent)> = Vec::with_capacity(song.events.len());
     // The first sample of the present sequence, and the place of its first event.
@@ -18,9 +18,6 @@ pub(super) fn timeline(song: &Song, sample_rate: u32) -> Vec<(u64, PlayerEvent)>
         if sample == begins {
             events.truncate(first);
             continue;
-        }
-        for (own, _) in &mut events[first..] {
-            *own = (*own).min(sample - 1);
         }
         (begins, first) = (sample, events.len());
     }
@@ -43,7 +40,7 @@ mod tests {
     }
 
     #[test]
-    fn sequences_begin_where_they_do_and_are_over_before() {
+    fn sequences_are_over_where_the_next_one_begins() {
         let note = |key| PlayerEvent::NoteOn { channel: 0, key, velocity: 100.0 / 127.0 };
         let notes = |lengths: &[u8], rate| -> Vec<_> {
             let events = timeline(&sequences(lengths), rate);
@@ -52,11 +49,11 @@ mod tests {
             events.into_iter().filter(|&(_, event)| kept(event)).collect()
         };
         let end = PlayerEvent::AllNotesOff;
-        let two = [(0, note(60)), (4_799, end), (4_800, note(61))];
+        let two = [(0, note(60)), (4_800, end), (4_800, note(61))];
         assert_eq!(notes(&[100, 0], 48_000), two);
         // Those without a sample, the last one excepted, after which nothing comes.
-        let others = [(0, note(61)), (4_799, end), (4_800, note(64))];
+        let others = [(0, note(61)), (4_800, end), (4_800, note(64))];
         assert_eq!(notes(&[0, 100, 0, 0, 0], 48_000), others);
-        assert_eq!(notes(&[1, 0], 1_000), [(0, note(60)), (0, end), (1, note(61))]);
+        assert_eq!(notes(&[1, 0], 1_000), [(0, note(60)), (1, end), (1, note(61))]);
     }
 }
