@@ -108,12 +108,26 @@ fn a_key_let_go_of_at_the_end_of_a_sequence_is_so_at_its_sample() {
     for rate in [8_000, 11_025] {
         let options = ["--quality", "draft", "--sample-rate", &rate.to_string(), "--tail", "0.1"];
         let labels = render(PROGRAM, &file(2, 96, &[one(45), one(52), one(45)]), &options).labels;
-        let at = |key| -> Vec<usize> { list(&labels, "notes").iter().map(|note| sample(note, key)).collect() };
+        let at =
+            |key| -> Vec<usize> { list(&labels, "notes").iter().map(|note| sample(note, key)).collect() };
         for key in ["released_sample", "end_sample"] {
             assert_eq!(at(key), [rate, 2 * rate, 3 * rate], "{key}");
         }
         assert_eq!(at("asked_sample"), [0, rate, 2 * rate]);
     }
+}
+
+#[test]
+fn a_key_struck_at_the_end_of_a_sequence_is_not_heard() {
+    // The second begins with the same key.
+    let ends = track(&[(0, &[0x90, 45, 100]), (192, &[0x90, 45, 100]), (0, &[0x90, 52, 100])]);
+    let next = track(&[(0, &[0x90, 45, 80]), (96, &[0x80, 45, 0])]);
+    let options = ["--quality", "draft", "--sample-rate", "8000", "--tail", "0.1", "--variation", "0"];
+    let labels = render(PROGRAM, &file(2, 96, &[ends, next]), &options).labels;
+    let notes =
+        list(&labels, "notes").iter().map(|note| (sample(note, "velocity"), sample(note, "asked_sample")));
+    assert_eq!(notes.collect::<Vec<_>>(), [(100, 0), (80, 8_000)]);
+    assert!(list(&labels, "unplayed").is_empty());
 }
 
 #[test]

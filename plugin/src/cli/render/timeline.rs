@@ -3,8 +3,8 @@
 use crate::midi_file::Song;
 use crate::performance::PlayerEvent;
 
-/// All events in order. A sequence of format 2 is over, and let go of, at the sample at which the next one begins. One that has no
-/// sample is not heard.
+/// All events in order. A sequence of format 2 is over, and let go of, at the sample at which the next one begins. What has no
+/// sample before that is not heard: neither a sequence nor a note that begins at the end of one.
 pub(super) fn timeline(song: &Song, sample_rate: u32) -> Vec<(u64, PlayerEvent)> {
     let mut events: Vec<(u64, PlayerEvent)> = Vec::with_capacity(song.events.len());
     // The first sample of the present sequence, and the place of its first event.
@@ -19,6 +19,9 @@ pub(super) fn timeline(song: &Song, sample_rate: u32) -> Vec<(u64, PlayerEvent)>
             events.truncate(first);
             continue;
         }
+        let own = events.split_off(first);
+        let begins_late = |&(time, event): &_| time == sample && matches!(event, PlayerEvent::NoteOn { .. });
+        events.extend(own.into_iter().filter(|own| !begins_late(own)));
         (begins, first) = (sample, events.len());
     }
     events
@@ -29,12 +32,13 @@ mod tests {
     use super::*;
     use crate::midi_file::Selection;
 
-    /// A file of format 2 whose sequences are a note each, that end so many ticks after it; a tick is a millisecond.
+    /// A file of format 2 whose sequences are a note each, that end so many ticks after it with another; a tick is a millisecond.
     fn sequences(lengths: &[u8]) -> Song {
         let mut bytes = [&b"MThd\0\0\0\x06\0\x02\0"[..], &[lengths.len() as u8, 0xe7, 40]].concat();
         for (key, &length) in (60..).zip(lengths) {
-            bytes.extend(b"MTrk\0\0\0\x08");
-            bytes.extend([0, 0x90, key, 100, length, 0xff, 0x2f, 0]);
+            // Another one is struck at the very end.
+            bytes.extend(b"MTrk\0\0\0\x0c");
+            bytes.extend([0, 0x90, key, 100, length, 0x90, key + 20, 100, 0, 0xff, 0x2f, 0]);
         }
         Song::from_midi(&bytes, Selection::default()).unwrap()
     }
@@ -49,11 +53,11 @@ mod tests {
             events.into_iter().filter(|&(_, event)| kept(event)).collect()
         };
         let end = PlayerEvent::AllNotesOff;
-        let two = [(0, note(60)), (4_800, end), (4_800, note(61))];
+        let two = [(0, note(60)), (4_800, end), (4_800, note(61)), (4_800, note(81))];
         assert_eq!(notes(&[100, 0], 48_000), two);
-        // Those without a sample, the last one excepted, after which nothing comes.
-        let others = [(0, note(61)), (4_800, end), (4_800, note(64))];
+        // What has no sample, the last sequence excepted, after which nothing comes.
+        let others = [(0, note(61)), (4_800, end), (4_800, note(64)), (4_800, note(84))];
         assert_eq!(notes(&[0, 100, 0, 0, 0], 48_000), others);
-        assert_eq!(notes(&[1, 0], 1_000), [(0, note(60)), (1, end), (1, note(61))]);
+        assert_eq!(notes(&[1, 0], 1_000), [(0, note(60)), (1, end), (1, note(61)), (1, note(81))]);
     }
 }
