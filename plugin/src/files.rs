@@ -9,7 +9,7 @@ use std::fs::{self, File, Permissions};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use tempfile::{NamedTempFile, PathPersistError, TempPath};
 
 /// Writes a text in place of what is there, in a folder that is made if need be. Where a link is, what it points to is
@@ -41,7 +41,9 @@ impl TextDraft {
             bail!("cannot write {}: it is a folder", target.display());
         }
         let folder = place.parent().unwrap_or(Path::new("."));
-        fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+        let make = || format!("cannot make the folder {}", folder.display());
+        ensure!(!folder.exists() || folder.is_dir(), "{}: it is a file", make());
+        fs::create_dir_all(folder).with_context(make)?;
         let write = || -> io::Result<NamedTempFile> {
             let mut file = beside(&place)?;
             file.write_all(text.as_bytes())?;

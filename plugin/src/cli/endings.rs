@@ -34,10 +34,18 @@ pub(super) const SVG: Form = Form {
     ],
 };
 
+/// Labels.
+pub(super) const JSON: Form = Form {
+    name: "JSON",
+    others: &["csv", "tsv", "txt", "xml", "yaml", "yml", "jams", "npy", "npz", "wav", "svg", "png", "pdf"],
+};
+/// Songs and descriptions, which are read and never written: a slip of the pen is not to cost one.
+const READ: [&str; 5] = ["mid", "midi", "rmi", "kar", "toml"];
+
 /// Refuses a name, given by an option, that promises another form.
 pub(super) fn refuse_others(option: &str, path: &Path, form: &Form) -> Outcome {
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-    if form.others.iter().all(|other| ending != *other) {
+    if form.others.iter().chain(&READ).all(|other| ending != *other) {
         return Ok(());
     }
     let (path, Form { name, .. }) = (shown(path), form);

@@ -54,8 +54,9 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     };
     let names: Vec<&str> = options.setup.string.iter().map(|string| string.name.as_str()).collect();
     let output = output_path(arguments)?;
-    refuse_others("-o", &output, &endings::WAV)?;
     check_paths(arguments, setup_file.as_deref(), &output, &names)?;
+    refuse_others("-o", &output, &endings::WAV)?;
+    arguments.labels.as_ref().map_or(Ok(()), |labels| refuse_others("--labels", labels, &endings::JSON))?;
     let (there, mut again) = match arguments.skip_existing.then(|| There::look(arguments, &output, &names)) {
         Some(Ok(there)) => (Some(there), None),
         Some(Err(reason)) => (None, reason),

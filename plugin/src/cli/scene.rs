@@ -101,11 +101,11 @@ fn check_paths(arguments: &SceneArgs) -> Outcome {
         ("--trace", &arguments.trace, endings::NPZ),
         ("--figure", &arguments.figure, endings::SVG),
     ];
-    for (option, path, form) in &written {
-        path.as_deref().map_or(Ok(()), |path| refuse_others(option, path, form))?;
-    }
-    let written = written.into_iter().filter_map(|(name, path, _)| Some((name.to_owned(), path.clone()?)));
-    keep_apart(&[("the scene".into(), arguments.file.clone())], &written.collect::<Vec<_>>())
+    let named = written.iter().filter_map(|(name, path, _)| Some(((*name).to_owned(), (*path).clone()?)));
+    keep_apart(&[("the scene".into(), arguments.file.clone())], &named.collect::<Vec<_>>())?;
+    written.iter().try_for_each(|(option, path, form)| {
+        path.as_deref().map_or(Ok(()), |path| refuse_others(option, path, form))
+    })
 }
 
 fn compute(name: &str, simulation: &mut Simulation, outputs: &mut Outputs) -> Result<Seen> {

@@ -18,8 +18,8 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
         unless_closed(std::io::stdout().write_all(standalone::list().as_bytes()))?;
         return Ok(());
     }
-    let settings = arguments.taken.settings()?;
-    let mut start = Start { quality: arguments.quality, settings, ..Start::default() };
+    arguments.taken.mode()?;
+    let mut start = Start { quality: arguments.quality, ..Start::default() };
     let name = arguments.instrument.to_string_lossy();
     let mut setup = match (crate::params::InstrumentChoice::named(&name), Setup::shipped(&name)) {
         (Some(choice), Some(setup)) => {
@@ -35,6 +35,7 @@ pub(super) fn run(arguments: &StandAloneArgs) -> Outcome {
     };
     arguments.taken.work_on(&mut setup);
     arguments.taken.fits(&setup, &arguments.instrument)?;
+    start.settings = arguments.taken.settings()?;
     let devices = Devices {
         backend: arguments.backend.clone(),
         output: arguments.output_device.clone(),

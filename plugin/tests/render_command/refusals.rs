@@ -55,19 +55,43 @@ fn wrong_usage_is_code_2() {
             &["render", "song.mid", "--set", "level=0"],
             "there is no parameter level: must be action, relief, ",
         ),
+        (
+            &["render", "song.mid", "--set", "=2"],
+            "'=2' for '--set <ID=VALUE>': must be ID=VALUE, as velocity_curve=2",
+        ),
+        (
+            &["render", "song.mid", "--set", "take=1", "--set", "variation=0", "--set", "variation=1"],
+            "--set variation cannot be used multiple times",
+        ),
         (&["render", "song.mid", "--set", "capo=2"], "capo has an option of its own, --capo"),
         (
             &["render", "song.mid", "--set", "take=2"],
             "--set take is for the stand-alone instrument: a song has --seed",
         ),
-        (&["render", "song.mid", "--hand-position", "0"], "must be a whole number from 1 to 36"),
+        // What is no fret of any instrument is refused as what is none of this one.
         (
-            &["render", "song.mid", "--capo", "32"],
-            "'32' for '--capo <FRET>': must be a whole number from 1 to 31",
+            &["render", "song.mid", "--hand-position", "0"],
+            "--hand-position 0 is refused: must be a whole number from 1 to 22 on electric",
+        ),
+        (
+            &["render", "song.mid", "--hand-position", "40", "-i", "classical"],
+            "--hand-position 40 is refused: must be a whole number from 1 to 19 on classical",
+        ),
+        (
+            &["render", "song.mid", "--hand-position", "-1e99"],
+            "--hand-position -1e99 is refused: must be a whole number from 1 to 22 on electric",
+        ),
+        (
+            &["render", "song.mid", "--hand-position", "x\ny", "-i", "tanpura"],
+            "--hand-position \"x\\ny\" is refused: tanpura has no frets",
+        ),
+        (
+            &["render", "song.mid", "--capo", "99999999999999999999"],
+            "--capo 99999999999999999999 is refused: must be a whole number from 1 to 17 on electric, so that five",
         ),
         (
             &["render", "song.mid", "--capo", "18"],
-            "--capo 18 is refused: must be 1 to 17 on electric, so that five frets are left",
+            "--capo 18 is refused: must be a whole number from 1 to 17 on electric, so that five frets are left",
         ),
         (
             &["render", "song.mid", "--capo", "1", "-i", "lap-steel"],
@@ -79,7 +103,7 @@ fn wrong_usage_is_code_2() {
         ),
         (
             &["render", "song.mid", "--hand-position", "20", "-i", "classical"],
-            "--hand-position 20 is refused: must be 1 to 19 on classical",
+            "--hand-position 20 is refused: must be a whole number from 1 to 19 on classical",
         ),
         (
             &["render", "song.mid", "--hand-position", "1", "-i", "tanpura"],
@@ -148,6 +172,18 @@ fn sound_in_another_form_is_not_promised() {
         let said = room.refuses(2, &["render", "song.mid", "-o", name]);
         assert!(said.contains(&format!("-o {expected}")), "{said}");
     }
+    for (option, name, form) in [
+        ("-o", "other.mid", "WAV"),
+        ("-o", "mine.toml", "WAV"),
+        ("--labels", "other.MIDI", "JSON"),
+        ("--labels", "x.csv", "JSON"),
+    ] {
+        let said = room.refuses(2, &["render", "song.mid", option, name]);
+        assert!(said.contains(&format!("{option} {name} is refused: low-action writes {form}")), "{said}");
+    }
+    fs::write(room.path("a.toml"), include_str!("../../../docs/figures/string_over_frets.toml")).unwrap();
+    let said = room.refuses(2, &["scene", "a.toml", "--figure", "b.toml"]);
+    assert!(said.contains("--figure b.toml is refused: low-action writes SVG"), "{said}");
     // Other names may be of anything.
     for name in ["flac", "x", "x.wave", "x.WAV"] {
         room.renders(&["song.mid", "-q", "draft", "--tail", "none", "-o", name]);

@@ -208,6 +208,12 @@ fn what_is_no_set_up_is_refused_in_one_line() {
         done.error
     );
     assert!(installed(&place).is_empty());
+    // Where the folder would be there is a file.
+    place.write("instruments", "");
+    let done = place.run(&["instruments", "--install", "lower.toml"]);
+    assert_eq!(done.code, 1);
+    assert!(done.error.ends_with("instruments: it is a file\n"), "{}", done.error);
+    std::fs::remove_file(place.path("instruments")).expect("it is there");
     // One that was put there by hand is listed with what is wrong with it.
     std::fs::create_dir_all(place.path("instruments")).expect("there is room");
     for file in ["broken.toml", "stiff.toml"] {

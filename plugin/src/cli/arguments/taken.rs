@@ -1,6 +1,7 @@
 //! How notes and controllers are taken: what a song and what a keyboard or guitar can be told of alike.
 
 use std::ffi::OsStr;
+use std::fmt;
 
 use clap::Args;
 use low_action_dsp::Setup;
@@ -13,7 +14,7 @@ use crate::cli::{Failure, Outcome, render};
 use crate::controls::Touching;
 use crate::engine::EngineOptions;
 use crate::params::{InputChoice, LegatoChoice, Setting, StringOrder, idle, settings};
-use crate::performance::{HIGHEST_CAPO, InputMode, highest_capo};
+use crate::performance::{InputMode, highest_capo};
 use crate::plugin::order::{self, Order};
 
 /// Options of `render` and of the stand-alone instrument.
@@ -40,12 +41,12 @@ pub struct TakenArgs {
     pub ignore_rpn: bool,
     /// The fret about which the left hand plays what several strings could give, 1 to the instrument's last, unless the song or
     /// keyboard says so itself (CC 28) [default: it moves as little as it can].
-    #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=Neck::MOST_FRETS as u64), allow_hyphen_values = true)]
-    pub hand_position: Option<u8>,
+    #[arg(long, value_name = "FRET", allow_hyphen_values = true)]
+    pub hand_position: Option<Fret>,
     /// The fret of a capo, 1 to the last that leaves five of the instrument's (17 on electric), unless the song or keyboard says
     /// so itself (CC 26) [default: none].
-    #[arg(long, value_name = "FRET", value_parser = whole::<u8>(1..=HIGHEST_CAPO as u64), allow_hyphen_values = true)]
-    pub capo: Option<u8>,
+    #[arg(long, value_name = "FRET", allow_hyphen_values = true)]
+    pub capo: Option<Fret>,
     /// When overlapping notes on one string are connected by hammers, pulls and slides: pedal (while CC 68 or 65 is down) or always.
     #[arg(long, value_name = "WHEN", default_value = "pedal", value_parser = render::parse_choice::<LegatoChoice>())]
     pub legato: LegatoChoice,
@@ -53,9 +54,35 @@ pub struct TakenArgs {
     #[arg(long)]
     pub ignore_hand_controllers: bool,
     /// Set another parameter of the plugins, of those of hands, set-up, strings and control, to what they show: velocity_curve=2,
-    /// keyswitches=36, pluck_force="80 %"; any number of times.
+    /// keyswitches=36, pluck_force="80 %"; any number of times, once for each.
     #[arg(long, value_name = "ID=VALUE", value_parser = parse_setting, allow_hyphen_values = true)]
     pub set: Vec<Setting>,
+}
+
+/// A fret as it is asked for: whether there is one of that number depends on the instrument.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fret(String);
+
+impl Fret {
+    /// Its number, 1 or more, if it is any that [an instrument](Neck::MOST_FRETS) may have.
+    fn number(&self) -> Option<u8> {
+        self.0.parse().ok().filter(|&fret| (1..=Neck::MOST_FRETS).contains(&usize::from(fret)))
+    }
+}
+
+/// What is more than a word in quotes.
+impl fmt::Display for Fret {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(text) = self;
+        let is_word = !text.is_empty() && text.chars().all(|letter| letter.is_ascii_graphic());
+        if is_word { out.write_str(text) } else { write!(out, "{text:?}") }
+    }
+}
+
+impl From<&str> for Fret {
+    fn from(text: &str) -> Self {
+        Self(text.to_owned())
+    }
 }
 
 /// Parameters that have options of their own.
@@ -73,7 +100,8 @@ const OWN: [(&str, &str); 9] = [
 
 /// Reads `--set`.
 fn parse_setting(text: &str) -> Result<Setting, String> {
-    let (id, value) = text.split_once('=').ok_or("must be ID=VALUE, as velocity_curve=2")?;
+    let named = text.split_once('=').filter(|(id, _)| !id.is_empty());
+    let (id, value) = named.ok_or("must be ID=VALUE, as velocity_curve=2")?;
     if let Some((_, option)) = OWN.iter().find(|(own, _)| *own == id) {
         return Err(format!("{id} has an option of its own, {option}"));
     }
@@ -86,11 +114,17 @@ fn parse_setting(text: &str) -> Result<Setting, String> {
 }
 
 impl TakenArgs {
-    /// What channels mean; refuses what would say so in vain.
+    /// What channels mean; refuses what would say so, or set a parameter, in vain.
     pub(in crate::cli) fn mode(&self) -> Result<InputMode, Failure> {
         let Self { input, first_channel, string_order, .. } = self;
         let of_strings =
             [("--first-channel", first_channel.is_some()), ("--string-order", string_order.is_some())];
+        let ids = || self.set.iter().map(Setting::id);
+        if let Some((_, id)) =
+            ids().enumerate().find(|&(place, id)| ids().take(place).any(|before| before == id))
+        {
+            return Err(Failure::Usage(format!("--set {id} cannot be used multiple times")));
+        }
         if self.bend_range.is_some() && *input == InputChoice::Mpe {
             let reason = "--bend-range is not for --input mpe: there wheels reach 48 semitones, channel 1's 2, or what is \
                           announced";
@@ -109,25 +143,27 @@ impl TakenArgs {
         }
     }
 
-    /// Refuses frets that an instrument of that name has not.
+    /// Refuses what is no fret of an instrument of that name.
     pub(in crate::cli) fn fits(&self, setup: &Setup, name: &OsStr) -> Outcome {
         let (name, frets) = (escaped(&name.to_string_lossy()), setup.neck.frets);
-        let refused = |option: &str, fret: u8, reason: String| {
+        let beyond =
+            |fret: &&Fret, highest: usize| fret.number().is_none_or(|fret| usize::from(fret) > highest);
+        let refused = |option: &str, fret: &Fret, reason: String| {
             Err(Failure::Usage(format!("{option} {fret} is refused: {reason}")))
         };
-        if let Some(fret) = self.hand_position.filter(|&fret| usize::from(fret) > frets) {
+        if let Some(fret) = self.hand_position.as_ref().filter(|fret| beyond(fret, frets)) {
             let reason = match frets {
                 0 => format!("{name} has no frets"),
-                _ => format!("must be 1 to {frets} on {name}"),
+                _ => format!("must be a whole number from 1 to {frets} on {name}"),
             };
             return refused("--hand-position", fret, reason);
         }
         let highest = if setup.wants_bar() { 0 } else { highest_capo(frets) };
-        match self.capo.filter(|&fret| usize::from(fret) > highest) {
+        match self.capo.as_ref().filter(|fret| beyond(fret, highest)) {
             Some(fret) if highest > 0 => refused(
                 "--capo",
                 fret,
-                format!("must be 1 to {highest} on {name}, so that five frets are left"),
+                format!("must be a whole number from 1 to {highest} on {name}, so that five frets are left"),
             ),
             Some(fret) if setup.wants_bar() => {
                 refused("--capo", fret, format!("no capo on {name}: its strings are too high over the frets"))
@@ -135,6 +171,16 @@ impl TakenArgs {
             Some(fret) => refused("--capo", fret, format!("no capo on {name}: it leaves no five frets")),
             None => Ok(()),
         }
+    }
+
+    /// The fret about which the left hand plays, if it is told; [one there is](Self::fits).
+    pub(in crate::cli) fn hand_position(&self) -> Option<u8> {
+        self.hand_position.as_ref().and_then(Fret::number)
+    }
+
+    /// The fret of the capo, if there is one; [one there may be](Self::fits).
+    pub(in crate::cli) fn capo(&self) -> Option<u8> {
+        self.capo.as_ref().and_then(Fret::number)
     }
 
     /// What to warn of: settings of which nothing comes on an instrument.
@@ -152,8 +198,8 @@ impl TakenArgs {
         Touching {
             bend_range: self.bend_range.unwrap_or(EngineOptions::BEND_RANGE),
             ignore_rpn: self.ignore_rpn,
-            hand_position: self.hand_position,
-            capo: self.capo.unwrap_or(0),
+            hand_position: self.hand_position(),
+            capo: self.capo().unwrap_or(0),
             legato: self.legato == LegatoChoice::Always,
             hand_controllers: !self.ignore_hand_controllers,
             ..order::touching(&settings::with(&self.set))
@@ -167,7 +213,8 @@ impl TakenArgs {
         }
     }
 
-    /// The same as values of parameters; refuses what would say something in vain, and what they do not have.
+    /// The same as values of parameters; refuses what would say something in vain, and what they do not have. (Frets are to
+    /// [fit](Self::fits) the instrument.)
     #[cfg_attr(not(any(feature = "standalone", test)), expect(dead_code, reason = "nobody begins with them"))]
     pub(in crate::cli) fn settings(&self) -> Result<Vec<Setting>, Failure> {
         self.mode()?;
@@ -185,8 +232,8 @@ impl TakenArgs {
             ("string_order", named(order.to_index(), StringOrder::variants())),
             ("bend_range", self.bend_range.map(|semitones| semitones.to_string())),
             ("ignore_rpn", off(self.ignore_rpn, "On")),
-            ("hand_position", self.hand_position.map(number)),
-            ("capo", self.capo.map(number)),
+            ("hand_position", self.hand_position().map(number)),
+            ("capo", self.capo().map(number)),
             ("legato", named(self.legato.to_index(), LegatoChoice::variants())),
             ("hand_controllers", off(self.ignore_hand_controllers, "Off")),
         ];
