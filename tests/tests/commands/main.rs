@@ -1,5 +1,6 @@
 //! Commands, and the files they read and write: each file is a promise.
 
+mod documented_ranges;
 mod instruments_command;
 mod labels_notes;
 mod labels_sound;
