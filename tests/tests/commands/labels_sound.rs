@@ -305,6 +305,7 @@ fn strings_that_nobody_plays_sing_along_over_a_body() {
         .collect();
     messages.extend(held(55, 100, 1200, 1400));
     messages.sort_by_key(|&(time, _)| time);
+    let mut loudest = Vec::new();
     for (instrument, range) in
         [("steel", -40.0..-30.0), ("classical", -40.0..-30.0), ("electric", f64::NEG_INFINITY..-140.0)]
     {
@@ -317,7 +318,16 @@ fn strings_that_nobody_plays_sing_along_over_a_body() {
         println!("{instrument}: {before:.1} dBFS before, {after:.1} dBFS after");
         assert!(range.contains(&before), "{instrument}: {before} dBFS before its note");
         assert!(after < range.end.max(-60.0), "{instrument}: {after} dBFS after it");
+        // (Rounded up, as what it is at most.)
+        loudest.push([before, after].map(|level| format!("−{:.0}", -level.ceil())));
     }
+    let [[steel, steel_after], [classical, classical_after], _] = &loudest[..] else { panic!("{loudest:?}") };
+    let said = format!(
+        "by up to {steel} dBFS on `steel` and {classical} on `classical` before that note, and by up to {steel_after} and \
+         {classical_after} from 0.4 s after its end on"
+    );
+    let page = include_str!("../../../docs/formats.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(page.contains(&said), "docs/formats.md does not say: {said}");
 }
 
 #[test]
