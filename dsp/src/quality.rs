@@ -86,7 +86,10 @@ impl FromStr for Quality {
             .into_iter()
             .find(|quality| quality.name() == name)
             // (Who asks for one says which was asked for.)
-            .ok_or_else(|| "must be draft, live, studio or reference".into())
+            .ok_or_else(|| {
+                let [others @ .., last] = Self::ALL.map(Self::name);
+                format!("must be {} or {last}", others.join(", "))
+            })
     }
 }
 

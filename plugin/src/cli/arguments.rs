@@ -300,3 +300,94 @@ fn qualities() -> String {
     let said = Quality::ALL.map(|quality| format!("{quality} ({})", quality.summary()));
     format!("How much computing: {}", said.join(", "))
 }
+
+#[cfg(test)]
+mod tests {
+    use clap::Command;
+    use clap::error::ErrorKind;
+
+    use super::*;
+    use crate::performance::highest_capo;
+
+    /// A text without what stands in parentheses or brackets.
+    fn outside(text: &str) -> String {
+        let mut depth = 0;
+        let is_outside = |letter: &char| {
+            depth += i32::from("([".contains(*letter));
+            let is_outside = depth == 0;
+            depth -= i32::from(")]".contains(*letter));
+            is_outside
+        };
+        text.chars().filter(is_outside).collect()
+    }
+
+    /// A number as it is written, whole ones of any size.
+    fn beside(text: &str, by: i128) -> Option<String> {
+        let whole = text.parse::<i128>().ok().map(|number| (number + by).to_string());
+        whole.or_else(|| Some((text.parse::<f64>().ok()? + by as f64).to_string()))
+    }
+
+    /// Options whose help has a range, `1 to 16` or `up to 3600`, and its ends as they are written.
+    fn ranges(command: &Command) -> Vec<(String, Option<String>, String)> {
+        let mut ranges = Vec::new();
+        for argument in command.get_arguments() {
+            let (Some(long), Some(help)) = (argument.get_long(), argument.get_help()) else { continue };
+            let help = outside(&argument.get_long_help().unwrap_or(help).to_string());
+            let words: Vec<&str> =
+                help.split_whitespace().map(|word| word.trim_end_matches([',', '.', ':', ';'])).collect();
+            for window in
+                words.windows(3).filter(|window| window[1] == "to" && beside(window[2], 0).is_some())
+            {
+                let low = beside(window[0], 0).map(|_| window[0].to_owned());
+                if low.is_some() || window[0] == "up" {
+                    ranges.push((long.to_owned(), low, window[2].to_owned()));
+                }
+            }
+        }
+        ranges
+    }
+
+    #[test]
+    fn options_take_the_ranges_that_their_help_has() {
+        let mut found = Vec::new();
+        for command in [
+            RenderArgs::augment_args(Command::new("render")),
+            StandAloneArgs::augment_args(Command::new("x")),
+        ] {
+            let is_taken = |option: &str, value: &str| {
+                let words = ["low-action".to_owned(), format!("--{option}={value}")];
+                let refused = command.clone().try_get_matches_from(words).err();
+                refused.is_none_or(|error| error.kind() != ErrorKind::ValueValidation)
+            };
+            for (option, low, high) in ranges(&command) {
+                assert!(is_taken(&option, &high), "--{option} {high}");
+                let over = beside(&high, 1).expect("it is a number");
+                assert!(!is_taken(&option, &over), "--{option} {over}");
+                if let Some(low) = low {
+                    // (Whose help says that it is above that.)
+                    assert_eq!(is_taken(&option, &low), option != "max-length", "--{option} {low}");
+                    let under = beside(&low, -1).expect("it is a number");
+                    assert!(!is_taken(&option, &under), "--{option} {under}");
+                }
+                found.push(option);
+            }
+        }
+        for option in
+            ["sample-rate", "tail", "track", "channel", "max-length", "threads", "variation", "seed"]
+        {
+            assert!(found.iter().any(|known| known == option), "{option}: {found:?}");
+        }
+        for option in ["first-channel", "bend-range", "period-size"] {
+            assert!(found.iter().any(|known| known == option), "{option}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn the_help_has_the_highest_capo_of_electric() {
+        let electric = low_action_dsp::Setup::builtin("electric").expect("it is built in");
+        let command = RenderArgs::augment_args(Command::new("render"));
+        let capo = command.get_arguments().find(|argument| argument.get_id() == "capo").expect("it is there");
+        let said = format!("({} on electric)", highest_capo(electric.neck.frets));
+        assert!(capo.get_help().expect("it has one").to_string().contains(&said), "{said}");
+    }
+}

@@ -5,7 +5,7 @@
 
 use egui::{Button, Popup, ScrollArea, TextEdit, Ui, vec2};
 use low_action_dsp::Setup;
-use nice_plug::prelude::{Enum, Param};
+use nice_plug::prelude::{Enum, Param, Params};
 
 use super::Given;
 use super::compare::{Values, change};
@@ -209,39 +209,18 @@ fn save(given: &Given, name: &str) -> Result<(), String> {
     Ok(())
 }
 
+/// What there is of the player that no [`Setup`] keeps: how strokes follow velocity and differ from one another.
+const NOT_KEPT: [&str; 4] = ["pluck_softest", "velocity_curve", "variation", "take"];
+
 /// What an instrument's own values are changed by, all at their usual values: what [`Setup`] keeps of them.
 fn usual(params: &LowActionParams) -> Values {
-    fn one<P: Param>(param: &P) -> (nice_plug::params::internals::ParamPtr, f32) {
-        (param.as_ptr(), param.default_normalized_value())
-    }
-    let (setup, player) = (&params.setup, &params.player);
-    let strings = params.strings.iter().map(|string| &string.tuning);
-    let mut values: Values = strings.map(one).collect();
-    values.push(one(&setup.tension_modulation));
-    values.extend(
-        [
-            &setup.action,
-            &setup.relief,
-            &setup.fret_height,
-            &setup.loss_0,
-            &setup.loss_1,
-            &setup.pickup_position,
-            &setup.pickup_blend,
-            &setup.tuning,
-            &player.pluck_position,
-            &player.pluck_force,
-            &player.pluck_duration,
-            &player.pluck_release,
-            &player.finger_force,
-            &player.finger_hardness,
-            &player.finger_mass,
-            &player.finger_hover,
-            &player.hand_damping,
-            &player.idle_hands,
-        ]
-        .map(one),
-    );
-    values
+    let of_setups = |group: &str| ["Set-up", "Player"].contains(&group) || group.starts_with("Strings");
+    let kept = params
+        .param_map()
+        .into_iter()
+        .filter(|(id, _, group)| of_setups(group) && !NOT_KEPT.contains(&id.as_str()));
+    // SAFETY: the pointers lead into the parameters, which outlive this.
+    kept.map(|(_, param, _)| (param, unsafe { param.default_normalized_value() })).collect()
 }
 
 /// Whether anything is changed of the instrument that was chosen.
@@ -252,4 +231,36 @@ fn is_changed(given: &Given) -> bool {
     usual(given.params)
         .iter()
         .any(|(param, _)| unsafe { param.preview_plain(asked.value(*param)) != param.default_plain_value() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::Start;
+    use crate::plugin::shelf::Shelf;
+
+    /// What saving writes of a parameter is what choosing another instrument puts back, and nothing else is.
+    #[test]
+    fn what_goes_back_is_what_a_set_up_keeps() {
+        let params = LowActionParams::new(Shelf::new(Vec::new()), &Start::default());
+        // A coil, a body, and a string for each that can be tuned.
+        let mut owns = ["electric", "steel"].map(|name| Setup::builtin(name).expect("it is built in"));
+        for own in &mut owns {
+            own.string.resize(params.strings.len(), own.string[0].clone());
+        }
+        let as_they_come = owns.clone().map(|own| settled(&params, &own));
+        let put_back: Vec<_> = usual(&params).into_iter().map(|(param, _)| param).collect();
+        for (id, param, _) in params.param_map() {
+            // SAFETY: the pointer leads into the parameters, which outlive this.
+            let mut is_kept_at = |value: f32| unsafe {
+                let usual = param.default_normalized_value();
+                param._internal_set_normalized_value(value);
+                let kept = owns.iter().zip(&as_they_come).any(|(own, was)| settled(&params, own) != *was);
+                param._internal_set_normalized_value(usual);
+                kept
+            };
+            let is_kept = [0.0, 0.7, 1.0].into_iter().any(&mut is_kept_at);
+            assert_eq!(put_back.contains(&param), is_kept, "{id}");
+        }
+    }
 }

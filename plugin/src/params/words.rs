@@ -77,7 +77,7 @@ const HEARD: [(&str, &str); 43] = [
         "legato",
         "Overlapping notes on one string become hammer-ons, pull-offs and slides: while CC 68 or 65 is down, or always.",
     ),
-    ("keyswitches", "The first of 20 keys that tell the hands how to play instead of sounding."),
+    ("keyswitches", "The first of the keys that tell the hands how to play instead of sounding."),
     (
         "hand_position",
         "The fret about which the left hand plays what several strings could give; anywhere: it moves as little as it can.",
@@ -123,7 +123,7 @@ fn of_each(id: &str) -> Vec<&'static str> {
     match id {
         "quality" => qualities.to_vec(),
         "render_quality" => [
-            &["What is heard while playing, bit for bit."],
+            &["As exact as while you play: the same notes are the same bits, but for those that Relax when late has made rougher."],
             &qualities[..],
             &["Studio, or Quality if that is more."],
         ]
@@ -160,6 +160,7 @@ impl Words {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::performance::HIGHEST_FIRST;
 
     #[test]
     fn every_parameter_is_explained_and_nothing_else() {
@@ -171,5 +172,20 @@ mod tests {
         for (id, _) in HEARD {
             assert!(ids.iter().any(|known| known.starts_with(id)), "{id}");
         }
+    }
+
+    #[test]
+    fn as_many_keys_tell_the_hands_how_to_play_as_the_page_says() {
+        let page = include_str!("../../../docs/plugin.md").split_whitespace().collect::<Vec<_>>().join(" ");
+        let said = format!("`keyswitches` is the first of {} keys that tell the hands", 128 - HIGHEST_FIRST);
+        assert!(page.contains(&said), "docs/plugin.md does not say: {said}");
+    }
+
+    #[test]
+    fn parameters_are_called_what_they_are_called() {
+        let params = LowActionParams::default();
+        let words = Words::of(&params);
+        let said = words.heard_of(&params.instrument.render_quality, 0).expect("it is told of");
+        assert!(said.contains(params.instrument.relax.name()), "{said}");
     }
 }

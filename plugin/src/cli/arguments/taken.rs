@@ -219,7 +219,8 @@ impl TakenArgs {
     pub(in crate::cli) fn settings(&self) -> Result<Vec<Setting>, Failure> {
         self.mode()?;
         if let Some(semitones) = self.bend_range.filter(|semitones| semitones.fract() != 0.0) {
-            let reason = "without a command it must be a whole number from 0 to 96";
+            let widest = EngineOptions::WIDEST_BEND_RANGE;
+            let reason = format!("without a command it must be a whole number from 0 to {widest}");
             return Err(Failure::Usage(format!("--bend-range {semitones} is refused: {reason}")));
         }
         let named = |place: usize, names: &[&'static str]| names.get(place).map(|&name| name.to_owned());

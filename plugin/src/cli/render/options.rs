@@ -13,6 +13,12 @@ use crate::engine::EngineOptions;
 /// would wait for ever. The longest strings of the set-ups that come with the program need 11 to 37 s.
 const LONGEST_TAIL: (f64, f64) = (30.0, 120.0);
 
+/// The longest tail that can be asked for, s.
+const LONGEST_ASKED: f64 = 3_600.0;
+
+/// The longest music that can be asked for, minutes.
+const LONGEST_MUSIC: f64 = 1e6;
+
 /// How long to go on after the last event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tail {
@@ -50,8 +56,8 @@ impl FromStr for Tail {
             "auto" => Ok(Self::Auto),
             "none" => Ok(Self::Seconds(0.0)),
             _ => match text.parse::<f64>() {
-                Ok(seconds) if (0.0..=3_600.0).contains(&seconds) => Ok(Self::Seconds(seconds)),
-                _ => Err("must be auto, none or 0 to 3600 seconds".into()),
+                Ok(seconds) if (0.0..=LONGEST_ASKED).contains(&seconds) => Ok(Self::Seconds(seconds)),
+                _ => Err(format!("must be auto, none or 0 to {LONGEST_ASKED} seconds")),
             },
         }
     }
@@ -103,8 +109,8 @@ pub(in crate::cli) fn parse_rate(text: &str) -> Result<u32, String> {
 /// Reads `--max-length`.
 pub(in crate::cli) fn parse_minutes(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(minutes) if minutes > 0.0 && minutes <= 1e6 => Ok(minutes),
-        _ => Err("must be above 0 and at most 1000000 minutes".into()),
+        Ok(minutes) if minutes > 0.0 && minutes <= LONGEST_MUSIC => Ok(minutes),
+        _ => Err(format!("must be above 0 and at most {LONGEST_MUSIC} minutes")),
     }
 }
 
