@@ -4,7 +4,7 @@ use std::ops::{Deref, DerefMut};
 
 use crate::contact::{Before, ContactLaw};
 use crate::grid::Reading;
-use crate::response::Row;
+use crate::response::Coupled;
 use crate::touching::Free;
 
 /// One active contact.
@@ -95,7 +95,7 @@ impl Active {
     }
 }
 
-impl Row for Active {
+impl Coupled for Active {
     #[inline]
     fn span(&self) -> (usize, usize) {
         self.reading.span()
@@ -121,15 +121,15 @@ impl Row for Active {
 /// The active contacts of a step. Each is put together where it then stands: one that was written number by number and then
 /// copied in whole vectors would be waited for until it is in memory.
 #[derive(Debug, Clone)]
-pub(crate) struct Rows {
+pub(crate) struct ActiveSet {
     places: Vec<Active>,
     count: usize,
 }
 
-impl Rows {
+impl ActiveSet {
     /// Room for so many.
     pub fn with_capacity(capacity: usize) -> Self {
-        Rows { places: vec![Active::NOTHING; capacity], count: 0 }
+        ActiveSet { places: vec![Active::NOTHING; capacity], count: 0 }
     }
 
     /// None is active.
@@ -153,7 +153,7 @@ impl Rows {
     }
 }
 
-impl Deref for Rows {
+impl Deref for ActiveSet {
     type Target = [Active];
     #[inline(always)]
     fn deref(&self) -> &[Active] {
@@ -161,7 +161,7 @@ impl Deref for Rows {
     }
 }
 
-impl DerefMut for Rows {
+impl DerefMut for ActiveSet {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut [Active] {
         &mut self.places[..self.count]

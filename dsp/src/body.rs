@@ -16,7 +16,6 @@ use crate::drive::Push;
 use crate::model::Model;
 use crate::setup::Body as Description;
 use crate::state::State;
-pub(crate) use coefficients::Row;
 pub(crate) use end::End;
 pub(crate) use modes::Modes;
 pub(crate) use refusals::check;

@@ -159,12 +159,12 @@ struct Spread {
 
 /// Adds the forces beyond the base to a prediction.
 #[inline(always)]
-fn spread(mobility: f64, rows: &mut [Active], prediction: &mut Field) -> Spread {
+fn spread(mobility: f64, contacts: &mut [Active], prediction: &mut Field) -> Spread {
     let mut done = Spread { along: 0.0, sum: 0.0 };
-    for row in rows {
-        let force = row.force - row.base;
-        row.reading.spread(prediction, mobility * row.sign * force);
-        done.along += mobility * force * row.pull;
+    for contact in contacts {
+        let force = contact.force - contact.base;
+        contact.reading.spread(prediction, mobility * contact.sign * force);
+        done.along += mobility * force * contact.pull;
         done.sum += force.abs();
     }
     done

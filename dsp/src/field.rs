@@ -14,6 +14,9 @@ use crate::grid::Grid;
 /// Lanes of the widest vector the kernels are written for.
 pub const LANES: usize = 8;
 
+/// A number in each lane, side by side: a row of a field, [`LANES`] numbers anywhere in it, or as many modes of a body.
+pub(crate) type Row = [f64; LANES];
+
 /// Points before the nut: the two odd ghosts that the widest stencil reads, and one that nobody needs, so that the
 /// first row never asks for a point before the first.
 pub(crate) const BEFORE: usize = 3;
@@ -32,20 +35,20 @@ const ALIGNMENT: usize = 8 * LANES;
 
 /// The sum over lanes in a fixed order.
 #[inline(always)]
-pub(crate) fn total([a, b, c, d, e, f, g, h]: &[f64; LANES]) -> f64 {
+pub(crate) fn total([a, b, c, d, e, f, g, h]: &Row) -> f64 {
     ((a + e) + (b + f)) + ((c + g) + (d + h))
 }
 
-/// Rows of a field over a grid of so many intervals.
+/// How many rows a field has over a grid of so many intervals.
 #[inline(always)]
-pub(crate) fn rows(intervals: usize) -> usize {
+pub(crate) fn row_count(intervals: usize) -> usize {
     (BEFORE + intervals + 1 + AFTER).div_ceil(LANES).max(LEAST_ROWS)
 }
 
 /// Where the `point`-th number in order of place stands, [`BEFORE`] for the nut, on a grid of so many intervals.
 #[inline(always)]
 pub(crate) fn cell(intervals: usize, point: usize) -> usize {
-    let rows = rows(intervals);
+    let rows = row_count(intervals);
     LANES * (point % rows) + point / rows
 }
 
@@ -56,7 +59,7 @@ pub struct Field(AVec<f64, ConstAlign<ALIGNMENT>>);
 impl Field {
     /// The same number everywhere.
     pub fn filled(grid: &Grid, value: f64) -> Field {
-        let numbers = std::iter::repeat_n(value, LANES * rows(grid.intervals));
+        let numbers = std::iter::repeat_n(value, LANES * row_count(grid.intervals));
         Field(AVec::from_iter(ALIGNMENT, numbers))
     }
 
@@ -123,7 +126,7 @@ impl Ends {
         let (nut, bridge) = (BEFORE, BEFORE + grid.intervals);
         let mirror = |end: usize, away: usize| (cell(end - away), cell(end + away));
         let (near, far) = (mirror(bridge, 1), mirror(bridge, 2));
-        let row = (near.0 / LANES).min(far.0 / LANES).min(rows(grid.intervals) - 3);
+        let row = (near.0 / LANES).min(far.0 / LANES).min(row_count(grid.intervals) - 3);
         Ends {
             ghosts: [(near.1, near.0), (far.1, far.0), mirror(nut, 1), mirror(nut, 2)],
             beside_bridge: row.max(BESIDE_NUT),

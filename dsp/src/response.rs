@@ -70,7 +70,7 @@ fn split(
 }
 
 /// What the response needs to know of a contact.
-pub(crate) trait Row {
+pub(crate) trait Coupled {
     /// Interval of grid indices it touches, end not included.
     fn span(&self) -> (usize, usize);
     /// Product with another contact: mobility of the string between them, signs included, m/N.
@@ -165,23 +165,23 @@ impl Response {
     }
 
     /// Gathers M for contacts in their order.
-    pub fn gather<R: Row>(&mut self, rows: &[R], pull_factor: f64) {
+    pub fn gather<C: Coupled>(&mut self, contacts: &[C], pull_factor: f64) {
         self.blocks.clear();
         self.entries.clear();
         self.pull.clear();
-        self.pull.extend(rows.iter().map(Row::pull));
+        self.pull.extend(contacts.iter().map(Coupled::pull));
         self.pull_factor = pull_factor;
         let Response { blocks, starts, entries, .. } = self;
         let add_block = |start: usize, end: usize| {
             blocks.push(Block { start, len: end - start, offset: entries.len() });
             for i in start..end {
                 for j in start..end {
-                    let own = if i == j { rows[i].own_mobility() } else { 0.0 };
-                    entries.push(rows[i].coupling(&rows[j]) + own);
+                    let own = if i == j { contacts[i].own_mobility() } else { 0.0 };
+                    entries.push(contacts[i].coupling(&contacts[j]) + own);
                 }
             }
         };
-        split(starts, rows.len(), |i| rows[i].span(), add_block);
+        split(starts, contacts.len(), |i| contacts[i].span(), add_block);
     }
 }
 

@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use crate::field::{BEFORE, Field, LANES, rows};
+use crate::field::{BEFORE, Field, LANES, row_count};
 use crate::grid::Grid;
 use crate::model::Contact;
 
@@ -25,7 +25,7 @@ pub(crate) struct Clearance {
 
 /// Groups of neighbouring points in each lane of a field.
 pub(crate) fn groups(grid: &Grid) -> usize {
-    rows(grid.intervals).div_ceil(CLEARED)
+    row_count(grid.intervals).div_ceil(CLEARED)
 }
 
 /// How much lower than its points the string may lie between them, as a part of its largest second difference.
@@ -42,7 +42,7 @@ impl Blocks {
             return Blocks::default();
         }
         let nothing = Range { start: usize::MAX, end: 0 };
-        let (rows, groups) = (rows(grid.intervals), groups(grid));
+        let (rows, groups) = (row_count(grid.intervals), groups(grid));
         let group = |node: usize| (BEFORE + node) / rows * groups + (BEFORE + node) % rows / CLEARED;
         let mut ranges = vec![nothing; LANES * groups];
         for (index, contact) in contacts.iter().enumerate() {

@@ -115,13 +115,13 @@ impl Solver {
         }
     }
 
-    /// Solves for the forces of `rows`, starting from the changes they expect. Returns the energy, J, that the
+    /// Solves for the forces of `contacts`, starting from the changes they expect. Returns the energy, J, that the
     /// solution's inexactness gives to the string (negative: takes from it).
     #[inline(always)]
     pub fn solve(
         &mut self,
         instructions: Instructions,
-        rows: &mut [Active],
+        contacts: &mut [Active],
         pull_factor: f64,
         settings: &SolverSettings,
         scale: EnergyScale,
@@ -129,42 +129,42 @@ impl Solver {
     ) -> f64 {
         let demands = Demands { settings, scale };
         // The same code for any number of contacts; of a few the compiler knows how many.
-        match rows.len() {
-            1 => solve_few::<1>(rows, pull_factor, demands, convergence),
-            2 => solve_few::<2>(rows, pull_factor, demands, convergence),
-            3 => solve_few::<3>(rows, pull_factor, demands, convergence),
-            4 => solve_few::<4>(rows, pull_factor, demands, convergence),
-            5 => solve_few::<5>(rows, pull_factor, demands, convergence),
-            6 => solve_few::<6>(rows, pull_factor, demands, convergence),
-            _ => Many { solver: self, rows, pull_factor, demands, convergence }.solve(instructions),
+        match contacts.len() {
+            1 => solve_few::<1>(contacts, pull_factor, demands, convergence),
+            2 => solve_few::<2>(contacts, pull_factor, demands, convergence),
+            3 => solve_few::<3>(contacts, pull_factor, demands, convergence),
+            4 => solve_few::<4>(contacts, pull_factor, demands, convergence),
+            5 => solve_few::<5>(contacts, pull_factor, demands, convergence),
+            6 => solve_few::<6>(contacts, pull_factor, demands, convergence),
+            _ => Many { solver: self, contacts, pull_factor, demands, convergence }.solve(instructions),
         }
     }
 }
 
 #[inline(always)]
 fn solve_few<const N: usize>(
-    rows: &mut [Active],
+    contacts: &mut [Active],
     pull_factor: f64,
     demands: Demands,
     convergence: &mut Convergence,
 ) -> f64 {
-    let Some(rows) = rows.first_chunk_mut::<N>() else { return 0.0 };
-    let mut few = Few::gather(rows, pull_factor);
+    let Some(contacts) = contacts.first_chunk_mut::<N>() else { return 0.0 };
+    let mut few = Few::gather(contacts, pull_factor);
     let mut numbers = [[0.0; N]; ARRAYS];
     let room = Room::new(numbers.as_flattened_mut(), N);
-    solve(rows, &mut few, room, demands, convergence)
+    solve(contacts, &mut few, room, demands, convergence)
 }
 
 #[inline(always)]
 fn solve(
-    rows: &mut [Active],
+    contacts: &mut [Active],
     answer: &mut impl Answer,
     mut room: Room,
     Demands { settings, scale }: Demands,
     convergence: &mut Convergence,
 ) -> f64 {
-    begin(rows, answer, &mut room);
-    place(rows, answer, &mut room, 0.0);
+    begin(contacts, answer, &mut room);
+    place(contacts, answer, &mut room, 0.0);
     let work_tolerance = WORK_TOLERANCE.max(WORK_PER_METRE * settings.tolerance) * scale.present;
     let mut iterations = 0;
     let mut progress = Progress::default();
@@ -172,11 +172,11 @@ fn solve(
     let settled = loop {
         let mut work = 0.0;
         let mut created = 0.0;
-        for (residual, (row, force)) in room.residual.iter_mut().zip(rows.iter().zip(&*room.forces)) {
-            let force = row.base + force;
-            *residual = row.required - force;
-            work += *residual * row.change;
-            created += (row.lambda - force) * row.change;
+        for (residual, (contact, force)) in room.residual.iter_mut().zip(contacts.iter().zip(&*room.forces)) {
+            let force = contact.base + force;
+            *residual = contact.required - force;
+            work += *residual * contact.change;
+            created += (contact.lambda - force) * contact.change;
         }
         gain = 0.5 * created;
         answer.product(room.residual, room.motion);
@@ -186,22 +186,22 @@ fn solve(
         if error <= settings.tolerance && work.abs() <= work_tolerance && gain <= scale.credit {
             break true;
         }
-        if iterations >= settings.max_iterations || progress.has_ended(error, rows) {
+        if iterations >= settings.max_iterations || progress.has_ended(error, contacts) {
             break false;
         }
         iterations += 1;
-        if newton_step(rows, answer, &mut room) == 0.0 {
+        if newton_step(contacts, answer, &mut room) == 0.0 {
             break false;
         }
     };
     convergence.iterations += iterations as u32;
     // Written so that what is not a number is refused too.
-    let usable = gain <= scale.credit && (settled || bounded(rows, room.forces, settings.tolerance));
+    let usable = gain <= scale.credit && (settled || bounded(contacts, room.forces, settings.tolerance));
     if !(settled && usable) {
-        gain = stop_early(rows, answer, &mut room, usable, scale, convergence);
+        gain = stop_early(contacts, answer, &mut room, usable, scale, convergence);
     }
-    for (row, force) in rows.iter_mut().zip(&*room.forces) {
-        row.force = row.base + *force;
+    for (contact, force) in contacts.iter_mut().zip(&*room.forces) {
+        contact.force = contact.base + *force;
     }
     gain
 }
@@ -212,14 +212,14 @@ fn solve(
 /// (Penetrations run smoothly from sample to sample. Forces of stiff contacts do not: continued from the samples
 /// before, they take twice as many iterations.)
 #[inline(always)]
-fn begin(rows: &[Active], answer: &mut impl Answer, room: &mut Room) {
-    for (i, row) in rows.iter().enumerate() {
-        room.start[i] = row.required - row.base;
-        room.slopes[i] = row.slope;
+fn begin(contacts: &[Active], answer: &mut impl Answer, room: &mut Room) {
+    for (i, contact) in contacts.iter().enumerate() {
+        room.start[i] = contact.required - contact.base;
+        room.slopes[i] = contact.slope;
     }
     answer.product(room.start, room.motion);
-    for (i, row) in rows.iter().enumerate() {
-        room.unknown[i] = row.centre - room.motion[i] - row.change;
+    for (i, contact) in contacts.iter().enumerate() {
+        room.unknown[i] = contact.centre - room.motion[i] - contact.change;
     }
     answer.springs(room.slopes, room.unknown);
     for (start, more) in room.start.iter_mut().zip(&*room.unknown) {
@@ -243,7 +243,7 @@ const SMALL: f64 = 1e-7;
 
 impl Progress {
     #[inline(always)]
-    fn has_ended(&mut self, error: f64, rows: &[Active]) -> bool {
+    fn has_ended(&mut self, error: f64, contacts: &[Active]) -> bool {
         if error < 0.5 * self.best || self.best == 0.0 {
             self.best = error;
             self.without = 0;
@@ -251,40 +251,40 @@ impl Progress {
         }
         self.without += 1;
         self.without >= STALLED
-            && error <= SMALL * rows.iter().fold(0.0f64, |most, row| most.max(row.centre.abs()))
+            && error <= SMALL * contacts.iter().fold(0.0f64, |most, contact| most.max(contact.centre.abs()))
     }
 }
 
 /// r = r₀ − M(f + tδ) from the forces `start` beyond the base and the step δ; evaluates the laws there.
 #[inline(always)]
-fn place(rows: &mut [Active], answer: &impl Answer, room: &mut Room, t: f64) {
+fn place(contacts: &mut [Active], answer: &impl Answer, room: &mut Room, t: f64) {
     for ((force, start), step) in room.forces.iter_mut().zip(&*room.start).zip(&*room.step) {
         *force = if t == 0.0 { *start } else { start + t * step };
     }
     answer.product(room.forces, room.unknown);
-    for (row, answer) in rows.iter_mut().zip(&*room.unknown) {
-        row.evaluate(row.centre - answer);
+    for (contact, answer) in contacts.iter_mut().zip(&*room.unknown) {
+        contact.evaluate(contact.centre - answer);
     }
 }
 
 /// The step δ of Newton's method from the residual R and M R, which stand in `residual` and `motion`:
 /// δ = R − D M δ, so δ = R + x with x = D(−M R − M x).
 #[inline(always)]
-fn newton_direction(rows: &[Active], answer: &mut impl Answer, room: &mut Room) {
-    for (i, row) in rows.iter().enumerate() {
-        room.slopes[i] = row.slope;
+fn newton_direction(contacts: &[Active], answer: &mut impl Answer, room: &mut Room) {
+    for (i, contact) in contacts.iter().enumerate() {
+        room.slopes[i] = contact.slope;
         room.unknown[i] = -room.motion[i];
     }
     answer.springs(room.slopes, room.unknown);
-    for i in 0..rows.len() {
+    for i in 0..contacts.len() {
         room.step[i] = room.residual[i] + room.unknown[i];
     }
 }
 
 /// One Newton step with a line search; returns the largest change of penetration it made.
 #[inline(always)]
-fn newton_step(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) -> f64 {
-    newton_direction(rows, answer, room);
+fn newton_step(contacts: &mut [Active], answer: &mut impl Answer, room: &mut Room) -> f64 {
+    newton_direction(contacts, answer, room);
     answer.product(room.step, room.motion);
     room.start.copy_from_slice(room.forces);
     // Along the step −(Mδ)ᵀ(law − f) rises monotonically through 0, where the best point is.
@@ -293,10 +293,10 @@ fn newton_step(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) -
     let (mut high, mut high_value) = (1.0, f64::INFINITY);
     let mut t = 1.0;
     for _ in 0..LINE_SEARCHES {
-        place(rows, answer, room, t);
+        place(contacts, answer, room, t);
         let mut value = 0.0;
-        for (i, row) in rows.iter().enumerate() {
-            value -= room.motion[i] * (row.required - (row.base + room.forces[i]));
+        for (i, contact) in contacts.iter().enumerate() {
+            value -= room.motion[i] * (contact.required - (contact.base + room.forces[i]));
         }
         if value.abs() <= 0.5 * downhill.abs() || (t == 1.0 && value <= 0.0) {
             break;
@@ -315,8 +315,12 @@ fn newton_step(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room) -
 
 /// Σ(λ − f)r, twice the energy given to the string beyond what the contacts gave up.
 #[inline(always)]
-fn created(rows: &[Active], forces: &[f64]) -> f64 {
-    rows.iter().zip(forces).map(|(row, force)| (row.lambda - (row.base + force)) * row.change).sum()
+fn created(contacts: &[Active], forces: &[f64]) -> f64 {
+    contacts
+        .iter()
+        .zip(forces)
+        .map(|(contact, force)| (contact.lambda - (contact.base + force)) * contact.change)
+        .sum()
 }
 
 #[inline(always)]

@@ -1,6 +1,6 @@
 //! One step of one string: predict without contacts, solve the contacts, advance.
 
-use crate::active::Rows;
+use crate::active::ActiveSet;
 use crate::drive::{Drive, Push};
 use crate::field::Field;
 use crate::finger::FingerBefore;
@@ -36,7 +36,7 @@ pub struct Scratch {
     pub(crate) displacement: Field,
     pub(crate) solver: Solver,
     /// The contacts active in the last step, with their forces.
-    pub(crate) active: Rows,
+    pub(crate) active: ActiveSet,
     /// Where in [`State::close`] those stand that are near but not yet active.
     pub(crate) near: Roomy<usize>,
     /// The step in which each contact was last solved for, one more than its index.
@@ -72,7 +72,7 @@ impl Scratch {
             motion: grid(),
             displacement: grid(),
             solver: Solver::with_capacity(&model.spans(), model.finger_slots),
-            active: Rows::with_capacity(contacts),
+            active: ActiveSet::with_capacity(contacts),
             near: Roomy::with_capacity(model.contacts.len()),
             held: vec![0; model.contacts.len()],
             clearances: vec![Clearance::default(); groups(&model.grid)],

@@ -2,11 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::field::LANES;
+use crate::field::{LANES, Row};
 use crate::setup::Mode;
-
-/// Modes side by side.
-pub(crate) type Row = [f64; LANES];
 
 /// Coefficients of modes side by side; where there is none they are 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

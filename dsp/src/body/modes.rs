@@ -1,8 +1,8 @@
 //! The modes of a body and their motion, whatever pushes them.
 
-use super::coefficients::{Coefficients, Row};
+use super::coefficients::Coefficients;
 use super::swing::Swing;
-use crate::field::LANES;
+use crate::field::{LANES, Row};
 use crate::instructions::Instructions;
 use crate::kernel::STILL;
 use crate::setup::Body as Description;

@@ -1,7 +1,8 @@
 //! One step of all modes of a body, as many side by side as the instruction set has lanes. Sums run down each lane and are added up
 //! in a fixed order, so that every instruction set gives the same bits.
 
-use super::coefficients::{Coefficients, Row};
+use super::coefficients::Coefficients;
+use crate::field::Row;
 use crate::instructions::{Pass, Vectors};
 
 /// A step to come, under a force on the bridge, N.

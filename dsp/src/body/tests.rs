@@ -10,6 +10,7 @@ use std::slice::from_mut;
 use super::*;
 use crate::drive::Drive;
 use crate::energy::Ledger;
+use crate::field::Row;
 use crate::model::StringParameters;
 use crate::scene::{SolverSettings, Stencil};
 use crate::string::Scratch;

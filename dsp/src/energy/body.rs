@@ -3,9 +3,9 @@
 use std::ops::Deref;
 
 use super::account::Account;
-use crate::body::{End, Modes, Row};
+use crate::body::{End, Modes};
 use crate::entry::{Energies, Entry, Inputs, Losses};
-use crate::field::Field;
+use crate::field::{Field, Row};
 use crate::model::Model;
 use crate::state::State;
 use crate::string::Scratch;

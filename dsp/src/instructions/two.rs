@@ -15,7 +15,7 @@ use pulp::x86::V2 as Set;
 use pulp::{Simd, cast};
 
 use super::{By, Pass, Vectors};
-use crate::field::LANES;
+use crate::field::{LANES, Row};
 
 /// Two lanes.
 #[derive(Debug, Clone, Copy)]
@@ -32,12 +32,12 @@ impl Vectors for Two {
     }
 
     #[inline(always)]
-    fn part(self, row: &[f64; LANES], part: usize) -> Register {
+    fn part(self, row: &Row, part: usize) -> Register {
         cast::<[f64; 2], _>(row.as_chunks().0[part])
     }
 
     #[inline(always)]
-    fn put(self, row: &mut [f64; LANES], part: usize, vector: Register) {
+    fn put(self, row: &mut Row, part: usize, vector: Register) {
         row.as_chunks_mut::<2>().0[part] = cast(vector);
     }
 

@@ -1,7 +1,7 @@
 //! What the passes ask of an instruction set.
 
 use super::Pass;
-use crate::field::LANES;
+use crate::field::Row;
 
 /// Vectors of an instruction set, and what can be done with them, number by number.
 pub(crate) trait Vectors: Copy {
@@ -15,10 +15,10 @@ pub(crate) trait Vectors: Copy {
     fn run<P: Pass>(self, pass: P) -> P::Output;
 
     /// The `part`-th vector of a row.
-    fn part(self, row: &[f64; LANES], part: usize) -> Self::Vector;
+    fn part(self, row: &Row, part: usize) -> Self::Vector;
 
     /// Puts it there.
-    fn put(self, row: &mut [f64; LANES], part: usize, vector: Self::Vector);
+    fn put(self, row: &mut Row, part: usize, vector: Self::Vector);
 
     /// The same number in every lane.
     fn splat(self, value: f64) -> Self::Vector;

@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use super::{By, Pass, Vectors};
-use crate::field::LANES;
+use crate::field::{LANES, Row};
 
 /// The instructions of a set that is `S`.
 #[derive(Debug, Clone, Copy)]
@@ -20,12 +20,12 @@ impl<S: Simd> Vectors for Wide<S> {
     }
 
     #[inline(always)]
-    fn part(self, row: &[f64; LANES], part: usize) -> S::f64s {
+    fn part(self, row: &Row, part: usize) -> S::f64s {
         S::as_simd_f64s(row).0[part]
     }
 
     #[inline(always)]
-    fn put(self, row: &mut [f64; LANES], part: usize, vector: S::f64s) {
+    fn put(self, row: &mut Row, part: usize, vector: S::f64s) {
         S::as_mut_simd_f64s(row).0[part] = vector;
     }
 

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::rows::{Row, rows, rows_mut};
-use crate::field::{BESIDE_NUT, Ends, Field, LANES, total};
+use super::rows::{rows, rows_mut};
+use crate::field::{BESIDE_NUT, Ends, Field, LANES, Row, total};
 use crate::instructions::{Pass, Vectors};
 
 /// Motion below this, m, is none: what runs ahead of a wave on a silent string would otherwise become a
@@ -46,23 +46,23 @@ impl<const STRETCH: bool> Pass for LastPass<'_, '_, STRETCH> {
     fn by<V: Vectors>(self, simd: V) -> Moved {
         let LastPass { pass: Advance { pull, from: (w, v, u), to: (d_next, u_next) }, ends } = self;
         let (count, last) = (rows(w).len(), ends.beside_bridge);
-        let mut rows = Rows::<STRETCH> {
+        let mut moving = Moving::<STRETCH> {
             pull,
             from: [w, v, u].map(|field| rows(field)),
             sizes: [0.0; LANES],
             squares: [0.0; LANES],
         };
-        rows.advance(simd, 0..BESIDE_NUT, (d_next, u_next));
-        rows.advance(simd, last..count, (d_next, u_next));
+        moving.advance(simd, 0..BESIDE_NUT, (d_next, u_next));
+        moving.advance(simd, last..count, (d_next, u_next));
         u_next.close_ends(ends);
-        rows.advance(simd, BESIDE_NUT..last, (d_next, u_next));
-        let largest = rows.sizes.iter().fold(0.0, |most, &size| if size > most { size } else { most });
-        Moved { largest, squares: total(&rows.squares) }
+        moving.advance(simd, BESIDE_NUT..last, (d_next, u_next));
+        let largest = moving.sizes.iter().fold(0.0, |most, &size| if size > most { size } else { most });
+        Moved { largest, squares: total(&moving.squares) }
     }
 }
 
-/// The rows of a last pass.
-struct Rows<'a, const STRETCH: bool> {
+/// Rows on their way through a last pass.
+struct Moving<'a, const STRETCH: bool> {
     pull: f64,
     /// w, v and u.
     from: [&'a [Row]; 3],
@@ -72,7 +72,7 @@ struct Rows<'a, const STRETCH: bool> {
     squares: Row,
 }
 
-impl<const STRETCH: bool> Rows<'_, STRETCH> {
+impl<const STRETCH: bool> Moving<'_, STRETCH> {
     /// Moves some of them.
     #[inline(always)]
     fn advance<V: Vectors>(

@@ -1,9 +1,6 @@
 //! Rows of a field.
 
-use crate::field::LANES;
-
-/// A row of a field, or [`LANES`] numbers anywhere in it.
-pub(crate) type Row = [f64; LANES];
+use crate::field::{LANES, Row};
 
 /// The rows of a field.
 #[inline(always)]

@@ -1,8 +1,8 @@
 //! The sweep of a prediction: rows one after another, with what is needed of their neighbours in registers.
 
-use super::rows::{Row, rows, rows_after, rows_before, rows_mut};
+use super::rows::{rows, rows_after, rows_before, rows_mut};
 use super::{Shape, Stretching, Weights};
-use crate::field::{Field, LANES, total};
+use crate::field::{Field, LANES, Row, total};
 use crate::instructions::{Pass, Vectors};
 
 /// Sums of a sweep in each lane.

@@ -1,6 +1,6 @@
 //! The answer of a few contacts, whole.
 
-use super::Row;
+use super::Coupled;
 use super::elimination::springs_of_few;
 use crate::solver::Answer;
 
@@ -12,15 +12,16 @@ pub(crate) struct Few<const N: usize> {
 impl<const N: usize> Few<N> {
     /// Gathers M.
     #[inline(always)]
-    pub fn gather<R: Row>(rows: &[R; N], pull_factor: f64) -> Self {
+    pub fn gather<C: Coupled>(contacts: &[C; N], pull_factor: f64) -> Self {
         let mut entries = [[0.0; N]; N];
         for i in 0..N {
             for j in 0..=i {
-                let string = if i == j { rows[i].own_coupling() } else { rows[i].coupling(&rows[j]) };
-                entries[i][j] = string - pull_factor * (rows[i].pull() * rows[j].pull());
+                let string =
+                    if i == j { contacts[i].own_coupling() } else { contacts[i].coupling(&contacts[j]) };
+                entries[i][j] = string - pull_factor * (contacts[i].pull() * contacts[j].pull());
                 entries[j][i] = entries[i][j];
             }
-            entries[i][i] += rows[i].own_mobility();
+            entries[i][i] += contacts[i].own_mobility();
         }
         Few { entries }
     }

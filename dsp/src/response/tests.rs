@@ -13,7 +13,7 @@ struct Pulled {
     own: f64,
 }
 
-impl Row for Pulled {
+impl Coupled for Pulled {
     fn span(&self) -> (usize, usize) {
         self.reading.span()
     }
@@ -28,7 +28,7 @@ impl Row for Pulled {
     }
 }
 
-impl Row for Point {
+impl Coupled for Point {
     fn span(&self) -> (usize, usize) {
         self.0.span()
     }
@@ -130,22 +130,22 @@ fn springs_answer_what_they_are_asked_where_the_tension_pulls() {
         let norm: f64 = curvature.iter().map(|v| v * v).sum();
         let factor = STRETCH / norm / (1.0 + STRETCH);
         let readings = places.map(|place| grid.reading(place));
-        let rows: [Pulled; N] = std::array::from_fn(|i| {
+        let contacts: [Pulled; N] = std::array::from_fn(|i| {
             let own = if i % 3 == 1 { random(state) } else { 0.0 };
             Pulled { reading: readings[i], pull: readings[i].of(&curvature), own }
         });
         let matrix: [[f64; N]; N] = std::array::from_fn(|i| {
             std::array::from_fn(|j| {
-                let own = if i == j { rows[i].own } else { 0.0 };
-                rows[i].coupling(&rows[j]) + own - factor * rows[i].pull * rows[j].pull
+                let own = if i == j { contacts[i].own } else { 0.0 };
+                contacts[i].coupling(&contacts[j]) + own - factor * contacts[i].pull * contacts[j].pull
             })
         });
         let slopes = [(); N].map(|()| slope * (0.1 + 0.9 * random(state)));
         let asked = [(); N].map(|()| random(state) - 0.5);
         let mut response = Response::with_capacity(&readings.map(|reading| reading.span()), 0);
-        response.gather(&rows, factor);
+        response.gather(&contacts, factor);
         assert_eq!(response.blocks.len(), blocks, "{N} contacts");
-        let mut few = Few::gather(&rows, factor);
+        let mut few = Few::gather(&contacts, factor);
         for (name, answer) in [("many", &mut response as &mut dyn Answer), ("few", &mut few)] {
             let (mut forces, mut moved) = (asked, [0.0; N]);
             answer.springs(&slopes, &mut forces);

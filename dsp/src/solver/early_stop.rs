@@ -26,14 +26,14 @@ const STEEPEST_SECANT: f64 = 1e14;
 /// barriers may push against each other by any amount that the string does not feel, but then some pull: where
 /// the pulls are less than half of the pushes no force is more than twice the net push.
 #[inline(always)]
-pub(super) fn bounded(rows: &[Active], forces: &[f64], tolerance: f64) -> bool {
+pub(super) fn bounded(contacts: &[Active], forces: &[f64], tolerance: f64) -> bool {
     let (mut pushes, mut pulls, mut mobility) = (0.0, 0.0, 0.0);
-    for (row, force) in rows.iter().zip(forces) {
-        if row.own_mobility == 0.0 {
-            let force = row.base + force;
+    for (contact, force) in contacts.iter().zip(forces) {
+        if contact.own_mobility == 0.0 {
+            let force = contact.base + force;
             pushes += force.max(0.0);
             pulls -= force.min(0.0);
-            mobility = row.mobility;
+            mobility = contact.mobility;
         }
     }
     mobility * (pulls - 0.5 * pushes) <= tolerance
@@ -44,18 +44,21 @@ pub(super) fn bounded(rows: &[Active], forces: &[f64], tolerance: f64) -> bool {
 #[cold]
 #[inline(never)]
 pub(super) fn stop_early(
-    rows: &mut [Active],
+    contacts: &mut [Active],
     answer: &mut impl Answer,
     room: &mut Room,
     usable: bool,
     scale: EnergyScale,
     convergence: &mut Convergence,
 ) -> f64 {
-    let gain =
-        if usable { 0.5 * created(rows, room.forces) } else { fall_back(rows, answer, room, convergence) };
-    let taken = 0.5 * demanded(rows, room.forces);
+    let gain = if usable {
+        0.5 * created(contacts, room.forces)
+    } else {
+        fall_back(contacts, answer, room, convergence)
+    };
+    let taken = 0.5 * demanded(contacts, room.forces);
     if gain <= scale.credit && taken.abs() > NOTHING * scale.present {
-        return approach(rows, answer, room, taken, scale.credit);
+        return approach(contacts, answer, room, taken, scale.credit);
     }
     gain
 }
@@ -63,40 +66,40 @@ pub(super) fn stop_early(
 /// Forces that create no energy: f = λ(0) + S r with secants S steep enough. Returns the energy they give to
 /// the string, J: not above 0 unless rounding leaves no better.
 fn fall_back(
-    rows: &mut [Active],
+    contacts: &mut [Active],
     answer: &mut impl Answer,
     room: &mut Room,
     convergence: &mut Convergence,
 ) -> f64 {
     // The secants take the place of the residual, the best forces so far that of the step.
-    for (i, row) in rows.iter_mut().enumerate() {
-        row.evaluate(0.0);
-        room.start[i] = row.lambda - row.base;
-        room.residual[i] = row.slope;
+    for (i, contact) in contacts.iter_mut().enumerate() {
+        contact.evaluate(0.0);
+        room.start[i] = contact.lambda - contact.base;
+        room.residual[i] = contact.slope;
     }
     let mut least = f64::INFINITY;
     for attempt in 0..FALLBACKS {
         convergence.fallbacks += 1;
         // x = S(r₀ − Mλ(0) − M x), f = λ(0) + x.
         answer.product(room.start, room.motion);
-        for (i, row) in rows.iter().enumerate() {
-            room.unknown[i] = row.centre - room.motion[i];
+        for (i, contact) in contacts.iter().enumerate() {
+            room.unknown[i] = contact.centre - room.motion[i];
         }
         answer.springs(room.residual, room.unknown);
-        for i in 0..rows.len() {
+        for i in 0..contacts.len() {
             room.forces[i] = room.start[i] + room.unknown[i];
         }
-        let gain = energy_given(rows, answer, room.forces, room.motion);
-        if gain <= 0.0 && (attempt >= EASINGS || bounded(rows, room.forces, 0.0)) {
+        let gain = energy_given(contacts, answer, room.forces, room.motion);
+        if gain <= 0.0 && (attempt >= EASINGS || bounded(contacts, room.forces, 0.0)) {
             return gain;
         }
         if gain < least {
             least = gain;
             room.step.copy_from_slice(room.forces);
         }
-        for (i, row) in rows.iter().enumerate() {
-            let secant = (row.lambda - (row.base + room.start[i])) / row.change;
-            let pulls = row.base + room.forces[i] < 0.0;
+        for (i, contact) in contacts.iter().enumerate() {
+            let secant = (contact.lambda - (contact.base + room.start[i])) / contact.change;
+            let pulls = contact.base + room.forces[i] < 0.0;
             let present = room.residual[i];
             let next = if !secant.is_finite() {
                 present
@@ -105,21 +108,27 @@ fn fall_back(
             } else {
                 2.0 * present.max(secant)
             };
-            room.residual[i] = next.min(STEEPEST_SECANT / (row.mobility + row.own_mobility));
+            room.residual[i] = next.min(STEEPEST_SECANT / (contact.mobility + contact.own_mobility));
         }
     }
     room.forces.copy_from_slice(room.step);
-    energy_given(rows, answer, room.forces, room.motion)
+    energy_given(contacts, answer, room.forces, room.motion)
 }
 
 /// Goes on from forces that create nothing, by which the solver takes `taken`, in the direction of a Newton step
 /// as far as it takes nothing: an answer that is not exact, but neither takes energy nor gives any.
-fn approach(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room, taken: f64, credit: f64) -> f64 {
-    for (i, row) in rows.iter().enumerate() {
-        room.residual[i] = row.required - (row.base + room.forces[i]);
+fn approach(
+    contacts: &mut [Active],
+    answer: &mut impl Answer,
+    room: &mut Room,
+    taken: f64,
+    credit: f64,
+) -> f64 {
+    for (i, contact) in contacts.iter().enumerate() {
+        room.residual[i] = contact.required - (contact.base + room.forces[i]);
     }
     answer.product(room.residual, room.motion);
-    newton_direction(rows, answer, room);
+    newton_direction(contacts, answer, room);
     let error = largest(room.motion);
     room.start.copy_from_slice(room.forces);
     let (mut best, mut least) = (0.0, taken.abs());
@@ -128,11 +137,11 @@ fn approach(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room, take
     let mut high: Option<(f64, f64)> = None;
     let mut t = 1.0;
     for attempt in 0..APPROACHES {
-        let gain = stretch_to(t, rows, answer, room);
-        let given = 0.5 * demanded(rows, room.forces);
-        if gain <= credit && given.abs() < least && bounded(rows, room.forces, 0.0) {
-            for (i, row) in rows.iter().enumerate() {
-                room.residual[i] = row.required - (row.base + room.forces[i]);
+        let gain = stretch_to(t, contacts, answer, room);
+        let given = 0.5 * demanded(contacts, room.forces);
+        if gain <= credit && given.abs() < least && bounded(contacts, room.forces, 0.0) {
+            for (i, contact) in contacts.iter().enumerate() {
+                room.residual[i] = contact.required - (contact.base + room.forces[i]);
             }
             answer.product(room.residual, room.motion);
             if largest(room.motion) <= 0.5 * error {
@@ -156,27 +165,31 @@ fn approach(rows: &mut [Active], answer: &mut impl Answer, room: &mut Room, take
             }
         };
     }
-    stretch_to(best, rows, answer, room)
+    stretch_to(best, contacts, answer, room)
 }
 
 /// Takes the forces so many steps from the start; returns the energy given to the string, J.
-fn stretch_to(t: f64, rows: &mut [Active], answer: &impl Answer, room: &mut Room) -> f64 {
-    for i in 0..rows.len() {
+fn stretch_to(t: f64, contacts: &mut [Active], answer: &impl Answer, room: &mut Room) -> f64 {
+    for i in 0..contacts.len() {
         room.forces[i] = room.start[i] + t * room.step[i];
     }
-    energy_given(rows, answer, room.forces, room.motion)
+    energy_given(contacts, answer, room.forces, room.motion)
 }
 
 /// Evaluates the laws under forces beyond the base; returns the energy given to the string, J.
-fn energy_given(rows: &mut [Active], answer: &impl Answer, forces: &[f64], motion: &mut [f64]) -> f64 {
+fn energy_given(contacts: &mut [Active], answer: &impl Answer, forces: &[f64], motion: &mut [f64]) -> f64 {
     answer.product(forces, motion);
-    for (row, answer) in rows.iter_mut().zip(&*motion) {
-        row.evaluate(row.centre - answer);
+    for (contact, answer) in contacts.iter_mut().zip(&*motion) {
+        contact.evaluate(contact.centre - answer);
     }
-    0.5 * created(rows, forces)
+    0.5 * created(contacts, forces)
 }
 
 /// Σ(law − f)r, twice the energy given to the string beyond what the contacts' laws have it get.
-fn demanded(rows: &[Active], forces: &[f64]) -> f64 {
-    rows.iter().zip(forces).map(|(row, force)| (row.required - (row.base + force)) * row.change).sum()
+fn demanded(contacts: &[Active], forces: &[f64]) -> f64 {
+    contacts
+        .iter()
+        .zip(forces)
+        .map(|(contact, force)| (contact.required - (contact.base + force)) * contact.change)
+        .sum()
 }

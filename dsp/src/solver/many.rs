@@ -8,7 +8,7 @@ use crate::instructions::{Instructions, Pass, Vectors};
 /// down the few. Compiled for each instruction set, as a step is.
 pub(super) struct Many<'a> {
     pub solver: &'a mut Solver,
-    pub rows: &'a mut [Active],
+    pub contacts: &'a mut [Active],
     pub pull_factor: f64,
     pub demands: Demands<'a>,
     pub convergence: &'a mut Convergence,
@@ -26,25 +26,25 @@ impl Pass for Many<'_> {
 
     #[inline(always)]
     fn by<V: Vectors>(self, _: V) -> f64 {
-        let Many { solver, rows, pull_factor, demands, convergence } = self;
-        match rows.len() {
-            7 => solve_few::<7>(rows, pull_factor, demands, convergence),
-            8 => solve_few::<8>(rows, pull_factor, demands, convergence),
-            9 => solve_few::<9>(rows, pull_factor, demands, convergence),
-            10 => solve_few::<10>(rows, pull_factor, demands, convergence),
+        let Many { solver, contacts, pull_factor, demands, convergence } = self;
+        match contacts.len() {
+            7 => solve_few::<7>(contacts, pull_factor, demands, convergence),
+            8 => solve_few::<8>(contacts, pull_factor, demands, convergence),
+            9 => solve_few::<9>(contacts, pull_factor, demands, convergence),
+            10 => solve_few::<10>(contacts, pull_factor, demands, convergence),
             count => {
-                in_order(rows);
-                solver.response.gather(rows, pull_factor);
+                in_order(contacts);
+                solver.response.gather(contacts, pull_factor);
                 solver.room.clear();
                 solver.room.resize(ARRAYS * count, 0.0);
                 let room = Room::new(&mut solver.room, count);
-                solve(rows, &mut solver.response, room, demands, convergence)
+                solve(contacts, &mut solver.response, room, demands, convergence)
             }
         }
     }
 }
 
 /// Puts contacts in the order in which the response of many has room for them.
-fn in_order(rows: &mut [Active]) {
-    rows.sort_unstable_by(|a, b| a.reading.order(&b.reading).then(a.slot.cmp(&b.slot)));
+fn in_order(contacts: &mut [Active]) {
+    contacts.sort_unstable_by(|a, b| a.reading.order(&b.reading).then(a.slot.cmp(&b.slot)));
 }
