@@ -38,6 +38,7 @@ use nice_plug::wrapper::setup_logger;
 
 use super::LowAction;
 use super::door::Door;
+use super::waiting::Waiting;
 use crate::engine::Engine;
 use in_order::InOrder;
 use modulated::{Apart, Modulated};
@@ -106,7 +107,7 @@ impl Instance {
             let inside = (*plugin.cast::<Self>()).inside;
             let Some(next) = (*inside).process else { return CLAP_PROCESS_ERROR };
             let last = (*process).frames_count.saturating_sub(1);
-            let waiting = &(&(*plugin.cast::<Self>()).door).waiting;
+            let waiting = Self::waiting(plugin);
             waiting.begin_call();
             let said = Self::put_right(plugin, (*process).in_events, last, |in_events| {
                 Self::listened_to(plugin, (*process).out_events, |out_events| {
@@ -123,6 +124,16 @@ impl Instance {
         }
     }
 
+    /// What waits until something can be played.
+    ///
+    /// # Safety
+    /// The plugin must be what `create_plugin` gave the host.
+    unsafe fn waiting<'a>(plugin: *const clap_plugin) -> &'a Waiting {
+        // SAFETY: as above, and the host keeps it for as long as it calls.
+        let instance = unsafe { &*plugin.cast::<Self>() };
+        &instance.door.waiting
+    }
+
     /// A call of the host's ends, and what it has brought for players waits if nothing was played.
     ///
     /// # Safety
@@ -130,8 +141,8 @@ impl Instance {
     unsafe fn have_wait(plugin: *const clap_plugin, events: *const clap_input_events) {
         // SAFETY: as above.
         unsafe {
-            let (door, modulated) = (&(*plugin.cast::<Self>()).door, &(*plugin.cast::<Self>()).modulated);
-            door.waiting.end_call(|keep| heard::each(events, modulated, keep));
+            let modulated = &(*plugin.cast::<Self>()).modulated;
+            Self::waiting(plugin).end_call(|keep| heard::each(events, modulated, keep));
         }
     }
 

@@ -61,22 +61,6 @@ fn a_host_that_lets_it_sleep_loses_nothing() {
     }
 }
 
-/// What hands do by themselves: a slow tremolo of a string that is at rest before each of its strokes.
-#[test]
-fn a_host_that_lets_it_sleep_loses_no_stroke_that_is_to_come() {
-    let choked = ["loss_0", "loss_1"].map(|id| (0, Action::Parameter(parameter(id), 1.0)));
-    let palm = controller(0, 20, 127);
-    let tremolo = [controller(0, 25, 1), on(1000, 64), off(90_000, 64)];
-    let score: Score = [&choked[..], &[palm], &tremolo].concat();
-    let awake = Host::new().play(RATE, &score, 120_000, &[64]);
-    let mut host = Host::new();
-    host.sleepy = true;
-    let asleep = host.perform(RATE, &score, 120_000, &[64], 0);
-    let silent = awake[0][1000..90_000].split(|&sample| sample != 0.0).map(<[f32]>::len).max();
-    println!("slept for {}, silent for {silent:?} at once", asleep.slept);
-    assert!(asleep.stereo == awake);
-}
-
 #[test]
 fn nothing_subnormal_comes_out() {
     // The farthest down a sound can be: before its first wave, at its last, through the lowest level, bypassed.

@@ -70,7 +70,7 @@ unsafe extern "C" fn flush(
     // SAFETY: the host gives back what it was given, and neither processes nor flushes meanwhile. Outside of blocks no time is too
     // late.
     unsafe {
-        (&(*plugin.cast::<Instance>()).door).waiting.begin_call();
+        Instance::waiting(plugin).begin_call();
         let told = input.as_ref().is_some_and(|list| list.size.is_some_and(|size| size(list) > 0));
         let ((), said) = Instance::put_right(plugin, input, u32::MAX, |input| {
             (*plugin.cast::<Instance>().cast_mut()).apart.take_in_at_once();
