@@ -10,6 +10,8 @@ pub(super) struct Transport {
     ran: bool,
     /// Where it was when it last ran, samples, if the host says so.
     at: Option<i64>,
+    /// The same in beats.
+    beats: Option<f64>,
 }
 
 /// What happens to it.
@@ -30,17 +32,21 @@ impl Transport {
 
     /// Follows the host's into another block.
     pub fn follow(&mut self, host: &nice_plug::prelude::Transport) -> Option<Turn> {
-        self.turn(host.playing, host.pos_samples())
+        self.turn(host.playing, host.pos_samples(), host.pos_beats())
     }
 
-    fn turn(&mut self, runs: bool, at: Option<i64>) -> Option<Turn> {
+    /// Of a host that tells of samples or beats only the framework makes the others by the tempo of the moment, so that these go back
+    /// where the tempo changes. What goes back does so in both.
+    fn turn(&mut self, runs: bool, at: Option<i64>, beats: Option<f64>) -> Option<Turn> {
         let ran = std::mem::replace(&mut self.ran, runs);
         if !runs {
             return ran.then_some(Turn::Stops);
         }
         let before = std::mem::replace(&mut self.at, at);
         let back = before.zip(at).map_or(0, |(before, at)| before.saturating_sub(at));
-        let goes_back = back > 0 && back >= self.largest_block;
+        let in_beats =
+            std::mem::replace(&mut self.beats, beats).zip(beats).is_none_or(|(before, at)| at < before);
+        let goes_back = back > 0 && back >= self.largest_block && in_beats;
         (!ran || goes_back).then_some(Turn::Begins)
     }
 }
@@ -69,7 +75,24 @@ mod tests {
             (true, None, Some(Turn::Begins)),
             (true, None, None),
         ] {
-            assert_eq!(transport.turn(runs, at), turn, "{runs}, {at:?}");
+            assert_eq!(transport.turn(runs, at, None), turn, "{runs}, {at:?}");
+        }
+    }
+
+    /// The third tells of samples and the tempo, the others of beats.
+    #[test]
+    fn another_tempo_is_no_way_back() {
+        let mut transport = Transport::of_blocks(512);
+        for (at, beats, turn) in [
+            (480_000, 20.0, Some(Turn::Begins)),
+            // Twice as fast: as if it had been so from the beginning.
+            (240_000, 20.01, None),
+            (240_512, 10.02, None),
+            (120_000, 10.03, None),
+            // Back by both.
+            (48_000, 2.0, Some(Turn::Begins)),
+        ] {
+            assert_eq!(transport.turn(true, Some(at), Some(beats)), turn, "{at} samples, {beats} beats");
         }
     }
 }
