@@ -3,7 +3,7 @@
 
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::numbers::largest;
-use low_action_tests::stage::{Stage, decibels, off, on, peak};
+use low_action_tests::stage::{Stage, cc, decibels, off, on, peak};
 
 const RATE: f64 = 48_000.0;
 /// When the second note begins, s.
@@ -100,6 +100,37 @@ fn a_quick_figure_is_as_loud_as_a_slow_one() {
                         "{setup} {string}, frets {frets:?}, velocity {velocity}, {length} s each: {quick} dB, slowly {slow} dB"
                     );
                 }
+            }
+        }
+    }
+}
+
+/// A note that is shorter than the shortest is damped 30 ms after its stroke, on a string that sounds, too. Only a finger that waits until
+/// the hand that stills the string has gone is to be heard for as long. (Open strings and fingers that stay where they are were
+/// damped 2.1 ms later, and on the bass 3.5 ms.)
+#[test]
+fn the_shortest_notes_that_no_finger_waits_for_are_damped_thirty_milliseconds_after_their_stroke() {
+    for (setup, string, open) in STRINGS {
+        let mut stage = Stage::alone(setup, string);
+        // Frets before and then, and what CC 23 asks for.
+        for (before, fret, stop) in [(0, 0, 0), (5, 0, 0), (5, 5, 0), (0, 12, 1)] {
+            for length in [0.005, 0.01] {
+                let events = [
+                    (0.0, on(open + before, 64)),
+                    (NEXT, cc(23, stop)),
+                    (NEXT, off(open + before)),
+                    (NEXT, on(open + fret, 64)),
+                    (NEXT + length, off(open + fret)),
+                ];
+                let gestures = stage.play(&events, NEXT + 0.06).gestures;
+                let plucks = |timed: &TimedGesture| matches!(timed.gesture, Gesture::Pluck { .. });
+                let stroke = gestures.iter().rposition(plucks).expect("it is struck");
+                let lays = |timed: &&TimedGesture| matches!(timed.gesture, Gesture::Place { .. });
+                let damped = gestures[stroke..].iter().find(lays).expect("it is damped");
+                let sounds = damped.time - gestures[stroke].time;
+                let here =
+                    format!("{setup} {string}, fret {fret} after {before}, CC 23 = {stop}, {length} s");
+                assert!(sounds.abs_diff((SHORTEST * RATE) as u64) <= 1, "{here}: {sounds} samples");
             }
         }
     }

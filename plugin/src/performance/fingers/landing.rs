@@ -24,6 +24,8 @@ pub(super) struct SetDown {
     pub clearance: f64,
     /// Time in which it comes to press, s.
     pub rise: f64,
+    /// Whether it comes from so high that it meets the string when a hand that stills it goes.
+    pub waits: bool,
 }
 
 /// How a finger is thrown.
@@ -40,19 +42,21 @@ pub(super) struct Thrown {
 }
 
 impl Fingers {
-    /// A finger lands behind a fret of a string that is held down somewhere.
+    /// A finger lands behind a fret of a string that is held down somewhere. Gives back whether it waits for a hand that stills the string
+    /// to go.
     pub(super) fn land(
         &mut self,
         fret: usize,
         stopped: Down,
         coming: Coming,
         at: &mut Moment<impl GestureSink>,
-    ) {
-        let SetDown { touch, clearance, rise } = self.set_down(fret, stopped, coming, self.force());
+    ) -> bool {
+        let SetDown { touch, clearance, rise, waits } = self.set_down(fret, stopped, coming, self.force());
         let slot = self.take_slot(fret, touch, false);
         let position = self.sounding_from();
         at.does(Gesture::Place { finger: slot, touch, position, clearance });
         at.does(Gesture::Press { finger: slot, force: self.force(), duration: rise });
+        waits
     }
 
     /// How the string is set down behind a fret with a force, N. What a finger does to it under a hand that stills it is lost, and could
@@ -79,11 +83,12 @@ impl Fingers {
         let time = period * (by_itself.min(longest) / period).round().max(1.0);
         touch.hand_damping = damping_in(time).min(MOST_DAMPING);
         let rise = landing.min(LANDING_RISE * period);
-        let later =
-            stilled.filter(|[comes, _]| *comes < time).map_or(0.0, |[_, gone]| gone - MET_BEFORE * period);
+        let stilled = stilled.filter(|[comes, _]| *comes < time);
+        let later = stilled.map_or(0.0, |[_, gone]| gone - MET_BEFORE * period);
         // In the air only the hand brakes it, once it has gathered speed.
         let travels = (later - 0.5 * rise - touch.mass / touch.hand_damping).max(0.0);
-        SetDown { touch, clearance: hover + travels * force / touch.hand_damping, rise }
+        let clearance = hover + travels * force / touch.hand_damping;
+        SetDown { touch, clearance, rise, waits: stilled.is_some() }
     }
 
     /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, behind a fret of a string that is held down

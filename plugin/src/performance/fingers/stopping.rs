@@ -12,7 +12,8 @@ use crate::performance::{GestureSink, Moment};
 impl Fingers {
     /// Makes way for a note: dampers off, a finger behind the fret (0: none). One that is there already stays. One at a lower
     /// fret leaves when the new one has landed, one at a higher fret, in a manner of leaving, when the new one stops the string
-    /// behind it, so that the string does not come up in between.
+    /// behind it, so that the string does not come up in between. Gives back whether a finger waits for a hand that stills the string to
+    /// go.
     pub(crate) fn stop(
         &mut self,
         fret: usize,
@@ -20,7 +21,7 @@ impl Fingers {
         coming: Coming,
         leaves: Leaving,
         at: &mut Moment<impl GestureSink>,
-    ) {
+    ) -> bool {
         let called_back = if self.gives_way_to(fret) { self.call_back(at.time) } else { None };
         self.make_way(coming.strength, at);
         self.lay_capo(at);
@@ -40,23 +41,27 @@ impl Fingers {
                 && stays_down(finger)
         };
         if self.fretting.is_some_and(|finger| stays(&finger)) {
-            return self.press_again(at);
+            self.press_again(at);
+            return false;
         }
         let (old, anchor) = (self.take_fretting(at), self.anchor.take().or(called_back));
         let presses = matches!(stop, Stop::Press | Stop::Harmonic) && !bar && fret > self.capo[1];
         let down = self.down(old.as_ref(), at);
         match old.filter(|old| presses && !old.bar && old.free.is_none()) {
             Some(old) if old.is_below(fret) && !old.is_under_way(at.time) => {
-                self.land(fret, down, coming, at);
-                return self.depart_from(old, BEHIND_LIFT, at);
+                let waits = self.land(fret, down, coming, at);
+                self.depart_from(old, BEHIND_LIFT, at);
+                return waits;
             }
             Some(old) if self.is_over(fret, down) => {
-                self.land(fret, down, coming, at);
-                return at.does(old.lets_go(leaves));
+                let waits = self.land(fret, down, coming, at);
+                at.does(old.lets_go(leaves));
+                return waits;
             }
             Some(old) => {
                 self.stop_behind(fret, old.slot, anchor, at);
-                return at.does(old.lets_go(leaves));
+                at.does(old.lets_go(leaves));
+                return false;
             }
             None => {}
         }
@@ -67,8 +72,9 @@ impl Fingers {
             Stop::Mute => self.mute(fret, at),
             _ if fret <= self.capo[1] => {}
             _ if bar => self.lay_bar(fret, at),
-            _ => self.land(fret, Down::on(self.capo[1]), coming, at),
+            _ => return self.land(fret, Down::on(self.capo[1]), coming, at),
         }
+        false
     }
 
     /// How a finger leaves a string that a note of some strength is about to sound on: a string let go of suddenly sounds as

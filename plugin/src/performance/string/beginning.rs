@@ -79,7 +79,7 @@ impl StringPlayer {
             _ if self.fingers.palm_rests() => self.fingers.letting_go(0.0),
             _ => self.fingers.letting_go(coming.strength),
         };
-        self.fingers.stop(fret, stop, coming, leaves, at);
+        let waits = self.fingers.stop(fret, stop, coming, leaves, at);
         self.fingers.count_from(start.fret);
         self.bend.tell_landing(&self.fingers, at);
         self.touch_node(start.wait, at);
@@ -88,7 +88,9 @@ impl StringPlayer {
         }
         let towards_antinode = self.towards_antinode();
         let Some(note) = &mut self.note else { return };
-        note.met = at.after(stilled.map_or(0.0, |[_, gone]| gone));
+        if let Some([_, gone]) = stilled.filter(|_| waits) {
+            note.met = at.after(gone);
+        }
         note.struck.beside += towards_antinode;
         let struck = note.struck;
         if start.wait > 0.0 {

@@ -113,7 +113,8 @@ pub(crate) struct Note {
     pub began: u64,
     /// Sample at which it is first heard, which a stroke that has some way to go makes later.
     pub since: u64,
-    /// Sample by which a hand that stills the string for it has gone: a finger that waits for that has met the string.
+    /// Sample by which a finger that waits until a hand that stills the string has gone has met it; that at which the note began if none
+    /// does.
     pub met: u64,
     /// How often its key went down that has not gone up again: each press has a note-off of its own.
     pub presses: u32,
