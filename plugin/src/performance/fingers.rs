@@ -29,6 +29,7 @@ use super::right_hand::{Field, RightHand};
 use super::technique::*;
 use super::{GestureSink, Moment, PlayedString};
 use held::Grip;
+use landing::Awaited;
 use leaving::hurried;
 pub(super) use leaving::{QUIET_LIFT, lift_force, lifting};
 pub(super) use pace::Pace;
@@ -101,6 +102,8 @@ pub(crate) struct Fingers {
     /// Where the set-up has plucks, m from the saddle, wherever the right hand is told to go.
     usual_place: f64,
     fretting: Option<Finger>,
+    /// When that comes, if it is yet to come.
+    awaited: Option<Awaited>,
     /// A finger held down behind the one that sounds.
     anchor: Option<Finger>,
     /// Slot of the next fretting finger: the one that `fretting` has not.
@@ -142,6 +145,7 @@ impl Fingers {
             hands,
             usual_place,
             fretting: None,
+            awaited: None,
             anchor: None,
             next_slot: 0,
             light: None,
@@ -164,6 +168,7 @@ impl Fingers {
     /// All away.
     pub(crate) fn reset(&mut self) {
         (self.fretting, self.anchor, self.light, self.touched) = (None, None, None, 0.0);
+        self.awaited = None;
         self.behind_bar = false;
         self.departing = [None; FINGERS_PER_STRING];
         self.next_slot = 0;
@@ -292,6 +297,7 @@ impl Fingers {
 
     /// Whatever keeps the string from sounding leaves at once, for a note so hard, 0 to 1; the palm stays as it is told.
     fn make_way(&mut self, strength: f64, at: &mut Moment<impl GestureSink>) {
+        self.come(at);
         for slot in self.resting_slots() {
             at.does(lifting(slot, self.hands.damper.touch, QUICK_LIFT));
         }

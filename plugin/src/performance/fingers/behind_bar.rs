@@ -49,6 +49,7 @@ impl Fingers {
         if std::mem::take(&mut self.behind_bar) {
             at.does(lifting(BEHIND_BAR, self.hands.damper.touch, QUICK_LIFT));
         }
+        self.come(at);
         self.fretting.take()
     }
 

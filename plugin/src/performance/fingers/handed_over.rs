@@ -17,6 +17,7 @@ impl Fingers {
     pub(crate) fn take_over(&mut self, old: &Self) -> bool {
         self.hands = old.hands.clone();
         (self.fretting, self.anchor, self.light) = (old.fretting, old.anchor, old.light);
+        self.awaited = old.awaited;
         (self.touched, self.behind_bar) = (old.touched, old.behind_bar);
         (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
         self.right.take_over(&old.right);
@@ -46,6 +47,7 @@ impl Fingers {
         if !std::mem::take(&mut self.misplaced) {
             return false;
         }
+        self.come(at);
         for finger in [self.fretting, self.anchor].into_iter().flatten() {
             let duration = finger.time_to_arrive(at).max(MOVES);
             self.move_along(&finger, self.pressed(&finger), duration, at);

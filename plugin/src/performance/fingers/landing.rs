@@ -20,12 +20,19 @@ use crate::performance::{GestureSink, Moment, PlayedString};
 /// How a string is set down.
 pub(super) struct SetDown {
     pub touch: Touch,
-    /// Height that it comes from, m.
-    pub clearance: f64,
     /// Time in which it comes to press, s.
     pub rise: f64,
-    /// Whether it comes from so high that it meets the string when a hand that stills it goes.
-    pub waits: bool,
+    /// How long it waits for a hand that stills the string, if it does, s.
+    pub waits: Option<f64>,
+}
+
+/// A finger that comes only when a hand that stills the string for it is about to go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Awaited {
+    /// When that is, in samples.
+    time: u64,
+    /// Time in which it comes to press, s.
+    rise: f64,
 }
 
 /// How a finger is thrown.
@@ -51,17 +58,32 @@ impl Fingers {
         coming: Coming,
         at: &mut Moment<impl GestureSink>,
     ) -> bool {
-        let SetDown { touch, clearance, rise, waits } = self.set_down(fret, stopped, coming, self.force());
-        let slot = self.take_slot(fret, touch, false);
-        let position = self.sounding_from();
-        at.does(Gesture::Place { finger: slot, touch, position, clearance });
-        at.does(Gesture::Press { finger: slot, force: self.force(), duration: rise });
-        waits
+        let SetDown { touch, rise, waits } = self.set_down(fret, stopped, coming, self.force());
+        self.take_slot(fret, touch, false);
+        self.awaited = Some(Awaited { time: at.after(waits.unwrap_or(0.0)), rise });
+        if waits.is_none() {
+            self.come(at);
+        }
+        waits.is_some()
+    }
+
+    /// The finger that waits for a hand to go waits no longer, if there is one.
+    pub(super) fn come(&mut self, at: &mut Moment<impl GestureSink>) {
+        let Some(Awaited { rise, .. }) = self.awaited.take() else { return };
+        let Some(finger) = self.fretting else { return };
+        let (position, clearance) = (self.pressed(&finger), self.hands.fretting.hover);
+        at.does(Gesture::Place { finger: finger.slot, touch: finger.touch, position, clearance });
+        at.does(Gesture::Press { finger: finger.slot, force: self.force(), duration: rise });
+    }
+
+    /// When one comes that waits.
+    pub(super) fn comes(&self) -> Option<u64> {
+        self.awaited.map(|awaited| awaited.time)
     }
 
     /// How the string is set down behind a fret with a force, N. What a finger does to it under a hand that stills it is lost, and could
-    /// not take up what the fret does later: a finger that would be down only after such a hand has come is so high that it meets the
-    /// string when that goes.
+    /// not take up what the fret does later: a finger that would be down only after such a hand has come meets the string when that
+    /// goes. (And comes only then: from higher up, as high over a string that swings, it would be early or late by as much.)
     pub(super) fn set_down(
         &self,
         fret: usize,
@@ -69,7 +91,7 @@ impl Fingers {
         Coming { strength, haste, stilled }: Coming,
         force: f64,
     ) -> SetDown {
-        let Fretting { mut touch, landing, hover, .. } = self.hands.fretting;
+        let Fretting { mut touch, landing, .. } = self.hands.fretting;
         let SoftLanding { from, most, drowned, slowest } = SOFT_LANDING;
         let softness = (from / strength.max(f64::MIN_POSITIVE)).max(1.0);
         let slower = (softness * softness).min(if strength < drowned { f64::INFINITY } else { most });
@@ -83,12 +105,11 @@ impl Fingers {
         let time = period * (by_itself.min(longest) / period).round().max(1.0);
         touch.hand_damping = damping_in(time).min(MOST_DAMPING);
         let rise = landing.min(LANDING_RISE * period);
+        // Until its force has grown and it has gathered speed.
+        let begins = 0.5 * rise + touch.mass / touch.hand_damping;
         let stilled = stilled.filter(|[comes, _]| *comes < time);
-        let later = stilled.map_or(0.0, |[_, gone]| gone - MET_BEFORE * period);
-        // In the air only the hand brakes it, once it has gathered speed.
-        let travels = (later - 0.5 * rise - touch.mass / touch.hand_damping).max(0.0);
-        let clearance = hover + travels * force / touch.hand_damping;
-        SetDown { touch, clearance, rise, waits: stilled.is_some() }
+        let waits = stilled.map(|[_, gone]| (gone - MET_BEFORE * period - begins).max(0.0));
+        SetDown { touch, rise, waits }
     }
 
     /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, behind a fret of a string that is held down

@@ -13,6 +13,7 @@ impl Fingers {
     /// just hard enough; behind a bar one rests already. A hand that mutes the string stays where it is, and so does a light
     /// finger: a string that is let go of sounds.
     pub(crate) fn damp(&mut self, parting: Parting, at: &mut Moment<impl GestureSink>) {
+        self.come(at);
         let near_saddle = self.hands.damper.position.min(FARTHEST_DAMPER * self.sounding_length());
         let (light, mutes) = (self.light, self.light.is_some() && self.resting[LIGHT]);
         for (slot, part) in DAMPERS.into_iter().filter(|&(slot, _)| !mutes && light != Some(slot)) {

@@ -35,11 +35,14 @@ impl Fingers {
 
     /// When there is something that hands have yet to follow.
     pub(crate) fn due(&self) -> Option<u64> {
-        [self.pace.due(), self.right.due()].into_iter().flatten().min()
+        [self.comes(), self.pace.due(), self.right.due()].into_iter().flatten().min()
     }
 
     /// They do, if it is due.
     pub(crate) fn follow(&mut self, at: &mut Moment<impl GestureSink>) {
+        if self.comes() == Some(at.time) {
+            self.come(at);
+        }
         if self.pace.due() == Some(at.time) {
             self.press_soon(at);
         }
@@ -49,6 +52,10 @@ impl Fingers {
 
     pub(super) fn press_on(&mut self, duration: f64, at: &mut Moment<impl GestureSink>) {
         self.pace.done();
+        // One that is yet to come comes with the force that it is to have by then.
+        if self.awaited.is_some() {
+            return;
+        }
         if let Some(finger) = self.fretting.filter(|finger| finger.grip == Grip::Presses && !finger.bar) {
             at.does(Gesture::Press { finger: finger.slot, force: self.force(), duration });
         }

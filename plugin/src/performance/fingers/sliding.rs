@@ -64,6 +64,7 @@ impl Fingers {
         let fret = self.home as i32 + frets;
         let mut slide = None;
         if fret as usize != at_fret {
+            self.come(at);
             let here = sliding.way.come_to(self.pressed(&sliding), at.time);
             self.lift_anchor(fret as usize, at);
             let position = self.place(fret as usize, bar);
@@ -159,6 +160,7 @@ impl Fingers {
         if reached == finger.glided {
             return reached;
         }
+        self.come(at);
         let stands = finger.fret as f64 + reached;
         self.lift_anchor(stands as usize, at);
         if let Some(finger) = &mut self.fretting {
