@@ -133,7 +133,7 @@
 //! | Φ, φ | `energy`, `force` of [`contact::ContactLaw`] | J, N | energy stored in a contact and its slope |
 //! | λ(r), P | `lambda`, `lossy` | N, N/m | force that the stored energy explains; the lossy part is P r |
 //! | C, 2√(Tρ) | `residual`, `radiation` | m/N, N s/m | how far a string gives way at a kinked fret and its grid does not; what waves take away there that are too short for it |
-//! | f | `force` | N | force of a contact, never below 0 |
+//! | f | `force` | N | force of a contact: what its law asks is never below 0, an unfinished answer may pull |
 //! | M | `Response` | m/N | answer of the penetrations to the forces: r = −c − M f |
 //! | ε, z | `sign`, `pull` of a contact | –, m | +1 for board and frets, −1 for fingers; ε gᵀv |
 //! | u_f, d_f | `height`, `motion` of [`finger::Finger`] | m | height of a finger's pad, and its last change |
