@@ -82,7 +82,7 @@ impl Fingers {
     }
 
     /// How the string is set down behind a fret with a force, N. What a finger does to it under a hand that stills it is lost, and could
-    /// not take up what the fret does later: a finger that would be down only after such a hand has come meets the string when that
+    /// not take up what the fret does later: a finger that would be down only after such a hand has come moves the string when that
     /// goes. (And comes only then: from higher up, as high over a string that swings, it would be early or late by as much.)
     pub(super) fn set_down(
         &self,
@@ -108,8 +108,20 @@ impl Fingers {
         // Until its force has grown and it has gathered speed.
         let begins = 0.5 * rise + touch.mass / touch.hand_damping;
         let stilled = stilled.filter(|[comes, _]| *comes < time);
-        let waits = stilled.map(|[_, gone]| (gone - MET_BEFORE * period - begins).max(0.0));
+        let before = self.moves_after(fret, force / touch.hand_damping, touch).min(MET_BEFORE * period);
+        let waits = stilled.map(|[_, gone]| (gone - before - begins).max(0.0));
         SetDown { touch, rise, waits }
+    }
+
+    /// How long a finger that comes at a speed, m/s, takes until the string behind a fret goes with it, s: over the height from which it
+    /// comes, and until its pad is pressed in so far that it drives the string both ways as fast.
+    fn moves_after(&self, fret: usize, speed: f64, touch: Touch) -> f64 {
+        let PlayedString { geometry, tension, .. } = &self.string;
+        let beyond = geometry.length - geometry.finger_position(fret);
+        // Twice the wave impedance, kg/s: the tension by the speed of waves, which run this way to and fro in a period.
+        let both_ways = tension * self.stopped_period(fret) / beyond;
+        let pressed_in = libm::pow(both_ways * speed / touch.stiffness, 1.0 / touch.exponent);
+        (self.hands.fretting.hover + pressed_in) / speed
     }
 
     /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, behind a fret of a string that is held down

@@ -51,8 +51,8 @@ pub(crate) const AT_ONCE: Coming = Coming { strength: 1.0, haste: 1.0, stilled: 
 /// By how much a finger is to be slower than the way to the fret asks for: the string hardly moves before the finger's pad has been
 /// pressed in. Fitted: from 1.08 to 1.17 would be best on frets 3 to 12 of seven strings of four instruments.
 pub(crate) const LANDING_LAG: f64 = 1.13;
-/// How long before a hand that stills the string has gone such a finger meets it, as a part of the period. Fitted: from 0 to 0.2 is all
-/// the same for the level of notes, and the sooner it comes the more of the shortest notes have it down.
+/// How long before a hand that stills the string goes a finger comes at most, as a part of the period, however long it then takes to move
+/// the string: on high frets of short strings soft notes lose level if it comes sooner.
 pub(crate) const MET_BEFORE: f64 = 0.2;
 /// Longest time in which the force of a finger that lands rises, as a part of the period: speed is to be constant.
 pub(crate) const LANDING_RISE: f64 = 0.25;
