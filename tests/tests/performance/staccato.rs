@@ -59,7 +59,7 @@ fn a_short_note_ends_without_a_click() {
                         "{setup} {string}, fret {fret} after {before}, velocity {velocity}, {length} s"
                     );
                     println!("{here}: {:.1} dB soon, {:.1} dB later", soon - note, late - note);
-                    // At most 7.1 dB, of the bass's E1, whose finger comes down after its key is up; and later −15.1 dB. (That
+                    // At most 6.5 dB, of the bass's E1, whose finger comes down after its key is up; and later −15.1 dB. (That
                     // is no more than it was when fingers landed aloud and made the same note 4 dB sharper: −86 dB.)
                     assert!(soon < note + 8.0, "{here}: {soon} dB soon after a note of {note} dB");
                     assert!(late < note - 15.0, "{here}: {late} dB later, after a note of {note} dB");
