@@ -18,11 +18,11 @@ use super::running::{Repository, listen};
 const STRING: &str = "scenes/paper/figure_2.toml";
 const BARRIER: &str = "scenes/paper/barrier.toml";
 
-/// The stencils.
+/// The stencils, in the colours that they have in the picture of the trade, too.
 const STENCILS: [(&str, Stencil, Stroke); 3] = [
-    ("paper", Stencil::Paper, Stroke::new(colour::BLUE)),
-    ("corrected", Stencil::Corrected, Stroke::new(colour::ORANGE)),
-    ("wide", Stencil::Wide, Stroke::new(colour::GREEN)),
+    ("paper", Stencil::Paper, Stroke::new(colour::ORANGE)),
+    ("corrected", Stencil::Corrected, Stroke::new(colour::GREEN)),
+    ("wide", Stencil::Wide, Stroke::new(colour::BLUE)),
 ];
 
 /// Orders in the grid spacing that the analysis promises for partials, of an ideal string and of a stiff one.
