@@ -60,3 +60,20 @@ draws() { capture "$1" && [ "$(count "$1" "$strings")" -gt 500 ]; }
 # Whether the window has a size.
 has_size() { [ "$(size)" = "WIDTH=$1 HEIGHT=$2 " ]; }
 size() { xdotool getwindowgeometry --shell "$window" | grep -E 'WIDTH|HEIGHT' | tr '\n' ' '; }
+# Moves the mouse to so many thousandths of a window that is `$WIDTH` by `$HEIGHT`.
+at() { xdotool mousemove --window "$window" $((WIDTH * $1 / 1000)) $((HEIGHT * $2 / 1000)); }
+# Strums the editor's strings: across all of them beyond the board, in a tenth of a second or so, and back.
+strum() {
+    at 860 80
+    at 860 100
+    xdotool mousedown 1
+    for y in $(seq 100 12 450) $(seq 450 -12 100); do at 860 "$y"; sleep 0.01; done
+    xdotool mouseup 1
+}
+# Ends a program as Ctrl+C in its terminal does, within ten seconds. It has its log at `$folder/instrument.log`.
+interrupt() {
+    kill -INT "$1"
+    for _ in $(seq 100); do kill -0 "$1" 2>/dev/null || break; sleep 0.1; done
+    kill -0 "$1" 2>/dev/null && fail "Ctrl+C does not end it"
+    wait "$1" || { cat "$folder/instrument.log" >&2; fail "it ended with an error"; }
+}

@@ -261,6 +261,12 @@ fn place(contacts: &mut [Active], answer: &impl Answer, room: &mut Room, t: f64)
     for ((force, start), step) in room.forces.iter_mut().zip(&*room.start).zip(&*room.step) {
         *force = if t == 0.0 { *start } else { start + t * step };
     }
+    evaluate(contacts, answer, room);
+}
+
+/// Evaluates the laws at r = r₀ − M f, for the forces f beyond the base.
+#[inline(always)]
+fn evaluate(contacts: &mut [Active], answer: &impl Answer, room: &mut Room) {
     answer.product(room.forces, room.unknown);
     for (contact, answer) in contacts.iter_mut().zip(&*room.unknown) {
         contact.evaluate(contact.centre - answer);

@@ -1,7 +1,7 @@
 //! What becomes of an iteration that was stopped before its end: forces that create no energy, as near to the
 //! solution as can be had for little.
 
-use super::{Answer, Convergence, EnergyScale, Room, created, largest, newton_direction};
+use super::{Answer, Convergence, EnergyScale, Room, created, evaluate, largest, newton_direction, place};
 use crate::active::Active;
 
 /// Attempts of the fallback; its stiffnesses double after the first few, so that long before the last the
@@ -89,7 +89,7 @@ fn fall_back(
         for i in 0..contacts.len() {
             room.forces[i] = room.start[i] + room.unknown[i];
         }
-        let gain = energy_given(contacts, answer, room.forces, room.motion);
+        let gain = energy_given(contacts, answer, room);
         if gain <= 0.0 && (attempt >= EASINGS || bounded(contacts, room.forces, 0.0)) {
             return gain;
         }
@@ -112,7 +112,7 @@ fn fall_back(
         }
     }
     room.forces.copy_from_slice(room.step);
-    energy_given(contacts, answer, room.forces, room.motion)
+    energy_given(contacts, answer, room)
 }
 
 /// Goes on from forces that create nothing, by which the solver takes `taken`, in the direction of a Newton step
@@ -170,19 +170,14 @@ fn approach(
 
 /// Takes the forces so many steps from the start; returns the energy given to the string, J.
 fn stretch_to(t: f64, contacts: &mut [Active], answer: &impl Answer, room: &mut Room) -> f64 {
-    for i in 0..contacts.len() {
-        room.forces[i] = room.start[i] + t * room.step[i];
-    }
-    energy_given(contacts, answer, room.forces, room.motion)
+    place(contacts, answer, room, t);
+    0.5 * created(contacts, room.forces)
 }
 
-/// Evaluates the laws under forces beyond the base; returns the energy given to the string, J.
-fn energy_given(contacts: &mut [Active], answer: &impl Answer, forces: &[f64], motion: &mut [f64]) -> f64 {
-    answer.product(forces, motion);
-    for (contact, answer) in contacts.iter_mut().zip(&*motion) {
-        contact.evaluate(contact.centre - answer);
-    }
-    0.5 * created(contacts, forces)
+/// Evaluates the laws under the forces beyond the base; returns the energy given to the string, J.
+fn energy_given(contacts: &mut [Active], answer: &impl Answer, room: &mut Room) -> f64 {
+    evaluate(contacts, answer, room);
+    0.5 * created(contacts, room.forces)
 }
 
 /// Σ(law − f)r, twice the energy given to the string beyond what the contacts' laws have it get.

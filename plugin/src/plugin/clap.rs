@@ -1,10 +1,10 @@
 //! The door through which CLAP hosts come in.
 //!
 //! What the plugin framework leaves undone is done here, around its functions: events are put in their order
-//! (`in_order`), what is said to players is heard (`heard`) and waits where there are no samples, there is something to play into (`outputs`),
-//! what is set is kept whatever is added to it (`modulated`), hosts are told in order (`said`), also of states that are refused
-//! (`refused`), what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything sounds (`tail`),
-//! and one that sleeps is woken (`wake`) when the editor is shown (`shown`), or anything has been set.
+//! (`in_order`), what is said to players is heard (`heard`) and waits where there are no samples, there is something to play
+//! into (`outputs`), what is set is kept whatever is added to it (`modulated`), hosts are told in order (`said`), also of states that
+//! are refused (`refused`), what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything sounds
+//! (`tail`), and one that sleeps is woken (`wake`) when the editor is shown (`shown`), or anything has been set.
 
 mod heard;
 mod in_order;

@@ -108,19 +108,17 @@ impl Fingers {
         // Until its force has grown and it has gathered speed.
         let begins = 0.5 * rise + touch.mass / touch.hand_damping;
         let stilled = stilled.filter(|[comes, _]| *comes < time);
-        let before = self.moves_after(fret, force / touch.hand_damping, touch).min(MET_BEFORE * period);
+        let before = self.moves_after(force / touch.hand_damping, touch).min(MET_BEFORE * period);
         let waits = stilled.map(|[_, gone]| (gone - before - begins).max(0.0));
         SetDown { touch, rise, waits }
     }
 
-    /// How long a finger that comes at a speed, m/s, takes until the string behind a fret goes with it, s: over the height from which it
+    /// How long a finger that comes at a speed, m/s, takes until the string goes with it, s: over the height from which it
     /// comes, and until its pad is pressed in so far that it drives the string both ways as fast.
-    fn moves_after(&self, fret: usize, speed: f64, touch: Touch) -> f64 {
-        let PlayedString { geometry, tension, .. } = &self.string;
-        let beyond = geometry.length - geometry.finger_position(fret);
-        // Twice the wave impedance, kg/s: the tension by the speed of waves, which run this way to and fro in a period.
-        let both_ways = tension * self.stopped_period(fret) / beyond;
-        let pressed_in = libm::pow(both_ways * speed / touch.stiffness, 1.0 / touch.exponent);
+    fn moves_after(&self, speed: f64, touch: Touch) -> f64 {
+        // Waves that run to both sides ask for twice the impedance.
+        let force = 2.0 * self.string.geometry.wave_impedance * speed;
+        let pressed_in = libm::pow(force / touch.stiffness, 1.0 / touch.exponent);
         (self.hands.fretting.hover + pressed_in) / speed
     }
 
