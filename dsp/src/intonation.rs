@@ -15,6 +15,7 @@ mod finger;
 mod laid;
 mod mode;
 mod placing;
+mod sounding;
 
 use crate::curve::Curve;
 use crate::digits::plain;
@@ -28,6 +29,7 @@ use equilibrium::Equilibrium;
 pub use finger::{Behind, finger_place, finger_position};
 pub use laid::Laid;
 use mode::{Resting, open_frequency, stopped_frequency};
+pub use sounding::{Pressed, Sounding};
 
 /// A string ready to be modelled.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,13 +93,9 @@ pub fn stopped_frequencies(
     stencil: Stencil,
     sample_rate: f64,
 ) -> Result<Vec<f64>, Error> {
-    let bench = Bench::new(setup, stencil, sample_rate);
-    let sounds = |fret: usize| {
-        let near = std::f64::consts::TAU * frequency(string.pitch + setup.tuning + (fret + 1) as f64);
-        let (angular, _) = bench.stopped(&placed.string, &placed.frets, fret, near, None)?;
-        Ok(angular / std::f64::consts::TAU)
-    };
-    (0..placed.frets.len()).map(sounds).collect()
+    let sounding = Sounding::new(setup, string, placed, stencil, sample_rate);
+    let pressed = Pressed { force: setup.player.fretting.force, tension_ratio: 1.0 };
+    (1..=placed.frets.len()).map(|fret| sounding.frequency(fret, pressed)).collect()
 }
 
 /// The tension, N, that would tune a string of a set-up if it were flexible.
@@ -197,22 +195,49 @@ impl<'a> Bench<'a> {
         guess: Option<Vec<f64>>,
     ) -> Result<(f64, Vec<f64>), Error> {
         let model = self.model(string, frets)?;
-        let law = model.finger_law(&self.fretting.touch).map_err(|error| error.under("player.fretting"))?;
+        let force = self.fretting.force;
+        let rest = self.rest(&model, frets, fret, force, guess);
+        let sound = self.sound(&model, &rest, frets, fret, force, target)?;
+        Ok((sound, rest.displacement))
+    }
+
+    /// The string of a model at rest, stopped at a fret by a finger that presses with such a force, N.
+    fn rest(
+        &self,
+        model: &Model,
+        frets: &[f64],
+        fret: usize,
+        force: f64,
+        guess: Option<Vec<f64>>,
+    ) -> Equilibrium {
         let place = finger_place(frets, fret, self.setup.behind());
-        let at: Reading = model.grid.reading(place);
-        let guess = guess.unwrap_or_else(|| self.folded(&model, place, frets[fret]));
-        let rest = Equilibrium::new(&model, &at, self.fretting.force, guess);
-        let finger = Resting { at, law, touch: &self.fretting.touch, force: self.fretting.force };
+        let guess = guess.unwrap_or_else(|| self.folded(model, force, place, frets[fret]));
+        Equilibrium::new(model, &model.grid.reading(place), force, guess)
+    }
+
+    /// The angular frequency (1/s), near `target`, at which it sounds about that.
+    fn sound(
+        &self,
+        model: &Model,
+        rest: &Equilibrium,
+        frets: &[f64],
+        fret: usize,
+        force: f64,
+        target: f64,
+    ) -> Result<f64, Error> {
+        let Fretting { ref touch, .. } = *self.fretting;
+        let law = model.finger_law(touch).map_err(|error| error.under("player.fretting"))?;
+        let at: Reading = model.grid.reading(finger_place(frets, fret, self.setup.behind()));
+        let finger = Resting { at, law, touch, force };
         // Behind a fret a finger lies between both parts of the string, and swallows what the one behind does. On a bare board it
         // does not: at semitones 12, 19 and 24, where that has a partial of the same pitch, it would be found as well.
         let still_to = if self.neck.fretless { frets[fret] } else { 0.0 };
-        let sound = stopped_frequency(&model, &rest, &finger, frets[fret], target, still_to);
-        Ok((sound, rest.displacement))
+        Ok(stopped_frequency(model, rest, &finger, frets[fret], target, still_to))
     }
 
     /// The string as straight pieces from nut to finger, crown and saddle, bent as far under the
     /// finger as tension and board let it: nearly its shape at rest.
-    fn folded(&self, model: &Model, finger: f64, crown: f64) -> Vec<f64> {
+    fn folded(&self, model: &Model, force: f64, finger: f64, crown: f64) -> Vec<f64> {
         let (length, height) = (model.string.length, self.neck.crown_height(crown));
         if self.neck.fretless {
             let board = self.neck.board_height(finger).unwrap_or(height);
@@ -221,8 +246,7 @@ impl<'a> Bench<'a> {
         }
         let behind = crown - finger;
         // T(y/finger + (y − height)/behind) = −force.
-        let free =
-            (height / behind - self.fretting.force / model.string.tension) / (1.0 / finger + 1.0 / behind);
+        let free = (height / behind - force / model.string.tension) / (1.0 / finger + 1.0 / behind);
         let pressed = free.max(self.neck.board_height(finger).unwrap_or(free));
         let corners = Curve::Points(vec![[0.0, 0.0], [finger, pressed], [crown, height], [length, 0.0]]);
         (1..model.grid.intervals).map(|node| corners.at(model.grid.place(node))).collect()

@@ -83,8 +83,15 @@ impl Song {
             return Err(MidiFileError::NoSuchTrack { asked, count: chunks.tracks.len() });
         }
         let (division, song) = (chunks.division, Song::empty());
-        let mut reader =
-            Reader { selection, division, cut: chunks.cut, no_tempos: 0, found: Vec::new(), song };
+        let mut reader = Reader {
+            selection,
+            division,
+            cut: chunks.cut,
+            no_tempos: 0,
+            programs: [0; 16],
+            found: Vec::new(),
+            song,
+        };
         // Of a sequence that is not played nothing is missed.
         let missed = chunks.cut.filter(|cut| !chunks.sequential || reader.selects(cut.track - 1));
         reader.song.warnings.extend(missed.map(SongWarning::CutOff));
@@ -152,6 +159,8 @@ struct Reader {
     cut: Option<CutOff>,
     /// Changes to a tempo that is none, passed over.
     no_tempos: usize,
+    /// Program changes of each channel, passed over.
+    programs: [usize; 16],
     /// Everything that is for a player in what plays together, in order of time, and whether it is selected.
     found: Vec<(SongEvent, bool)>,
     song: Song,
@@ -208,6 +217,9 @@ impl Reader {
                 TrackEventKind::Midi { channel, message } => {
                     let chosen = |only| only == channel.as_int() + 1;
                     let selected = self.selects(index) && self.selection.channel.is_none_or(chosen);
+                    if let MidiMessage::ProgramChange { .. } = message {
+                        self.programs[usize::from(channel.as_int())] += usize::from(selected);
+                    }
                     let event = player_event(channel.as_int(), message);
                     event.map(|event| TickKind::Player(event, selected))
                 }
@@ -276,11 +288,12 @@ impl Reader {
     }
 
     fn finish(self) -> Song {
-        let Self { no_tempos, song: Song { events, left_out, mut warnings }, .. } = self;
+        let Self { no_tempos, programs, song: Song { events, left_out, mut warnings }, .. } = self;
         let notes = left_out.iter().filter(|note| note.why == WhyLeftOut::Percussion).count();
         warnings.extend((no_tempos > 0).then_some(SongWarning::NoTempo { changes: no_tempos }));
         warnings.extend((notes > 0).then_some(SongWarning::DrumsSkipped { notes }));
         warnings.extend(messages::not_followed(&events));
+        warnings.extend(messages::programs_not_followed(&events, &programs));
         warnings.extend(messages::tuning_not_followed(&events));
         warnings.extend(messages::upper_zone(&events));
         warnings.extend((count_notes(&events) == 0).then_some(SongWarning::NoNotes));

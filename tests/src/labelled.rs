@@ -11,6 +11,11 @@ use crate::midi::{file, tempo, track};
 /// Samples a second, Hz.
 pub const RATE: f64 = 48_000.0;
 
+/// Samples of so many seconds.
+pub fn samples(seconds: f64) -> usize {
+    (seconds * RATE) as usize
+}
+
 /// A song with its labels, and the sound of each string if that was asked for.
 #[derive(Debug)]
 pub struct Labelled {
@@ -77,4 +82,9 @@ pub fn song(messages: &[(u32, [u8; 3])]) -> Vec<u8> {
     }
     // A beat takes a second, a tick a thousandth of it.
     file(0, 1000, &[track(&events)])
+}
+
+/// A pluck and its end.
+pub fn held(key: u8, velocity: u8, from: u32, to: u32) -> [(u32, [u8; 3]); 2] {
+    [(from, [0x90, key, velocity]), (to, [0x80, key, 0])]
 }

@@ -8,9 +8,11 @@ pub mod desk;
 pub mod hands;
 pub mod host;
 pub mod labelled;
+pub mod labelled_pitch;
 pub mod midi;
 pub mod npz;
 pub mod numbers;
+pub mod pages;
 pub mod paper;
 pub mod parameters;
 #[cfg(feature = "pictures")]

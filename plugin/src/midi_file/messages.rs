@@ -125,6 +125,11 @@ pub enum SongWarning {
         /// Whether controller 10 is, to other than 64.
         pan: bool,
     },
+    /// Programs are changed on channels that have notes, which does nothing.
+    ProgramsNotFollowed {
+        /// How often.
+        changes: usize,
+    },
     /// Channels are tuned by registered parameters 1 or 2, which does nothing.
     TuningNotFollowed,
     /// An upper zone of MPE is announced, which does nothing of its own.
@@ -169,6 +174,14 @@ impl fmt::Display for SongWarning {
                 };
                 write!(out, "{which} passed over: use {instead}")
             }
+            Self::ProgramsNotFollowed { changes } => {
+                let changes = if *changes == 1 {
+                    "1 program change is".to_owned()
+                } else {
+                    format!("{changes} program changes are")
+                };
+                write!(out, "{changes} passed over: use --instrument")
+            }
             Self::TuningNotFollowed => write!(
                 out,
                 "registered parameters 1 and 2 (tuning of a channel) are passed over: use the pitch wheel, or pitches in a \
@@ -204,6 +217,13 @@ fn with_notes(events: &[SongEvent]) -> [bool; 16] {
         }
     }
     has_notes
+}
+
+/// What program changes, counted by channel, ask for in vain: on channels that have notes.
+pub(super) fn programs_not_followed(events: &[SongEvent], counts: &[usize; 16]) -> Option<SongWarning> {
+    let changes = counts.iter().zip(with_notes(events)).filter(|(_, has_notes)| *has_notes);
+    let changes = changes.map(|(count, _)| count).sum();
+    (changes > 0).then_some(SongWarning::ProgramsNotFollowed { changes })
 }
 
 /// What tuning asks for in vain: on channels that have notes, anything but none, which is 64 in the upper half of both

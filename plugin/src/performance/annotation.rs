@@ -27,7 +27,34 @@ pub enum Annotation {
         semitones: f64,
         /// Time taken, s.
         duration: f64,
+        /// How far tension is to do that.
+        pull: Pull,
     },
+}
+
+/// How far a string is pulled, and what stops it then.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pull {
+    /// By how much hands take that to raise what sounds, semitones.
+    pub semitones: f64,
+    /// The tension, as a multiple of the string's own.
+    pub ratio: f64,
+    /// The fret at which a finger or a capo stretches the string, 0 where none does or nothing is pulled.
+    pub fret: usize,
+}
+
+impl Default for Pull {
+    /// A straight string.
+    fn default() -> Self {
+        Self { semitones: 0.0, ratio: 1.0, fret: 0 }
+    }
+}
+
+impl Pull {
+    /// A string is pulled so far, and stretched at a fret; what stretches a straight one is nothing to a bend.
+    pub(crate) fn new(semitones: f64, ratio: f64, fret: usize) -> Self {
+        Self { semitones, ratio, fret: if ratio == 1.0 { 0 } else { fret } }
+    }
 }
 
 /// A note that hands turn to.

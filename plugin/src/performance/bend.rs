@@ -12,9 +12,9 @@ use std::f64::consts::TAU;
 
 use low_action_dsp::Gesture;
 
-use super::fingers::{Fingers, Pulled};
+use super::fingers::Fingers;
 use super::technique::{BEND_INTERVAL, BEND_RAMP, BEND_SPEED, FOLLOWED, OUT_OF_TUNE, VIBRATO, VIBRATO_STEP};
-use super::{Annotation, GestureSink, Moment, Technique};
+use super::{Annotation, GestureSink, Moment, Pull, Technique};
 
 /// What is asked of a string and what has been done about it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -35,8 +35,9 @@ pub(crate) struct Bend {
     sent: f64,
     /// The tension for it, as a multiple of the string's own: what stops the string counts, too.
     ratio: f64,
-    /// All of the bend as last told, semitones.
+    /// All of the bend as last told, semitones, and what of it is pulled.
     told: f64,
+    pull: Pull,
     /// How much of that is where the finger has gone, semitones.
     moved: f64,
     /// Frets the finger has been slid by.
@@ -104,7 +105,7 @@ impl Bend {
         if fingers.glides() {
             self.glided = fingers.away();
         }
-        self.tell_moved(fingers.away(), at);
+        self.tell_moved(fingers.away(), fingers, at);
     }
 
     /// A note takes over from another by one technique or another: one that slides comes from so far, semitones. (A hand that
@@ -117,7 +118,7 @@ impl Bend {
         at: &mut Moment<impl GestureSink>,
     ) {
         if technique == Technique::Slide && self.swings.is_none() {
-            self.tell_moved(from, at);
+            self.tell_moved(from, fingers, at);
             self.due = Some(self.ready.max(at.time));
         } else {
             self.tell_landing(fingers, at);
@@ -125,11 +126,12 @@ impl Bend {
     }
 
     /// A finger stops the string so far from its note's fret now, semitones. What is pulled comes after that.
-    fn tell_moved(&mut self, moved: f64, at: &mut Moment<impl GestureSink>) {
+    fn tell_moved(&mut self, moved: f64, fingers: &Fingers, at: &mut Moment<impl GestureSink>) {
         let semitones = self.told - std::mem::replace(&mut self.moved, moved) + moved;
         if semitones != self.told && self.unheard.is_none() {
             self.told = semitones;
-            at.tells(Annotation::Bent { semitones, duration: 1.0 / at.sample_rate });
+            self.pull = Pull::new(self.pull.semitones, self.pull.ratio, fingers.stretched_at());
+            at.tells(Annotation::Bent { semitones, duration: 1.0 / at.sample_rate, pull: self.pull });
             self.ready = self.ready.max(at.time + 1);
             self.due = self.due.map(|due| due.max(self.ready));
         }
@@ -237,7 +239,7 @@ impl Bend {
             self.due = Some(next);
         }
         let change = pulled - std::mem::replace(&mut self.sent, pulled);
-        let Pulled { ratio, .. } = fingers.pulled(pulled);
+        let ratio = fingers.pulled(pulled).ratio;
         if taken > 0.0 || ratio != self.ratio {
             self.ready = at.after(BEND_INTERVAL);
         }
@@ -249,11 +251,13 @@ impl Bend {
             fingers.hold_pulled(ratio, duration, at);
         }
         self.moved = moved;
-        let semitones = moved + fingers.pulled(at_last).semitones;
-        if semitones != self.told {
-            self.told = semitones;
+        let pull = fingers.pulled(at_last);
+        let semitones = moved + pull.semitones;
+        if semitones != self.told || pull != self.pull {
+            (self.told, self.pull) = (semitones, pull);
             let slides = if self.swings.is_none() { fingers.time_to_arrive(at) } else { 0.0 };
-            at.tells(Annotation::Bent { semitones, duration: taken.max(pulling(change)).max(slides) });
+            let duration = taken.max(pulling(change)).max(slides);
+            at.tells(Annotation::Bent { semitones, duration, pull });
         }
         (asked - reached).abs() > OUT_OF_TUNE
     }

@@ -22,4 +22,7 @@ pub struct Compromises {
     pub doubled: u64,
     /// Notes bent less far than asked, for their strings can be pulled, or their fingers slid, no farther.
     pub bent_short: u64,
+    /// Notes plucked that were to be slid to, for the string of the note before does not have them, or only farther away than a finger
+    /// slides, or was only touched.
+    pub not_slid: u64,
 }

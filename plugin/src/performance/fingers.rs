@@ -33,7 +33,6 @@ use landing::Awaited;
 use leaving::hurried;
 pub(super) use leaving::{QUIET_LIFT, lift_force, lifting};
 pub(super) use pace::Pace;
-pub(super) use tension::Pulled;
 use way::Way;
 
 /// A finger behind a fret, or a bar over one.

@@ -45,7 +45,9 @@ mod variation;
 use low_action_dsp::setup::Player;
 
 use crate::controls::Touching;
-pub use annotation::{Annotation, Excitation, NewNote, Stopped, Technique, TimedAnnotation, Unplayed, Why};
+pub use annotation::{
+    Annotation, Excitation, NewNote, Pull, Stopped, Technique, TimedAnnotation, Unplayed, Why,
+};
 pub use announced::Announced;
 use articulation::Stop;
 use channel::Channel;

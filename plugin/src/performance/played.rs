@@ -4,7 +4,7 @@ use low_action_dsp::intonation::Laid;
 use low_action_dsp::setup::{Pickup, Setup, frequency};
 use low_action_dsp::{Instrument, StringGeometry};
 
-use super::technique::{BAR, BAR_SHARE, BAR_WEIGHT};
+use super::technique::{BAR, BAR_SHARE, BAR_WEIGHT, HOLDING};
 
 /// What the player knows of one string.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,6 +89,13 @@ impl PlayedString {
     pub fn leaving_force(&self, fret: usize) -> f64 {
         let depth = self.depth(fret);
         if depth > 0.0 { self.pull(depth, 0, fret) } else { 0.0 }
+    }
+
+    /// What a finger's or a capo's force, N, becomes at a fret of a string that is pulled to so many times its own tension, or to less:
+    /// more if it would leave the fret, but no more than keeps up with the tension, so that a string too lightly held still is.
+    pub fn held_pulled(&self, force: f64, fret: usize, tightened: f64) -> f64 {
+        let tightened = tightened.max(1.0);
+        (HOLDING * tightened * self.stopping_force(fret)).clamp(force, force * tightened)
     }
 
     /// Where a bar lies over a fret, m from the nut; 0 for the open string.

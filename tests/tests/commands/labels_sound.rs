@@ -6,27 +6,19 @@ use std::path::Path;
 
 use low_action_dsp::Setup;
 use low_action_tests::command::Workplace;
-use low_action_tests::labelled::{Labelled, RATE, list, number, render, sample, song};
+use low_action_tests::labelled::{Labelled, RATE, held, list, number, render, sample, samples, song};
+use low_action_tests::labelled_pitch::{bend_at, check_pitches};
+use low_action_tests::pages::must_say;
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{amplitude, at_the_bridge, decibels, peak};
+use low_action_tests::stage::{at_the_bridge, decibels, peak};
 use serde_json::Value;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_low-action-command");
-
-/// Samples of so many seconds.
-fn samples(seconds: f64) -> usize {
-    (seconds * RATE) as usize
-}
 
 /// A song of the documentation.
 fn documented(name: &str, options: &[&str]) -> Labelled {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(name);
     render(PROGRAM, &fs::read(path).expect("readable"), options)
-}
-
-/// A pluck and its end.
-fn held(key: u8, velocity: u8, from: u32, to: u32) -> [(u32, [u8; 3]); 2] {
-    [(from, [0x90, key, velocity]), (to, [0x80, key, 0])]
 }
 
 /// The first sample of a sound from `from` on that is more than so large.
@@ -110,60 +102,6 @@ fn what_fingers_strike_begins_there_too() {
         techniques.push(note["technique"].as_str().expect("a word"));
     }
     assert_eq!(techniques, ["pluck", "tap"].repeat(4));
-}
-
-/// Where the bends of a string stand at some sample, semitones: each goes from where the one before has come by 3x² − 2x³.
-fn bend_at(bends: &[Value], string: usize, at: usize) -> f64 {
-    let own: Vec<&Value> = bends.iter().filter(|bend| sample(bend, "string") == string).collect();
-    let mut value = 0.0;
-    for (index, bend) in own.iter().enumerate() {
-        let until = own.get(index + 1).map_or(at, |next| sample(next, "sample").min(at));
-        let since = until.saturating_sub(sample(bend, "sample")) as f64 / RATE;
-        let x = (since / number(bend, "duration")).min(1.0);
-        value += (number(bend, "semitones") - value) * x * x * (3.0 - 2.0 * x);
-        if until == at {
-            break;
-        }
-    }
-    value
-}
-
-/// Checks the pitch of all notes that last, and gives their number. `most` is how far off they may be, cents.
-fn check_pitches(name: &str, played: &Labelled, most: f64) -> usize {
-    let bends = list(&played.labels, "bends");
-    let mut checked = 0;
-    for note in played.notes().iter().filter(|note| note["stop"] != "muted") {
-        let string = sample(note, "string");
-        // Slides are under way at first, and thumbs and light fingers leave.
-        let settled = match note["technique"].as_str() {
-            Some("slide") => number(note, "stroke_duration"),
-            _ if !note["partial"].is_null() => 0.1,
-            _ => 0.0,
-        };
-        let from = sample(note, "onset_sample") + samples(0.05 + settled);
-        let to = sample(note, "end_sample").min(from + samples(0.5));
-        let still =
-            |bend: &Value| sample(bend, "string") != string || !(from..to).contains(&sample(bend, "sample"));
-        if to < from + samples(0.15) || !bends.iter().all(still) {
-            continue;
-        }
-        let sound = &played.string_of(note)[from..to];
-        let pitch = number(note, "frequency") * (bend_at(bends, string, from) / 12.0).exp2();
-        let off = cents(frequency_near(sound, RATE, pitch), pitch);
-        assert!(off.abs() < most, "{name}: {off} cents: {note}");
-        // It is no partial of what sounds, and no fraction of it.
-        let size = |part: f64| decibels(amplitude(sound, RATE, pitch * part) / amplitude(sound, RATE, pitch));
-        assert!(
-            size(0.5) < -15.0 && size(1.0 / 3.0) < -15.0,
-            "{name}: {} {} dB: {note}",
-            size(0.5),
-            size(1.0 / 3.0)
-        );
-        let loud = decibels(amplitude(sound, RATE, pitch) / peak(sound));
-        assert!(loud > -40.0, "{name}: {loud} dB: {note}");
-        checked += 1;
-    }
-    checked
 }
 
 #[test]
@@ -326,8 +264,7 @@ fn strings_that_nobody_plays_sing_along_over_a_body() {
         "by up to {steel} dBFS on `steel` and {classical} on `classical` before that note, and by up to {steel_after} and \
          {classical_after} from 0.4 s after its end on"
     );
-    let page = include_str!("../../../docs/formats.md").split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(page.contains(&said), "docs/formats.md does not say: {said}");
+    must_say("formats.md", &said);
 }
 
 #[test]

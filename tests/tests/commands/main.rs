@@ -2,7 +2,9 @@
 
 mod documented_ranges;
 mod instruments_command;
+mod labels_besides;
 mod labels_notes;
+mod labels_set;
 mod labels_sound;
 mod midi_input;
 mod midi_selection;

@@ -301,6 +301,24 @@ fn volume_and_pan_that_ask_for_something_are_told_once() {
 }
 
 #[test]
+fn program_changes_are_counted_where_there_are_notes() {
+    let said = |programs: &[[u8; 2]]| {
+        let mut events: Vec<(u32, &[u8])> = programs.iter().map(|event| (0, &event[..])).collect();
+        // A note of the first channel, and one of percussion, which is left out.
+        events.extend([(0, &[0x90, 60, 100][..]), (0, &[0x99, 36, 100])]);
+        let warnings = read(&file(0, 96, &[track(&events)])).warnings;
+        let told: Vec<String> = warnings.iter().map(ToString::to_string).collect();
+        told.into_iter().filter(|told| told.contains("program change")).collect::<Vec<_>>().join("; ")
+    };
+    assert_eq!(said(&[[0xC0, 25]]), "1 program change is passed over: use --instrument");
+    assert_eq!(
+        said(&[[0xC0, 25], [0xC1, 30], [0xC0, 0]]),
+        "2 program changes are passed over: use --instrument"
+    );
+    assert_eq!(said(&[[0xC1, 25], [0xC9, 0]]), "");
+}
+
+#[test]
 fn tuning_that_asks_for_something_is_told_once() {
     let of = |channel: u8, number, values: &[[u8; 2]]| {
         let select = [[0xB0 | channel, 101, 0], [0xB0 | channel, 100, number]];

@@ -24,6 +24,7 @@ mod legato;
 mod mpe;
 mod mpe_comes_and_goes;
 mod muted;
+mod over_body;
 mod overtaken;
 mod palm;
 mod passes;

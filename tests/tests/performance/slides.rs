@@ -216,3 +216,25 @@ fn the_portamento_switch_alone_connects_overlapping_notes_by_slides() {
         assert_eq!(counts(strings, &[control(channel, 65, 127)], [2, 2]), expected, "channel {channel}");
     }
 }
+
+/// What the string of the note before does not have, or only beyond a slide's reach, is plucked.
+#[test]
+fn notes_that_were_to_be_slid_to_and_are_not_are_counted() {
+    let neck = Neck::of("electric");
+    let count = |told: &[(u8, u8)], keys: &[(u64, u8)]| {
+        let told = told.iter().map(|&(number, value)| (0, control(0, number, value)));
+        let notes = keys.iter().map(|&(time, key)| (time, note(0, key)));
+        let (player, _) = neck.after(&told.chain(notes).collect::<Vec<_>>(), 48_000, Vec::new());
+        player.compromises().not_slid
+    };
+    // The A on the D string's seventh fret or nearer, where no string has E2 but the lowest.
+    let low = [(0, 57), (9_600, 40)];
+    let slide = (65, 127);
+    assert_eq!(count(&[slide], &low), 1);
+    assert_eq!(count(&[slide], &[(0, 57), (9_600, 59)]), 0, "near enough");
+    assert_eq!(count(&[slide], &[(0, 41), (9_600, 54)]), 1, "thirteen frets");
+    assert_eq!(count(&[slide, (23, 1)], &[(0, 76), (9_600, 83)]), 0, "harmonics are asked for as such");
+    assert_eq!(count(&[(68, 127)], &low), 0, "a pull was asked for");
+    // A pair is no melody.
+    assert_eq!(count(&[slide], &[(0, 57), (9_600, 40), (9_600, 45)]), 0);
+}

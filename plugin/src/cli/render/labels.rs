@@ -2,6 +2,7 @@
 //!
 //! The player tells it as it plays ([`Record`]); here it is put into words and numbers. None is guessed from the sound.
 
+mod bends;
 mod gestures;
 mod header;
 mod lines;
@@ -25,7 +26,8 @@ use crate::cli::output::Draft;
 use crate::engine::Record;
 use crate::midi_file::{LeftOut, SongTime};
 use crate::performance::Compromises;
-use gestures::{LabelledBend, LabelledGesture, bends, gestures};
+use bends::{LabelledBend, bends};
+use gestures::{LabelledGesture, gestures};
 use lines::Lines;
 use notes::{LabelledNote, courses, notes};
 pub(super) use source::Source;
@@ -59,8 +61,10 @@ impl LabelFile {
 
     /// Writes it, to be published.
     pub(super) fn complete(self, labelled: Labelled) -> Result<Draft> {
-        let strings = labelled.source.strings(labelled.instrument, &labelled.heard.strings)?;
-        let written = self.draft.handle().and_then(|file| labelled.write(strings, file));
+        let tuned = labelled.source.tuned(labelled.instrument);
+        let strings = labelled.source.strings(&tuned, &labelled.heard.strings)?;
+        let bends = bends(&labelled.record.annotations, &tuned, labelled.clock())?;
+        let written = self.draft.handle().and_then(|file| labelled.write(strings, bends, file));
         written.with_context(|| format!("cannot write {}", shown(&self.path)))?;
         Ok(self.draft)
     }
@@ -85,11 +89,10 @@ pub(super) fn are_whole(path: &Path) -> bool {
 }
 
 impl Labelled<'_> {
-    fn write(mut self, strings: Vec<LabelledString>, file: File) -> io::Result<()> {
+    fn write(mut self, strings: Vec<LabelledString>, bends: Vec<LabelledBend>, file: File) -> io::Result<()> {
         let courses = courses(&self.record.annotations, strings.len());
         let notes = notes(&courses, &strings, self.clock());
         let unplayed = unplayed(&courses, &self.record.unplayed, self.left_out, self.clock());
-        let bends = bends(&self.record.annotations, self.clock());
         // Those of equal times on one string stay in the order in which they are done.
         self.record.gestures.sort_by_key(|gesture| (gesture.time, gesture.string));
         let gestures = gestures(&self.record.gestures, self.clock());

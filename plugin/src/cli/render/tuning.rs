@@ -1,27 +1,57 @@
 //! What sounds where fingers stop the frets, and which frets cannot be brought in tune.
 
-use low_action_dsp::intonation::{Intonated, stopped_frequencies};
+use low_action_dsp::intonation::{Intonated, Pressed, Sounding};
 use low_action_dsp::setup::{Intonation, frequency};
 use low_action_dsp::{Error, Instrument, Setup};
 
 use crate::engine::Quality;
+use crate::performance::PlayedString;
 
 /// Frets that are farther than this off equal temperament are told of, cents.
 const OUT_OF_TUNE: f64 = 15.0;
 
-/// A string as it is tuned and fretted on its grid, and the frequencies at its frets, Hz, fret 1 first.
-pub(super) fn stopped(
-    setup: &Setup,
-    instrument: &Instrument,
+/// The strings of an instrument as they are tuned and fretted on their grids.
+pub(super) struct Tuned<'a> {
+    setup: &'a Setup,
+    instrument: &'a Instrument,
     quality: Quality,
-    index: usize,
-) -> Result<(Intonated, Vec<f64>), Error> {
-    let settings = quality.settings(instrument.sample_rate());
-    let frets = instrument.geometry(index).frets.clone();
-    let placed = Intonated { string: instrument.model(index).string, frets };
-    let rate = instrument.ratio(index).value() * instrument.sample_rate();
-    let stopped = stopped_frequencies(setup, &setup.string[index], &placed, settings.stencil, rate)?;
-    Ok((placed, stopped))
+    /// What fingers press with, N.
+    force: f64,
+    pub placed: Vec<Intonated>,
+    played: Vec<PlayedString>,
+}
+
+impl<'a> Tuned<'a> {
+    /// Those of a set-up whose fingers press with such a force, N.
+    pub fn new(setup: &'a Setup, instrument: &'a Instrument, quality: Quality, force: f64) -> Self {
+        let placed = |index| Intonated {
+            string: instrument.model(index).string,
+            frets: instrument.geometry(index).frets.clone(),
+        };
+        let placed = (0..setup.string.len()).map(placed).collect();
+        let played =
+            (0..setup.string.len()).map(|index| PlayedString::new(setup, instrument, index)).collect();
+        Self { setup, instrument, quality, force, placed, played }
+    }
+
+    /// The frequencies at the frets of a string, Hz, fret 1 first.
+    pub fn stopped(&self, index: usize) -> Result<Vec<f64>, Error> {
+        (1..=self.placed[index].frets.len()).map(|fret| self.pulled(index, fret, 1.0)).collect()
+    }
+
+    /// The frequency, Hz, at which a string sounds where fingers stop a fret, 0 for the open one, as it is pulled to so many times its own
+    /// tension and they hold it down.
+    pub fn pulled(&self, index: usize, fret: usize, tension_ratio: f64) -> Result<f64, Error> {
+        let force = self.played[index].held_pulled(self.force, fret, tension_ratio);
+        self.sounding(index).frequency(fret, Pressed { force, tension_ratio })
+    }
+
+    fn sounding(&self, index: usize) -> Sounding<'_> {
+        let Self { setup, instrument, quality, ref placed, .. } = *self;
+        let settings = quality.settings(instrument.sample_rate());
+        let rate = instrument.ratio(index).value() * instrument.sample_rate();
+        Sounding::new(setup, &setup.string[index], &placed[index], settings.stencil, rate)
+    }
 }
 
 /// What to say of frets that were to be in tune and are not, if there are any.
@@ -34,9 +64,9 @@ pub(super) fn out_of_tune(
         return Ok(None);
     }
     let mut off = Vec::new();
+    let tuned = Tuned::new(setup, instrument, quality, setup.player.fretting.force);
     for (index, string) in setup.string.iter().enumerate() {
-        let (_, stopped) = stopped(setup, instrument, quality, index)?;
-        for (fret, sounds) in (1_usize..).zip(stopped) {
+        for (fret, sounds) in (1_usize..).zip(tuned.stopped(index)?) {
             let cents = 1200.0 * (sounds / frequency(string.pitch + setup.tuning + fret as f64)).log2();
             if cents.abs() > OUT_OF_TUNE {
                 off.push((index + 1, fret, cents));

@@ -39,6 +39,7 @@ fn of_notes(compromises: &Compromises) -> Vec<String> {
         without_string,
         doubled,
         bent_short,
+        not_slid,
         overtaken,
     } = *compromises;
     let counts = [
@@ -56,6 +57,10 @@ fn of_notes(compromises: &Compromises) -> Vec<String> {
         (without_string, "left out: no string gives them in any octave, or their channel has none"),
         (doubled, "one with another: the same key of the same channel at the same moment"),
         (bent_short, "bent less far than asked: string or finger goes no farther (max_bend)"),
+        (
+            not_slid,
+            "plucked and not slid to: the string of the note before does not have them within reach, or was only touched",
+        ),
     ];
     let some = counts.into_iter().filter(|&(count, _)| count > 0);
     some.map(|(count, what)| format!("{count} {} {what}", if count == 1 { "note was" } else { "notes were" }))

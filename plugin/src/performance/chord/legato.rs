@@ -58,16 +58,18 @@ impl Performance {
         let Some((string, before)) = held.max_by_key(|(_, note)| (note.began, note.since)) else {
             return false;
         };
-        if before.touched() {
-            return false;
-        }
         let from = before.fret;
-        let Some(fret) = self.hand.fret(&wanted, string) else { return false };
-        let open = from.min(fret) <= self.hand.capo();
         let slides = slide || stop == Stop::Bar;
-        let reach = if slides || open { SLIDE_REACH } else { HAMMER_REACH };
-        let again = fret == from && self.strings[string].trills(wanted.channel, wanted.key);
-        if (fret == from && !again) || fret.abs_diff(from) > reach {
+        let there = |fret: &usize| {
+            let open = from.min(*fret) <= self.hand.capo();
+            let reach = if slides || open { SLIDE_REACH } else { HAMMER_REACH };
+            !before.touched() && fret.abs_diff(from) <= reach
+        };
+        let Some(fret) = self.hand.fret(&wanted, string).filter(there) else {
+            self.compromises.not_slid += u64::from(slides);
+            return false;
+        };
+        if fret == from && !self.strings[string].trills(wanted.channel, wanted.key) {
             return false;
         }
         let start = self.start(index, Placement { string, fret }, None);

@@ -4,32 +4,24 @@ use low_action_dsp::setup::tension_ratio;
 
 use super::Fingers;
 use crate::performance::technique::*;
-use crate::performance::{GestureSink, Moment, PlayedString};
-
-/// What pulling does to a string.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Pulled {
-    /// Its tension, as a multiple of its own.
-    pub ratio: f64,
-    /// By how much that raises what sounds, semitones: less than asked where its grid bears no more.
-    pub semitones: f64,
-}
+use crate::performance::{GestureSink, Moment, PlayedString, Pull};
 
 impl Fingers {
-    /// The tension that raises what sounds by so many semitones. Stopping the string has added to
+    /// The tension that raises what sounds by so many semitones, or by less where its grid bears no more. Stopping the string has added to
     /// its tension, which pulling has to outdo: as much as its fret stands nearer to the nut than equal
     /// temperament has it. A tighter string gives way less, so the addition falls about with the root of the
     /// tension (fitted to measured bends).
-    pub(crate) fn pulled(&self, semitones: f64) -> Pulled {
+    pub(crate) fn pulled(&self, semitones: f64) -> Pull {
+        let fret = self.stretched_at();
         let (added, most) = (self.added_tension(), self.string.geometry.highest_ratio);
         let alone = tension_ratio(semitones);
         let ratio = alone + added * (alone - 1.0 / alone.sqrt());
         if ratio <= most {
-            return Pulled { ratio, semitones };
+            return Pull::new(semitones, ratio, fret);
         }
         // The same backwards, where each turn leaves a hundredth of what is off.
         let reached = (0..3).fold(most, |alone, _| (most + added / alone.sqrt()) / (1.0 + added));
-        Pulled { ratio: most, semitones: 6.0 * libm::log2(reached) }
+        Pull::new(6.0 * libm::log2(reached), most, fret)
     }
 
     /// The string is pulled to so many times its own tension within so many seconds, and whatever stops it holds it down.
@@ -55,18 +47,21 @@ impl Fingers {
         (HOLDING * self.leaving_force(fret)).min(most)
     }
 
-    /// What a force, N, becomes at a fret of a string that is pulled: more if that would leave the fret, but no more than keeps up
-    /// with its tension, so that a string too lightly held still is.
+    /// What a force, N, becomes at a fret of the string as it is pulled.
     pub(super) fn held_pulled(&self, force: f64, fret: usize) -> f64 {
-        let holding = HOLDING * self.tightened * self.string.stopping_force(fret);
-        holding.clamp(force, force * self.tightened)
+        self.string.held_pulled(force, fret, self.tightened)
+    }
+
+    /// The fret at which a finger or the capo stretches the string, 0 where none does.
+    pub(crate) fn stretched_at(&self) -> usize {
+        let finger = self.fretting.filter(|finger| !finger.bar);
+        finger.map_or(self.capo[1], |finger| finger.nearest_fret())
     }
 
     /// What stopping the string has added to its tension, as a part of it.
     fn added_tension(&self) -> f64 {
         let PlayedString { geometry, .. } = &self.string;
-        let finger = self.fretting.filter(|finger| !finger.bar);
-        let fret = finger.map_or(self.capo[1], |finger| finger.nearest_fret());
+        let fret = self.stretched_at();
         let crown = fret.checked_sub(1).and_then(|index| geometry.frets.get(index));
         crown.map_or(0.0, |crown| {
             let ratio = (geometry.length - crown) / geometry.length * libm::exp2(fret as f64 / 12.0);

@@ -1,41 +1,9 @@
-//! What the strings were given: every gesture, and what bends came to, a flat record for each.
+//! What the strings were given: every gesture, a flat record for each.
 
 use low_action_dsp::{Gesture, TimedGesture, Touch};
 use serde::Serialize;
 
 use super::Clock;
-use crate::performance::{Annotation, TimedAnnotation};
-
-/// A bend that goes for another goal.
-#[derive(Debug, Serialize)]
-pub(super) struct LabelledBend {
-    /// From 1.
-    string: usize,
-    sample: u64,
-    /// s.
-    time: f64,
-    /// At its end, over the fret of the note.
-    semitones: f64,
-    /// s.
-    duration: f64,
-}
-
-/// The bends of all strings, in order of time, and of strings at once.
-pub(super) fn bends(annotations: &[TimedAnnotation], clock: Clock) -> Vec<LabelledBend> {
-    let bend = |told: &TimedAnnotation| match told.annotation {
-        Annotation::Bent { semitones, duration } if clock.has(told.time) => Some(LabelledBend {
-            string: told.string + 1,
-            sample: told.time,
-            time: clock.seconds(told.time),
-            semitones,
-            duration,
-        }),
-        _ => None,
-    };
-    let mut bends: Vec<LabelledBend> = annotations.iter().filter_map(bend).collect();
-    bends.sort_by_key(|bend| (bend.sample, bend.string));
-    bends
-}
 
 /// A gesture, with the numbers that it has.
 #[derive(Debug, Default, Serialize)]

@@ -8,7 +8,7 @@ use nice_plug::prelude::Enum;
 use serde::Serialize;
 
 use crate::cli::render::files::stem_name;
-use crate::cli::render::tuning::stopped;
+use crate::cli::render::tuning::Tuned;
 use crate::cli::render::written::Written;
 use crate::cli::wav::Findings;
 use crate::cli::{PROGRAM, RenderArgs};
@@ -121,15 +121,18 @@ impl Source<'_> {
         }
     }
 
+    /// The strings as they are tuned, under fingers that press as they are told.
+    pub(super) fn tuned<'a>(&'a self, instrument: &'a Instrument) -> Tuned<'a> {
+        let Self { arguments, setup, .. } = *self;
+        let hands = arguments.taken.touching().hands(&setup.player, setup.neck.scale_length);
+        Tuned::new(setup, instrument, arguments.quality, hands.fretting.force)
+    }
+
     /// The strings of the instrument as it sounds.
-    pub(super) fn strings(
-        &self,
-        instrument: &Instrument,
-        heard: &[Findings],
-    ) -> Result<Vec<LabelledString>, Error> {
+    pub(super) fn strings(&self, tuned: &Tuned, heard: &[Findings]) -> Result<Vec<LabelledString>, Error> {
         let describe = |(index, string): (usize, &SetupString)| {
             let pitch = string.pitch + self.setup.tuning;
-            let (placed, stopped) = stopped(self.setup, instrument, self.arguments.quality, index)?;
+            let placed = &tuned.placed[index];
             Ok(LabelledString {
                 string: index + 1,
                 name: string.name.clone(),
@@ -138,8 +141,8 @@ impl Source<'_> {
                 frequency: frequency(pitch),
                 length: placed.string.length,
                 tension: placed.string.tension,
-                frets: placed.frets,
-                fret_frequencies: stopped,
+                frets: placed.frets.clone(),
+                fret_frequencies: tuned.stopped(index)?,
                 peak: heard.get(index).map_or(0.0, |findings| findings.peak.into()),
             })
         };
