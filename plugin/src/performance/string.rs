@@ -50,6 +50,8 @@ pub(crate) struct StringPlayer {
     deeds: Deeds,
     /// Sample by which a hand that stills it is off it.
     stilled: u64,
+    /// Sample at which a finger comes that is late: hands do nothing to the string before it.
+    late: u64,
     /// Strokes a second of a tremolo, 0 for none.
     tremolo: f64,
     /// Since when it may sound without a note, by somebody who sees it.
@@ -84,6 +86,7 @@ impl StringPlayer {
             under: [None; UNDER],
             deeds: Deeds::default(),
             stilled: 0,
+            late: 0,
             tremolo: 0.0,
             touched: None,
             bent_short: 0,
@@ -105,6 +108,7 @@ impl StringPlayer {
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
         self.stilled = 0;
+        self.late = 0;
         self.tremolo = 0.0;
         self.touched = None;
         self.bent_short = 0;
@@ -178,7 +182,8 @@ impl StringPlayer {
         }
         self.plucked_at = old.plucked_at;
         (self.under, self.deeds, self.tremolo) = (old.under, old.deeds, old.tremolo);
-        (self.touched, self.stilled, self.unheard) = (old.touched, old.stilled, old.unheard);
+        (self.touched, self.stilled, self.late) = (old.touched, old.stilled, old.late);
+        self.unheard = old.unheard;
     }
 
     /// The hands act differently on the note that sounds, and on those to come.
@@ -268,7 +273,9 @@ impl StringPlayer {
         }
     }
 
+    /// What hands do at a time, or as soon as a finger that is late has come.
     fn moment<'a, S: GestureSink>(&self, time: u64, out: &'a mut S) -> Moment<'a, S> {
+        let time = time.max(self.late);
         Moment { time, string: self.index, sample_rate: self.sample_rate, out }
     }
 

@@ -1,4 +1,4 @@
-//! The small differences between one pluck and the next, the same ones on every run.
+//! The small differences between one stroke of a hand and the next, the same ones on every run.
 
 /// Farthest a pluck lands from its usual place at variation 1, m: about a finger's breadth.
 const PLACE: f64 = 0.012;
@@ -7,16 +7,21 @@ const FORCE: f64 = 0.2;
 /// Longest delay at variation 1, s. A player cannot be early, and the first sound must follow the
 /// key within 3 ms, pluck included.
 const DELAY: f64 = 0.001;
+/// The same for a finger that hammers, pulls or slides, s. Two that are late by anything up to this come 4.9 ms more or less apart
+/// (root mean square), which is how regularly practised fingers take turns.
+const LATENESS: f64 = 0.012;
 
-/// How one pluck differs from the exact one.
+/// How one note is begun otherwise than exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Deviation {
     /// Added to the place, m.
     pub place: f64,
     /// Multiplies the force.
     pub force: f64,
-    /// Added to the time, s, 0 or more.
+    /// Added to the time of a pluck, s, 0 or more.
     pub delay: f64,
+    /// How late a finger comes that sounds the note by itself, s, and how late it goes back from there to the one before.
+    pub late: [f64; 2],
 }
 
 /// A seeded source of deviations.
@@ -55,10 +60,12 @@ impl Variation {
         let place = self.unit() + self.unit() - 1.0;
         let force = self.unit() + self.unit() - 1.0;
         let delay = self.unit();
+        let late = [self.unit(), self.unit()];
         Deviation {
             place: self.amount * PLACE * place,
             force: 1.0 + self.amount * FORCE * force,
             delay: self.amount * DELAY * delay,
+            late: late.map(|late| self.amount * LATENESS * late),
         }
     }
 
@@ -84,7 +91,7 @@ mod tests {
         let mut variation = Variation::new(0.0, 7);
         for _ in 0..100 {
             let deviation = variation.next();
-            assert_eq!((deviation.place, deviation.force, deviation.delay), (0.0, 1.0, 0.0));
+            assert_eq!(deviation, Deviation { place: 0.0, force: 1.0, delay: 0.0, late: [0.0; 2] });
         }
     }
 
@@ -96,6 +103,7 @@ mod tests {
             assert!(deviation.place.abs() <= PLACE);
             assert!((deviation.force - 1.0).abs() <= FORCE);
             assert!((0.0..=DELAY).contains(&deviation.delay));
+            assert!(deviation.late.iter().all(|late| (0.0..=LATENESS).contains(late)));
         }
         let mean = first.iter().map(|deviation| deviation.place).sum::<f64>() / 1000.0;
         assert!(mean.abs() < 0.1 * PLACE, "mean place {mean}");

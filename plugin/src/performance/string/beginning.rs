@@ -126,6 +126,7 @@ impl StringPlayer {
             presses: start.presses,
             caught: start.caught,
             fret: start.fret,
+            goes_late: start.deviation.late[1],
             struck,
             tuning: start.manner.tuning,
             pressure: start.manner.pressure,

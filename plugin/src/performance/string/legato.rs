@@ -53,9 +53,9 @@ impl StringPlayer {
         let (slide, bar) = self.note.map_or((None, false), |note| (note.slide, note.bar));
         let fret =
             self.bend.begin_slid(start.fret, start.wheel + start.manner.tuning, bar, &mut self.fingers);
-        let mut at = self.moment(time, out);
+        self.moment(time, out).tells(self.new_note(&start));
+        let mut at = self.late(time, start.deviation.late[0], out);
         self.fingers.press(start.manner.firm(), &mut at);
-        at.tells(self.new_note(&start));
         if again {
             self.begin_again(fret, strength, &mut at);
         } else {
@@ -68,6 +68,15 @@ impl StringPlayer {
         self.fingers.set_palm(start.articulation.palm, &mut at);
         self.begin_tremolo(tremolo, &at);
         self.follow(time, &start.manner);
+    }
+
+    /// What a finger does that is so many seconds late. Its note is heard no sooner.
+    fn late<'a, S: GestureSink>(&mut self, time: u64, seconds: f64, out: &'a mut S) -> Moment<'a, S> {
+        self.late = self.late.max(time + self.samples(seconds));
+        if let Some(note) = &mut self.note {
+            note.since = self.late;
+        }
+        self.moment(time, out)
     }
 
     /// The note of a fret that is stopped already begins anew: its finger comes down once more, how hard, 0 to 1, or the right hand
@@ -142,6 +151,7 @@ impl StringPlayer {
         if !back.key_down() {
             at.tells(Annotation::Released);
         }
+        let mut at = self.late(time, from.goes_late, out);
         let stood = self.fingers.stands();
         let (technique, gesture) =
             self.fingers.change(fret, from.slide, from.bar, from.struck.strength, &mut at);

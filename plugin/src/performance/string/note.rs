@@ -122,6 +122,8 @@ pub(crate) struct Note {
     pub caught: bool,
     /// Its fret.
     pub fret: usize,
+    /// How late its finger goes when the note before comes back, s.
+    pub(super) goes_late: f64,
     /// How it was struck last, or would be: what a tremolo goes on with.
     pub(super) struck: Struck,
     /// Its own tuning, semitones.
