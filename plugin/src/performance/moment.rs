@@ -7,7 +7,7 @@ use super::{Annotation, TimedAnnotation, Unplayed};
 /// Somewhere gestures go: the instrument, or a list in a test.
 pub trait GestureSink {
     /// Takes a gesture. Those of one string come in order of time, except that a pluck may be
-    /// handed over up to a millisecond ahead of it.
+    /// handed over up to a millisecond ahead of it. What a finger does that is late is handed over when it is told to come.
     fn gesture(&mut self, gesture: TimedGesture);
 
     /// Is told what becomes of a note. Most do not listen.
