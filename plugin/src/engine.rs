@@ -66,7 +66,7 @@ pub struct EngineOptions {
 
 impl EngineOptions {
     /// Usual size of the differences between plucks: up to 3 mm, 5 % of force and a quarter of a
-    /// millisecond.
+    /// millisecond; 3 ms where fingers hammer, pull or slide.
     pub const VARIATION: f64 = 0.25;
     /// Usual reach of the pitch wheel, semitones: what General MIDI files are written for.
     pub const BEND_RANGE: f64 = 2.0;

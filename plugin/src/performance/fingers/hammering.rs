@@ -12,13 +12,12 @@ impl Fingers {
     /// What a finger stops at the fret, at speed v, had been turning about the saddle: it leaves partial n of a string with the
     /// period T an amplitude of v T / (π² n²). A pluck with the force F, where a part β of the string sounds on its other side,
     /// leaves 2 F L sin(π n β) / (π² n² H), H being the tension: the first partial is the same at v = F sin(π β) / Z, with the
-    /// impedance Z = H T / (2 L).
+    /// string's wave impedance Z = H T / (2 L).
     pub(super) fn hammer_speed(&self, fret: usize, strength: f64) -> f64 {
         let geometry = &self.string.geometry;
         let sounding = geometry.length - geometry.finger_position(fret);
         let pluck = self.usual_place.min(FARTHEST_PLUCK * sounding);
-        let impedance = self.string.tension * self.open_period() / (2.0 * geometry.length);
-        let as_loud = self.hands.pluck_force * libm::sin(PI * pluck / sounding) / impedance;
+        let as_loud = self.hands.pluck_force * libm::sin(PI * pluck / sounding) / geometry.wave_impedance;
         let Hammer { part, slowest, limit, effort } = HAMMER;
         let hardest = part * as_loud;
         // What is asked for over what limits it, where the hardest has 1: no force, no speed.
