@@ -7,8 +7,8 @@ const FORCE: f64 = 0.2;
 /// Longest delay at variation 1, s. A player cannot be early, and the first sound must follow the
 /// key within 3 ms, pluck included.
 const DELAY: f64 = 0.001;
-/// The same for a finger that hammers, pulls or slides, s. Two that are late by anything up to this come 4.9 ms more or less apart
-/// (root mean square), which is how regularly practised fingers take turns.
+/// The same for a finger that hammers, pulls or slides, s: at a quarter of that as long as thin strings swing to and fro, so that
+/// each meets them at another moment of it.
 const LATENESS: f64 = 0.012;
 
 /// How one note is begun otherwise than exactly.
