@@ -101,10 +101,9 @@ fn a_tap_comes_as_fast_as_it_is_to_be_loud() {
     // On the lowest string, where its way takes so small a part of a period that it gathers nothing.
     let (_, finger, _, place, hard) = throw(7, 42, 127);
     let (string, player) = (&GUITAR.strings[5], &GUITAR.setup.player);
-    let period = 1.0 / (440.0 * 2.0_f64.powf((string.geometry.open_pitch - 69.0) / 12.0));
-    let impedance = string.tension * period / (2.0 * string.geometry.length);
     let part = player.pluck_position / (string.geometry.length - place);
-    let asked = 1.35 * player.pluck_force * (std::f64::consts::PI * part).sin() / impedance;
+    let asked =
+        1.35 * player.pluck_force * (std::f64::consts::PI * part).sin() / string.geometry.wave_impedance;
     assert!(near(hard, 0.1 + asked / (1.0 + asked / 2.7)), "{hard} m/s");
     let gestures = gestures(&[(0, cc(22, 7)), (0, on(69, 1))]);
     let braked = gestures.iter().find_map(|timed| match timed.gesture {
