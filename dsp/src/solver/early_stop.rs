@@ -8,10 +8,10 @@ use crate::active::Active;
 /// contacts hardly move at all.
 const FALLBACKS: u32 = 60;
 
-/// The part of the present energy that may be taken and is left at that.
+/// The part of the present energy that may be taken or given and is left at that.
 const NOTHING: f64 = 1e-13;
 
-/// Steps on the way to an answer that takes nothing, and the part of what was taken at which it is near enough.
+/// Steps on the way to an answer that neither takes nor gives, and the part of what it did at which that is near enough.
 const APPROACHES: usize = 16;
 const NEUTRAL: f64 = 1e-3;
 
@@ -56,9 +56,9 @@ pub(super) fn stop_early(
     } else {
         fall_back(contacts, answer, room, convergence)
     };
-    let taken = 0.5 * demanded(contacts, room.forces);
-    if gain <= scale.credit && taken.abs() > NOTHING * scale.present {
-        return approach(contacts, answer, room, taken, scale.credit);
+    let given = 0.5 * demanded(contacts, room.forces);
+    if gain <= scale.credit && given.abs() > NOTHING * scale.present {
+        return approach(contacts, answer, room, given, scale.credit);
     }
     gain
 }
@@ -115,13 +115,13 @@ fn fall_back(
     energy_given(contacts, answer, room)
 }
 
-/// Goes on from forces that create nothing, by which the solver takes `taken`, in the direction of a Newton step
-/// as far as it takes nothing: an answer that is not exact, but neither takes energy nor gives any.
+/// Goes on from forces that create nothing, by which the solver gives `given` (negative: takes), J, in the direction of a
+/// Newton step as far as it gives nothing: an answer that is not exact, but neither takes energy nor gives any.
 fn approach(
     contacts: &mut [Active],
     answer: &mut impl Answer,
     room: &mut Room,
-    taken: f64,
+    given: f64,
     credit: f64,
 ) -> f64 {
     for (i, contact) in contacts.iter().enumerate() {
@@ -131,37 +131,38 @@ fn approach(
     newton_direction(contacts, answer, room);
     let error = largest(room.motion);
     room.start.copy_from_slice(room.forces);
-    let (mut best, mut least) = (0.0, taken.abs());
-    // Lengths of the step with what is given there (negative: taken), either side of nothing.
-    let mut low = (0.0, taken);
-    let mut high: Option<(f64, f64)> = None;
+    let (mut best, mut least) = (0.0, given.abs());
+    // Lengths of the step with what is left there, which has the sign of `given` up to where it is nothing: one before that place,
+    // and one beyond.
+    let mut near = (0.0, given.abs());
+    let mut beyond: Option<(f64, f64)> = None;
     let mut t = 1.0;
     for attempt in 0..APPROACHES {
         let gain = stretch_to(t, contacts, answer, room);
-        let given = 0.5 * demanded(contacts, room.forces);
-        if gain <= credit && given.abs() < least && bounded(contacts, room.forces, 0.0) {
+        let left = given.signum() * 0.5 * demanded(contacts, room.forces);
+        if gain <= credit && left.abs() < least && bounded(contacts, room.forces, 0.0) {
             for (i, contact) in contacts.iter().enumerate() {
                 room.residual[i] = contact.required - (contact.base + room.forces[i]);
             }
             answer.product(room.residual, room.motion);
             if largest(room.motion) <= 0.5 * error {
-                (best, least) = (t, given.abs());
+                (best, least) = (t, left.abs());
             }
         }
-        if least <= NEUTRAL * taken.abs() || low.1 > 0.0 {
+        if least <= NEUTRAL * given.abs() {
             break;
         }
-        if given > 0.0 {
-            high = Some((t, given));
+        if left < 0.0 {
+            beyond = Some((t, left));
         } else {
-            low = (t, given);
+            near = (t, left);
         }
-        t = match high {
+        t = match beyond {
             None => 4.0 * t,
-            Some(high) => {
+            Some(beyond) => {
                 // The chord, and every other time beyond it, or the far end would never move.
-                let chord = low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1)).clamp(0.0, 1.0);
-                if attempt % 2 == 0 { chord } else { 0.5 * (chord + high.0) }
+                let chord = near.0 + (beyond.0 - near.0) * (near.1 / (near.1 - beyond.1)).clamp(0.0, 1.0);
+                if attempt % 2 == 0 { chord } else { 0.5 * (chord + beyond.0) }
             }
         };
     }
@@ -188,3 +189,6 @@ fn demanded(contacts: &[Active], forces: &[f64]) -> f64 {
         .map(|(contact, force)| (contact.required - (contact.base + force)) * contact.change)
         .sum()
 }
+
+#[cfg(test)]
+mod tests;
