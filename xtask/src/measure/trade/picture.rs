@@ -79,7 +79,7 @@ pub fn draw(outcomes: &[Outcome]) -> Result<String> {
     let mut panels: Vec<Panel> = ERRORS.iter().map(|wrong| front(wrong, outcomes)).collect();
     let below = panels.split_off(2);
     let caption = "Each dot is one sample rate with one stencil; the number is the rate in kHz. Lines join the rates \
-                   of a stencil, all strings at the same rate; red dots are the qualities at a host's 48 kHz, each string \
+                   of a stencil, all strings at the same rate; dots of their own colour are the qualities at a host's 48 kHz, each string \
                    at its own. The broken line is the front: for each price the smallest error. Cost: the mean over \
                    all scenes on the machine that wrote the tables. Error: that of the worst scene against the reference. \
                    Below: every row of the tables of rates and of caps, with the largest part of the energy booked to the solver in any scene.";
@@ -106,6 +106,13 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
         better
     });
     panel = panel.with(Layer::line("front", Stroke::thin(colour::INK).dashed(), best));
+    let line = |stencil: Stencil| {
+        let own = grid.iter().filter(move |setting| setting.stencil == stencil);
+        let mut line: Vec<(f64, f64)> = own.map(place).collect();
+        line.sort_by(|a, b| a.0.total_cmp(&b.0));
+        line
+    };
+    let others = [line(Stencil::Paper), line(Stencil::Corrected)];
     for (stencil, stroke) in STENCILS {
         let own: Vec<&Setting> = grid.iter().filter(|setting| setting.stencil == stencil).collect();
         let points: Vec<(f64, f64)> = own.iter().map(|setting| place(setting)).collect();
@@ -120,21 +127,26 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
             let top = near.iter().fold(0.0, |top: f64, (_, at)| top.max(at.1));
             let mut words = vec![Layer::words((0.4 * left, up(top, 0.1)), "44.1 and 48")];
             words.extend(far.iter().map(|(setting, at)| {
-                Layer::words((at.0 * 1.02, up(at.1, 0.06)), format!("{}", setting.rate / 1e3))
+                // Below the dot where another stencil's line would run through the word.
+                let word = (at.0 * 1.02, up(at.1, 0.06));
+                let runs_through = |line: &Vec<(f64, f64)>| {
+                    height(line, word.0 * 1.1)
+                        .is_some_and(|y| (up(word.1, -0.04)..up(word.1, 0.04)).contains(&y))
+                };
+                let word = if others.iter().any(runs_through) { (at.0 * 0.9, up(at.1, -0.1)) } else { word };
+                Layer::words(word, format!("{}", setting.rate / 1e3))
             }));
             panel = panel.with_all(words);
         }
     }
-    let mut wide: Vec<(f64, f64)> =
-        grid.iter().filter(|setting| setting.stencil == Stencil::Wide).map(place).collect();
-    wide.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let wide = line(Stencil::Wide);
     let names = Quality::ALL.iter().zip(&qualities).map(|(one, setting)| {
         let at = place(setting);
         // Where no line runs: below the dot, to the left but for the last; above it where the line is below. The first stands left of
         // all dots.
         let (right, above) = match one {
             Quality::Draft => (0.53, -0.01),
-            Quality::Studio if is_above(&wide, at) => (0.8, 0.08),
+            Quality::Studio if height(&wide, at.0).is_some_and(|line| at.1 > line) => (0.8, 0.08),
             Quality::Live | Quality::Studio => (0.72, -0.09),
             Quality::Reference => (0.9, -0.09),
         };
@@ -145,12 +157,12 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
     panel.with(Layer::dots("qualities at a host's 48 kHz", stroke, qualities.iter().map(place).collect()))
 }
 
-/// Whether a dot lies above a line as it is drawn, both by logarithms.
-fn is_above(line: &[(f64, f64)], (x, y): (f64, f64)) -> bool {
-    line.windows(2).any(|ends| {
+/// Where a line runs at a cost, as it is drawn, both by logarithms; nowhere beyond its ends.
+fn height(line: &[(f64, f64)], x: f64) -> Option<f64> {
+    line.windows(2).find_map(|ends| {
         let [from, to] = [ends[0], ends[1]];
         let part = (x / from.0).ln() / (to.0 / from.0).ln();
-        (0.0..=1.0).contains(&part) && y > from.1 * (to.1 / from.1).powf(part)
+        (0.0..=1.0).contains(&part).then(|| from.1 * (to.1 / from.1).powf(part))
     })
 }
 
