@@ -16,6 +16,7 @@ mod kinked_frets;
 mod ledger;
 mod measures;
 mod model_refusals;
+mod others;
 mod paper_beyond;
 mod paper_pluck;
 mod paper_slide;

@@ -258,7 +258,9 @@ fn a_string_is_stretched_only_where_that_pulls() {
         for _ in 0..500 {
             simulation.step();
             let scratch = &simulation.string(0).scratch;
-            most = most.max(scratch.stretching().abs());
+            let stretching = scratch.stretching().abs();
+            assert!(stretching.is_finite(), "{stretching} m²");
+            most = most.max(stretching);
             touched |= scratch.forces().count() > 0;
         }
         assert!(touched, "the string never met the board");
