@@ -111,6 +111,8 @@ pub(crate) struct Fingers {
     light: Option<FingerSlot>,
     /// Where that touches it, m from the nut.
     touched: f64,
+    /// The partial of what sounds that has a node there, if that is why.
+    node: Option<u32>,
     /// Whether one rests behind the bar that stops the string.
     behind_bar: bool,
     /// By slot, what is leaving.
@@ -149,6 +151,7 @@ impl Fingers {
             next_slot: 0,
             light: None,
             touched: 0.0,
+            node: None,
             behind_bar: false,
             departing: [None; FINGERS_PER_STRING],
             resting: [false; FINGERS_PER_STRING],
@@ -167,7 +170,7 @@ impl Fingers {
     /// All away.
     pub(crate) fn reset(&mut self) {
         (self.fretting, self.anchor, self.light, self.touched) = (None, None, None, 0.0);
-        self.awaited = None;
+        (self.awaited, self.node) = (None, None);
         self.behind_bar = false;
         self.departing = [None; FINGERS_PER_STRING];
         self.next_slot = 0;

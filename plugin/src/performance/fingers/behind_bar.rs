@@ -26,10 +26,10 @@ impl Fingers {
         bar - reach.min(part * (bar - capo).max(0.0))
     }
 
-    /// Moves the finger that stops the string along it to a place, m from the nut, or a bar with what rests behind it. Gives back
-    /// its slide.
+    /// Moves the finger that stops the string along it to a place, m from the nut, or a bar with what rests behind it; a light one at
+    /// a node goes with it. Gives back its slide.
     pub(super) fn move_along(
-        &self,
+        &mut self,
         moved: &Finger,
         position: f64,
         duration: f64,
@@ -40,6 +40,9 @@ impl Fingers {
         if moved.bar && self.behind_bar {
             let position = self.behind_bar_at(position);
             at.does(Gesture::Slide { finger: BEHIND_BAR, position, duration });
+        }
+        if self.fretting.is_some_and(|finger| finger.slot == moved.slot) {
+            self.stay_at_node(duration, at);
         }
         slide
     }

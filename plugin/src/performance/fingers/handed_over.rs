@@ -18,7 +18,7 @@ impl Fingers {
         self.hands = old.hands.clone();
         (self.fretting, self.anchor, self.light) = (old.fretting, old.anchor, old.light);
         self.awaited = old.awaited;
-        (self.touched, self.behind_bar) = (old.touched, old.behind_bar);
+        (self.touched, self.node, self.behind_bar) = (old.touched, old.node, old.behind_bar);
         (self.next_slot, self.resting, self.departing) = (old.next_slot, old.resting, old.departing);
         self.right.take_over(&old.right);
         (self.home, self.pressure, self.tightened) = (old.home, old.pressure, old.tightened);

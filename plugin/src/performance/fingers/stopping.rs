@@ -26,8 +26,7 @@ impl Fingers {
         self.make_way(coming.strength, at);
         self.lay_capo(at);
         self.home = fret;
-        // Where fingers press nothing down the octave under a harmonic has a bar, too.
-        let bar = stop == Stop::Bar || stop == Stop::Harmonic && self.string.barred;
+        let bar = self.lays_bar(stop);
         // A bar that eases off is too heavy to press again in time: it is laid anew.
         let stays_down = |finger: &Finger| match bar {
             true => finger.grip == Grip::Presses,
@@ -75,6 +74,11 @@ impl Fingers {
             _ => return self.land(fret, Down::on(self.capo[1]), coming, at),
         }
         false
+    }
+
+    /// Whether it is a bar that stops the string. Where fingers press nothing down the octave under a harmonic has one, too.
+    pub(crate) fn lays_bar(&self, stop: Stop) -> bool {
+        stop == Stop::Bar || stop == Stop::Harmonic && self.string.barred
     }
 
     /// How a finger leaves a string that a note of some strength is about to sound on: a string let go of suddenly sounds as

@@ -16,9 +16,26 @@ impl Fingers {
         if self.light.is_some() {
             return;
         }
-        let sounding = self.sounding_length();
-        let position = self.string.geometry.length - sounding + sounding / f64::from(order.max(2));
-        self.touch_lightly(position, NODE_TOUCH, at);
+        let stopped = self.fretting.map(|finger| finger.way.come_to(self.pressed(&finger), at.time));
+        let position = self.node(order, stopped.unwrap_or_else(|| self.sounding_from()));
+        self.touch_lightly(position, NODE_TOUCH, Some(order), at);
+        let arrives = self.time_to_arrive(at);
+        if arrives > 0.0 {
+            self.stay_at_node(arrives, at);
+        }
+    }
+
+    /// The node of partial `order` nearest to where the string is stopped, m from the nut both.
+    fn node(&self, order: u32, stopped: f64) -> f64 {
+        stopped + (self.string.geometry.length - stopped) / f64::from(order.max(2))
+    }
+
+    /// What stops the string will have moved in so many seconds: a light finger at a node goes with it.
+    pub(super) fn stay_at_node(&mut self, duration: f64, at: &mut Moment<impl GestureSink>) {
+        if let (Some(finger), Some(order)) = (self.light, self.node) {
+            self.touched = self.node(order, self.sounding_from());
+            at.does(Gesture::Slide { finger, position: self.touched, duration });
+        }
     }
 
     /// How far from its usual place a pluck must fall not to miss partial `order` of what sounds, m, negative
@@ -36,11 +53,17 @@ impl Fingers {
             true => self.string.geometry.finger_position(fret),
             false => MUTED_OPEN * length,
         };
-        self.touch_lightly(position, MUTE, at);
+        self.touch_lightly(position, MUTE, None, at);
         self.rest(LIGHT, position + MUTED_BESIDE * (length - position), at);
     }
 
-    fn touch_lightly(&mut self, position: f64, times: f64, at: &mut Moment<impl GestureSink>) {
+    fn touch_lightly(
+        &mut self,
+        position: f64,
+        times: f64,
+        node: Option<u32>,
+        at: &mut Moment<impl GestureSink>,
+    ) {
         let (touch, force) = self.field().matched(times);
         // Where another finger has just stopped the string, the next slot is the one of the finger before it, which
         // is still on its way up; the dampers are not. Behind a bar one of them rests.
@@ -50,7 +73,7 @@ impl Fingers {
             None => self.next_slot,
         };
         self.light = Some(finger);
-        self.touched = position;
+        (self.touched, self.node) = (position, node);
         self.departing[finger] = None;
         at.does(Gesture::Place { finger, touch, position, clearance: 0.0 });
         at.does(Gesture::Press { finger, force, duration: PALM_LANDING });

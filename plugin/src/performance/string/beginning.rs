@@ -67,10 +67,11 @@ impl StringPlayer {
         // The little by which a string comes up to a lower fret is not heard under the hand that stills it; more is.
         let asked = start.wheel + start.manner.tuning;
         let fret = match stop {
-            Stop::Press | Stop::Bar => {
-                self.bend.begin_slid(start.fret, asked, stop == Stop::Bar, &mut self.fingers)
+            Stop::Press | Stop::Bar | Stop::Harmonic => {
+                let bar = self.fingers.lays_bar(stop);
+                self.bend.begin_slid(start.fret, asked, bar, &mut self.fingers)
             }
-            Stop::Mute | Stop::Harmonic => start.fret,
+            Stop::Mute => start.fret,
         };
         let by_little = fret > self.fingers.capo();
         let leaves = match stilling {
