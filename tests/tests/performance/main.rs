@@ -18,6 +18,7 @@ mod gestures;
 mod glides;
 mod global_channel;
 mod goes_on;
+mod harmonics;
 mod landings;
 mod late_fingers;
 mod late_palms;

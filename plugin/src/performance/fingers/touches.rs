@@ -25,9 +25,14 @@ impl Fingers {
         }
     }
 
-    /// The node of partial `order` nearest to where the string is stopped, m from the nut both.
+    /// The node of partial `order` that is nearest to what stops the string at a place, m from the nut both. What presses it to a
+    /// fret is behind that.
     fn node(&self, order: u32, stopped: f64) -> f64 {
-        stopped + (self.string.geometry.length - stopped) / f64::from(order.max(2))
+        let on_fret = !self.string.fretless && self.fretting.map_or(self.capo[1] > 0, |finger| !finger.bar);
+        let fret = if on_fret { self.stopped_at(stopped).checked_sub(1) } else { None };
+        let geometry = &self.string.geometry;
+        let end = fret.and_then(|fret| geometry.frets.get(fret)).copied().unwrap_or(stopped);
+        end + (geometry.length - end) / f64::from(order.max(2))
     }
 
     /// What stops the string will have moved in so many seconds: a light finger at a node goes with it.
