@@ -6,6 +6,7 @@
 //! that sounds stays where pulling ends. A finger that has ceased to press, as its note is over, stays where it has slid or glided to,
 //! and pulling does what it can.
 
+mod course;
 mod sliding;
 
 use std::f64::consts::TAU;
@@ -14,7 +15,8 @@ use low_action_dsp::Gesture;
 
 use super::fingers::Fingers;
 use super::technique::{BEND_INTERVAL, BEND_RAMP, BEND_SPEED, FOLLOWED, OUT_OF_TUNE, VIBRATO, VIBRATO_STEP};
-use super::{Annotation, GestureSink, Moment, Pull, Technique};
+use super::{Annotation, GestureSink, Moment, Pull};
+use course::Course;
 
 /// What is asked of a string and what has been done about it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -33,13 +35,13 @@ pub(crate) struct Bend {
     swings: Option<u64>,
     /// Bend by tension last sent, semitones.
     sent: f64,
+    /// What hands take that to raise the string by, semitones.
+    raised: Course,
     /// The tension for it, as a multiple of the string's own: what stops the string counts, too.
-    ratio: f64,
-    /// All of the bend as last told, semitones, and what of it is pulled.
-    told: f64,
+    tension: Course,
+    /// All of the bend as told, semitones, and what of its end is pulled.
+    told: Course,
     pull: Pull,
-    /// How much of that is where the finger has gone, semitones.
-    moved: f64,
     /// Frets the finger has been slid by.
     slid: i32,
     /// Whether the string is pulled for the frets that are still before a sliding finger.
@@ -52,14 +54,14 @@ pub(crate) struct Bend {
     due: Option<u64>,
     /// Earliest sample for it.
     ready: u64,
-    /// When a note began that nobody heard a string bent for before.
-    unheard: Option<u64>,
+    /// When a note began that nobody hears a string bent for before, and within how many seconds nobody does.
+    unheard: Option<(u64, f64)>,
 }
 
 impl Bend {
     /// A straight string.
     pub(crate) fn new() -> Self {
-        Self { ratio: 1.0, ..Self::default() }
+        Self { tension: Course::at_rest(1.0), ..Self::default() }
     }
 
     /// A new note begins: from now on its channel's wheel counts, its finger has not slid, and what it is bent by takes
@@ -72,12 +74,12 @@ impl Bend {
         self.followed = f64::NAN;
     }
 
-    /// The note is struck, and begins at its pitch: the hand swings from there, even if it did so before. On a string at rest what
-    /// else bends it has done so before it sounds.
-    pub(crate) fn begin_struck(&mut self, time: u64, at_rest: bool) {
+    /// The note is struck, and begins at its pitch: the hand swings from there, even if it did so before. What else bends a string does
+    /// so before it sounds if nobody hears what is done to it within so many seconds.
+    pub(crate) fn begin_struck(&mut self, time: u64, unheard: Option<f64>) {
         self.swings = None;
-        if at_rest {
-            self.unheard = Some(time);
+        if let Some(within) = unheard {
+            self.unheard = Some((time, within));
             self.ready = time;
         }
         self.due = self.due.map(|_| time.max(self.ready));
@@ -100,41 +102,30 @@ impl Bend {
         tuning + if self.channel == Some(channel) { self.wheel } else { 0.0 }
     }
 
-    /// Whatever the finger before had slid or glided is over with it, within a sample: another one has come down.
-    pub(crate) fn tell_landing(&mut self, fingers: &Fingers, at: &mut Moment<impl GestureSink>) {
+    /// A note is stopped by another finger, or by one that is on its way to it. What the one before had slid or glided is over within a
+    /// sample, and what is pulled goes on from where it has come. (A hand that swings has its next goals told, and they have the finger
+    /// there already.)
+    pub(crate) fn tell_change(&mut self, fingers: &Fingers, at: &mut Moment<impl GestureSink>) {
         if fingers.glides() {
             self.glided = fingers.away();
         }
-        self.tell_moved(fingers.away(), fingers, at);
-    }
-
-    /// A note takes over from another by one technique or another: one that slides comes from so far, semitones. (A hand that
-    /// swings has its next goals told, and they have the finger there already.)
-    pub(crate) fn tell_change(
-        &mut self,
-        technique: Technique,
-        from: f64,
-        fingers: &Fingers,
-        at: &mut Moment<impl GestureSink>,
-    ) {
-        if technique == Technique::Slide && self.swings.is_none() {
-            self.tell_moved(from, fingers, at);
-            self.due = Some(self.ready.max(at.time));
-        } else {
-            self.tell_landing(fingers, at);
-        }
-    }
-
-    /// A finger stops the string so far from its note's fret now, semitones. What is pulled comes after that.
-    fn tell_moved(&mut self, moved: f64, fingers: &Fingers, at: &mut Moment<impl GestureSink>) {
-        let semitones = self.told - std::mem::replace(&mut self.moved, moved) + moved;
-        if semitones != self.told && self.unheard.is_none() {
-            self.told = semitones;
-            self.pull = Pull::new(self.pull.semitones, self.pull.ratio, fingers.stretched_at());
-            at.tells(Annotation::Bent { semitones, duration: 1.0 / at.sample_rate, pull: self.pull });
+        let moved = if self.swings.is_some() { fingers.away() } else { fingers.away_by_now(at) };
+        let [raised, ratio] = [&self.raised, &self.tension].map(|course| course.at(at.time));
+        let semitones = moved + raised;
+        let is_told = (semitones - self.told.at(at.time)).abs() < OUT_OF_TUNE;
+        if !is_told && self.unheard.is_none() {
+            self.tell(semitones, 0.0, Pull::new(raised, ratio, fingers.stretched_at()), at);
             self.ready = self.ready.max(at.time + 1);
             self.due = self.due.map(|due| due.max(self.ready));
         }
+    }
+
+    /// Tells where the bend goes within so many seconds, or within a sample, since labels divide by durations.
+    fn tell(&mut self, semitones: f64, duration: f64, pull: Pull, at: &mut Moment<impl GestureSink>) {
+        let duration = duration.max(1.0 / at.sample_rate);
+        self.told.turn(semitones, duration, at);
+        self.pull = pull;
+        at.tells(Annotation::Bent { semitones, duration, pull });
     }
 
     /// What keeps the finger on frets is another matter now than where it went from its note's fret.
@@ -199,13 +190,13 @@ impl Bend {
         self.due = None;
         let asked = self.wheel + self.tuning;
         let most = reach_of_pulling(fingers);
-        let unheard = self.unheard.take() == Some(at.time);
+        let unheard = self.unheard.take().filter(|&(time, _)| time == at.time).map(|(_, within)| within);
         let duration = |change: f64| (change.abs() / BEND_SPEED).max(BEND_RAMP);
-        // Within a sample, since labels divide by durations. A finger that slides takes its time even so: it is heard.
-        let sample = 1.0 / at.sample_rate;
-        let pulling = |change| if unheard { sample } else { duration(change) };
+        // A finger that slides takes its time even so: it is heard.
+        let within = unheard.map_or(f64::INFINITY, |within| within.max(1.0 / at.sample_rate));
+        let pulling = |change| duration(change).min(within);
         // What is pulled before the note leaves the swing out.
-        let before = unheard && !fingers.glides();
+        let before = unheard.is_some() && !fingers.glides();
         let swing = if before { 0.0 } else { self.swing(at) };
         let turned = (asked - std::mem::replace(&mut self.followed, asked)).abs();
         let (mut at_last, mut pulled) = (self.arm, self.arm);
@@ -235,29 +226,33 @@ impl Bend {
             pulled = at_last - tension + self.meanwhile(asked, tension, most, fingers, at);
         }
         if self.swings.is_some() {
-            let next = if before { at.after(taken).max(at.time + 1) } else { at.after(VIBRATO_STEP) };
+            let next =
+                if before { at.after(taken.max(within)).max(at.time + 1) } else { at.after(VIBRATO_STEP) };
             self.due = Some(next);
         }
         let change = pulled - std::mem::replace(&mut self.sent, pulled);
-        let ratio = fingers.pulled(pulled).ratio;
-        if taken > 0.0 || ratio != self.ratio {
+        let Pull { semitones: raised, ratio, .. } = fingers.pulled(pulled);
+        if taken > 0.0 || ratio != self.tension.to {
             self.ready = at.after(BEND_INTERVAL);
         }
-        if ratio != self.ratio {
-            self.ratio = ratio;
+        // What is on its way there already goes on, or is hurried.
+        let mut left = self.tension.left(at);
+        if ratio != self.tension.to || left > within {
+            left = 0.0;
             // For a wheel that is far ahead the string is as it is to be when the finger gets there.
             let duration = pulling(change).max(if self.makes_up { 0.0 } else { taken });
             at.does(Gesture::Bend { tension_ratio: ratio, duration });
+            self.raised.turn(raised, duration, at);
+            self.tension.turn(ratio, duration, at);
             fingers.hold_pulled(ratio, duration, at);
         }
-        self.moved = moved;
         let pull = fingers.pulled(at_last);
         let semitones = moved + pull.semitones;
-        if semitones != self.told || pull != self.pull {
-            (self.told, self.pull) = (semitones, pull);
+        let is_late = self.told.left(at) > within;
+        if semitones != self.told.to || pull != self.pull || is_late {
             let slides = if self.swings.is_none() { fingers.time_to_arrive(at) } else { 0.0 };
-            let duration = taken.max(pulling(change)).max(slides);
-            at.tells(Annotation::Bent { semitones, duration, pull });
+            let duration = taken.max(pulling(change)).max(slides).max(left);
+            self.tell(semitones, duration, pull, at);
         }
         (asked - reached).abs() > OUT_OF_TUNE
     }

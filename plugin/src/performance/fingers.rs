@@ -356,6 +356,15 @@ impl Fingers {
         self.string.geometry.length - long * libm::pow(short / long, part)
     }
 
+    /// The frets after which a finger presses, or a bar lies, at a place, m from the nut, counted so.
+    fn frets_at(&self, place: f64, bar: bool) -> f64 {
+        let last = self.string.geometry.frets.len();
+        let below = (1..last).take_while(|&fret| self.place(fret, bar) <= place).count();
+        let [long, short] =
+            [below, below + 1].map(|fret| self.string.geometry.length - self.place(fret, bar));
+        below as f64 + libm::log((self.string.geometry.length - place) / long) / libm::log(short / long)
+    }
+
     /// Where a finger stops a fret, or a bar lies over it, m from the nut.
     fn place(&self, fret: usize, bar: bool) -> f64 {
         match bar {

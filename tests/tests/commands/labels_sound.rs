@@ -10,7 +10,7 @@ use low_action_tests::labelled::{Labelled, RATE, held, list, number, render, sam
 use low_action_tests::labelled_pitch::{bend_at, check_pitches};
 use low_action_tests::pages::must_say;
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{at_the_bridge, decibels, peak};
+use low_action_tests::stage::{amplitude, at_the_bridge, decibels, hertz, peak};
 use serde_json::Value;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_low-action-command");
@@ -201,6 +201,45 @@ fn fingers_that_slide_are_in_the_contour() {
     assert!(played.notes().iter().filter(|note| note["technique"] == "slide").count() == 2);
     // Steps are half a semitone off their mean, a string is on the last fret until it touches the next, and a window has both.
     assert!(largest[0] < 3.0 && largest[1] < 200.0, "{largest:?}");
+}
+
+/// The contour of a slide that another one breaks off begins where the finger is, and one that another stroke breaks off is over with it.
+#[test]
+fn slides_that_are_broken_off_are_in_the_contour() {
+    let on = |time, key| (time, [0x90, key, 100]);
+    let off = |time, key| (time, [0x80, key, 0]);
+    // From note to note, far before the finger gets there; then back to one whose key is still down.
+    let slow = [(0, [0xB0, 65, 127]), (0, [0xB0, 5, 100])];
+    let slides = [on(100, 57), on(500, 64), off(520, 57), on(600, 60), off(620, 64)];
+    let back = [on(1000, 67), off(1500, 67), off(2500, 60)];
+    // By a wheel, on the way home.
+    let far = [(0, [0xB0, 101, 0]), (0, [0xB0, 100, 0]), (0, [0xB0, 6, 12])];
+    let wheel = [on(100, 69), (300, [0xE0, 0, 64 + 37]), (900, [0xE0, 0, 64]), on(905, 71), off(1500, 71)];
+    for (song_of, options) in [
+        ([&slow[..], &slides, &back].concat(), &["--variation", "0"][..]),
+        ([&far[..], &wheel].concat(), &["--variation", "0", "--input", "strings"]),
+    ] {
+        let played = render(PROGRAM, &song(&song_of), options);
+        let bends = list(&played.labels, "bends");
+        let window = samples(0.06);
+        let mut farthest = 0.0_f64;
+        for (note, next) in played.notes().iter().zip(played.notes().iter().skip(1).map(Some).chain([None])) {
+            let sound = played.string_of(note);
+            let to = next.map_or(sample(note, "end_sample"), |next| sample(next, "onset_sample"));
+            let from = sample(note, "onset_sample") + samples(0.006);
+            for at in (from..to.saturating_sub(window)).step_by(samples(0.01)) {
+                let bend = bend_at(bends, sample(note, "string"), at + window / 2);
+                let contour = number(note, "pitch") + bend;
+                // Frets go by as steps: which of them it is is heard, if not exactly.
+                let size = |key: &f64| amplitude(&sound[at..at + window], RATE, hertz(*key));
+                let keys = (-8..=8).map(|beside| (contour + f64::from(beside)).round());
+                let loudest = keys.max_by(|a, b| size(a).total_cmp(&size(b))).expect("there are some");
+                farthest = farthest.max((loudest - contour).abs());
+            }
+        }
+        println!("{options:?}: {farthest:.2} semitones");
+        assert!(farthest < 2.0, "{options:?}: {farthest} semitones beside what sounds");
+    }
 }
 
 #[test]

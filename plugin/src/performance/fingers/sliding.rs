@@ -132,12 +132,7 @@ impl Fingers {
         self.fretting.filter(|finger| finger.grip == Grip::Presses)
     }
 
-    /// Where a finger or the capo stops the string, counted in frets.
-    pub(crate) fn stands(&self) -> f64 {
-        self.fretting.map_or(self.capo[1] as f64, |finger| finger.stands())
-    }
-
-    /// How far from the fret of its note a finger stops the string, semitones.
+    /// How far from the fret of its note a finger stops the string once it is there, semitones.
     pub(crate) fn away(&self) -> f64 {
         self.fretting.map_or(0.0, |finger| finger.stands() - self.home as f64)
     }

@@ -55,6 +55,14 @@ impl Fingers {
         let place = finger.way.come_to(self.pressed(&finger), at.after(ahead));
         Some(self.stopped_at(place) as i32 - self.home as i32)
     }
+
+    /// How far from the fret of its note a finger has come, semitones.
+    pub(crate) fn away_by_now(&self, at: &Moment<impl GestureSink>) -> f64 {
+        let Some(finger) = self.fretting.filter(|finger| finger.is_under_way(at.time)) else {
+            return self.away();
+        };
+        self.frets_at(finger.way.come_to(self.pressed(&finger), at.time), finger.bar) - self.home as f64
+    }
 }
 
 fn seconds_until(time: u64, at: &Moment<impl GestureSink>) -> f64 {

@@ -13,7 +13,7 @@ impl StringPlayer {
         self.strike_in_time(&mut self.moment(time, out));
         // A hand that is farther away has not come to the string when it turns to this note.
         self.overtaken += u64::from(self.deeds.await_sound());
-        let (stills, silent) = (self.wants_stilling(time), self.is_silent(time));
+        let (stills, silent, damped) = (self.wants_stilling(time), self.is_silent(time), self.is_damped());
         self.take_presses(&mut start);
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
@@ -31,7 +31,8 @@ impl StringPlayer {
         start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
         self.call_off(&mut self.moment(time, out));
         self.begin(time, &start, strength);
-        self.bend.begin_struck(time, silent);
+        let gone = stilling.map_or(start.wait + STILLED_AT_LEAST, |stilling| stilling.stays(start.wait)[1]);
+        self.bend.begin_struck(time, if silent { Some(0.0) } else { damped.then_some(gone) });
         let mut at = self.moment(time, out);
         at.tells(self.new_note(&start));
         self.fingers.press(start.manner.firm(), &mut at);
@@ -82,7 +83,7 @@ impl StringPlayer {
         };
         let waits = self.fingers.stop(fret, stop, coming, leaves, at);
         self.fingers.count_from(start.fret);
-        self.bend.tell_landing(&self.fingers, at);
+        self.bend.tell_change(&self.fingers, at);
         self.touch_node(start.wait, at);
         if let Some(stilling) = stilling {
             self.still_before(start.wait, stilling, at);

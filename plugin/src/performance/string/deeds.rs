@@ -242,7 +242,7 @@ impl StringPlayer {
         if let Some(note) = self.note {
             self.fingers.count_from(note.fret);
         }
-        self.bend.tell_landing(&self.fingers, at);
+        self.bend.tell_change(&self.fingers, at);
         self.bend.renew(at.time);
         self.tells_sound(0.0, self.fingers.excitation(technique, Some(thrown), None), at);
     }

@@ -59,10 +59,9 @@ impl StringPlayer {
         if again {
             self.begin_again(fret, strength, &mut at);
         } else {
-            let stood = self.fingers.stands();
             let (technique, gesture) = self.fingers.change(fret, slide, bar, strength, &mut at);
             self.fingers.count_from(start.fret);
-            self.bend.tell_change(technique, stood - start.fret as f64, &self.fingers, &mut at);
+            self.bend.tell_change(&self.fingers, &mut at);
             self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         }
         self.fingers.set_palm(start.articulation.palm, &mut at);
@@ -85,7 +84,7 @@ impl StringPlayer {
         let Some(note) = self.note else { return };
         if note.bar || note.slide.is_some() || fret <= self.fingers.capo() {
             self.fingers.count_from(note.fret);
-            self.bend.tell_landing(&self.fingers, at);
+            self.bend.tell_change(&self.fingers, at);
             self.strike(note.struck, 0.0, at);
         } else {
             self.tap_when_up(fret, strength, Technique::HammerOn, at);
@@ -152,12 +151,11 @@ impl StringPlayer {
             at.tells(Annotation::Released);
         }
         let mut at = self.late(time, from.goes_late, out);
-        let stood = self.fingers.stands();
         let (technique, gesture) =
             self.fingers.change(fret, from.slide, from.bar, from.struck.strength, &mut at);
         self.fingers.count_from(back.fret);
         self.fingers.set_capo(capo);
-        self.bend.tell_change(technique, stood - back.fret as f64, &self.fingers, &mut at);
+        self.bend.tell_change(&self.fingers, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
         self.fingers.press(back.firm(), &mut at);
         self.fingers.set_palm(back.palm, &mut at);

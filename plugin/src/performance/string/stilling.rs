@@ -55,6 +55,12 @@ impl StringPlayer {
         !self.wants_stilling(time) || (self.note.is_none() && self.touched.is_none() && is_damped)
     }
 
+    /// Whether hands damp it whose note is over: under them nobody hears what pulls it for another one.
+    pub(super) fn is_damped(&self) -> bool {
+        let damps = self.ending.is_some_and(|(_, step)| step != Ending::Damp);
+        self.note.is_none() && self.touched.is_none() && damps
+    }
+
     /// How the hand stills the string for a stroke on a fret, 0 for the open string. Where a finger lets the string up to
     /// that, what counts is how long the hand is still there when the string has come up: letting go is a pluck, too.
     pub(super) fn stilling(&self, stroke: Stroke, fret: usize) -> Stilling {
