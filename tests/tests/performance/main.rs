@@ -56,4 +56,5 @@ mod trills;
 mod turns;
 mod vibrato;
 mod waiting;
+mod wheel_between_notes;
 mod wheel_slides;
