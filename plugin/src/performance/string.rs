@@ -50,6 +50,8 @@ pub(crate) struct StringPlayer {
     deeds: Deeds,
     /// Sample by which a hand that stills it is off it.
     stilled: u64,
+    /// Sample at which dampers came to rest on it last.
+    damped: u64,
     /// Sample at which a finger comes that is late: hands do nothing to the string before it.
     late: u64,
     /// Strokes a second of a tremolo, 0 for none.
@@ -86,6 +88,7 @@ impl StringPlayer {
             under: [None; UNDER],
             deeds: Deeds::default(),
             stilled: 0,
+            damped: 0,
             late: 0,
             tremolo: 0.0,
             touched: None,
@@ -108,6 +111,7 @@ impl StringPlayer {
         self.under = [None; UNDER];
         self.deeds = Deeds::default();
         self.stilled = 0;
+        self.damped = 0;
         self.late = 0;
         self.tremolo = 0.0;
         self.touched = None;
@@ -182,8 +186,8 @@ impl StringPlayer {
         }
         self.plucked_at = old.plucked_at;
         (self.under, self.deeds, self.tremolo) = (old.under, old.deeds, old.tremolo);
-        (self.touched, self.stilled, self.late) = (old.touched, old.stilled, old.late);
-        self.unheard = old.unheard;
+        (self.touched, self.stilled, self.damped) = (old.touched, old.stilled, old.damped);
+        (self.late, self.unheard) = (old.late, old.unheard);
     }
 
     /// The hands act differently on the note that sounds, and on those to come.

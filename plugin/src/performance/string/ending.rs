@@ -39,6 +39,7 @@ impl StringPlayer {
             Ending::Damp => {
                 (self.deeds, self.touched) = (Deeds::default(), None);
                 self.fingers.damp(self.parting, &mut at);
+                self.damped = at.time;
                 at.tells(Annotation::Damped);
                 let next = self.quiet_by(at.after(self.parting.relaxing));
                 let behind = self.fingers.waits_behind(at.time).filter(|&clear| clear < next.0);
