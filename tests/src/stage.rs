@@ -133,6 +133,16 @@ pub fn cc(number: u8, value: u8) -> PlayerEvent {
     PlayerEvent::Controller { channel: 0, number, value: f32::from(value) / 127.0 }
 }
 
+/// The pitch wheel of channel 1 is announced to reach an octave.
+pub fn octave() -> [(f64, PlayerEvent); 3] {
+    [cc(101, 0), cc(100, 0), cc(6, 12)].map(|event| (0.0, event))
+}
+
+/// It is turned by so many semitones of that.
+pub fn wheel(semitones: f64) -> PlayerEvent {
+    PlayerEvent::PitchBend { channel: 0, value: (semitones / 12.0) as f32 }
+}
+
 /// Amplitude of one frequency (Hz) in a sound under a Hann window: 1 for a sine of amplitude 1.
 pub fn amplitude<T: Copy + Into<f64>>(sound: &[T], rate: f64, frequency: f64) -> f64 {
     let count = sound.len() as f64;

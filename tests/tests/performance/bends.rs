@@ -1,19 +1,17 @@
 //! The promise: a bend is in tune on every fret, the last ones, too: a finger presses as hard as the tighter string asks for.
 
-use low_action::performance::PlayerEvent;
 use low_action::setups::SHIPPED;
 use low_action_dsp::setup::Intonation;
 use low_action_dsp::{Setup, StringGeometry};
 use low_action_tests::hands::Neck;
 use low_action_tests::numbers::largest;
 use low_action_tests::pitch::off_key;
-use low_action_tests::stage::{Stage, at, cc, on};
+use low_action_tests::stage::{Stage, at, cc, octave, on, wheel};
 
 /// How far off a string alone sounds at a fret, over a capo or not (0), straight and bent as far as pulling goes, cents.
 fn off_keys(stage: &mut Stage, key: u8, semitones: f64, capo: u8) -> [f64; 2] {
-    let wheel = PlayerEvent::PitchBend { channel: 0, value: (semitones / 12.0) as f32 };
-    let octave = [(0.0, cc(101, 0)), (0.0, cc(100, 0)), (0.0, cc(6, 12))];
-    let events = [&octave[..], &[(0.0, cc(26, capo)), (0.0, on(key, 90)), (0.25, wheel)]].concat();
+    let octave = octave();
+    let events = [&octave[..], &[(0.0, cc(26, capo)), (0.0, on(key, 90)), (0.25, wheel(semitones))]].concat();
     let sound = &stage.play(&events, 0.6).strings[0];
     let key = f64::from(key);
     [off_key(&sound[at(0.1)..at(0.25)], key), off_key(&sound[at(0.35)..at(0.55)], key + semitones)]

@@ -5,7 +5,9 @@
 use low_action::performance::PlayerEvent;
 use low_action_dsp::{FINGERS_PER_STRING, Gesture, Setup, TimedGesture};
 use low_action_tests::pitch::off_key;
-use low_action_tests::stage::{Stage, amplitude, at, cc, decibels, hertz, level, off, on, peak};
+use low_action_tests::stage::{
+    Stage, amplitude, at, cc, decibels, hertz, level, octave, off, on, peak, wheel,
+};
 
 const RATE: f64 = 48_000.0;
 
@@ -265,10 +267,9 @@ fn a_note_struck_again_while_its_finger_leaves_is_stopped() {
 fn a_finger_held_behind_is_in_nobodys_way() {
     for (setup, string, open) in STRINGS {
         let mut stage = Stage::alone(setup, string);
-        let octave = [(0.0, cc(101, 0)), (0.0, cc(100, 0)), (0.0, cc(6, 12))];
+        let octave = octave();
         let hammered = [(0.0, cc(68, 127)), (0.0, on(open + 5, 90)), (0.3, on(open + 8, 90))];
-        let down = PlayerEvent::PitchBend { channel: 0, value: -5.0 / 12.0 };
-        let sound = &stage.play(&[&octave[..], &hammered, &[(0.6, down)]].concat(), 1.4).strings[0];
+        let sound = &stage.play(&[&octave[..], &hammered, &[(0.6, wheel(-5.0))]].concat(), 1.4).strings[0];
         let cents = off_key(&sound[at(0.8)..], f64::from(open + 3));
         assert!(cents.abs() < 8.0, "{setup} {string}, down to fret 3: {cents} cents");
         let ended = [(0.6, off(open + 5)), (0.6, off(open + 8)), (0.7, on(open, 90))];

@@ -4,13 +4,9 @@
 use low_action::performance::PlayerEvent;
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::pitch::off_key;
-use low_action_tests::stage::{Stage, at, cc, off, on};
+use low_action_tests::stage::{Stage, at, cc, octave, off, on, wheel};
 
 const FRETLESS: (&str, usize) = ("fretless-bass", 2);
-
-fn wheel(semitones: f32) -> PlayerEvent {
-    PlayerEvent::PitchBend { channel: 0, value: semitones / 12.0 }
-}
 
 /// How far off a key a string alone sounds in parts of what is played, from and to s, cents; the wheel goes an octave far.
 fn off_keys(
@@ -18,7 +14,7 @@ fn off_keys(
     events: &[(f64, PlayerEvent)],
     heard: &[(f64, f64, f64)],
 ) -> Vec<f64> {
-    let octave = [(0.0, cc(101, 0)), (0.0, cc(100, 0)), (0.0, cc(6, 12))];
+    let octave = octave();
     let last = heard.iter().map(|part| part.1).fold(0.0, f64::max);
     let sound = &Stage::alone(setup, string).play(&[&octave, events].concat(), last).strings[0];
     heard.iter().map(|&(from, to, key)| off_key(&sound[at(from)..at(to)], key)).collect()
@@ -130,7 +126,7 @@ fn a_note_under_a_wheel_begins_in_tune_however_far_that_stands() {
             (0.6, off(key)),
             (1.05, on(key, 90)),
         ];
-        let to = f64::from(key) + f64::from(turned);
+        let to = f64::from(key) + turned;
         let heard =
             [(0.015, 0.065, to), (0.05, 0.3, to), (0.34, 0.4, to), (1.055, 1.105, to), (1.1, 1.4, to)];
         let off = off_keys((setup, string), &events, &heard);
@@ -163,7 +159,7 @@ fn fingers_that_glide_come_down_where_the_wheel_has_them() {
         let to = f64::from(key) + 1.5;
         let begun = [(0.0, wheel(1.5)), (0.01, on(key, 90))];
         let glides = |gesture: &TimedGesture| matches!(gesture.gesture, Gesture::Slide { .. });
-        let octave = [(0.0, cc(101, 0)), (0.0, cc(100, 0)), (0.0, cc(6, 12))];
+        let octave = octave();
         let played = Stage::alone(setup.0, setup.1).play(&[&octave[..], &begun].concat(), 0.3);
         assert!(!played.gestures.iter().any(glides), "{setup:?}: {:?}", played.gestures);
         let off = off_key(&played.strings[0][at(0.05)..at(0.3)], to);

@@ -1,25 +1,20 @@
 //! The promise: a harmonic is one whatever stops its string, and wherever a wheel has that. A light finger is at the node of what
 //! sounds from the beginning, and goes with the finger that slides.
 
-use low_action::performance::PlayerEvent;
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{Stage, amplitude, at, cc, decibels, hertz, on};
+use low_action_tests::stage::{Stage, amplitude, at, cc, decibels, hertz, octave, on, wheel};
 
 const RATE: f64 = 48_000.0;
-/// How far the wheel is announced to reach, semitones.
-const REACH: f64 = 12.0;
 /// When the note begins, s, and what of it is heard then, from and to.
 const START: f64 = 0.1;
 const HEARD: [f64; 2] = [0.3, 0.6];
 
 /// What is heard of a harmonic on a string alone, so many semitones over the open string, under a wheel that goes somewhere
 /// (semitones) so many seconds after its note began.
-fn heard(stage: &mut Stage, over: i32, [turned, wheel]: [f64; 2]) -> Vec<f32> {
+fn heard(stage: &mut Stage, over: i32, [turned, semitones]: [f64; 2]) -> Vec<f32> {
     let key = (stage.instrument.geometry(0).open_pitch.round() as i32 + over) as u8;
-    let [announced, which, reach] = [cc(101, 0), cc(100, 0), cc(6, REACH as u8)].map(|event| (0.0, event));
-    let wheel = PlayerEvent::PitchBend { channel: 0, value: (wheel / REACH) as f32 };
-    let mut events =
-        [announced, which, reach, (0.0, cc(23, 1)), (START, on(key, 100)), (START + turned, wheel)];
+    let note = [(0.0, cc(23, 1)), (START, on(key, 100)), (START + turned, wheel(semitones))];
+    let mut events = [&octave()[..], &note].concat();
     events.sort_by(|one, other| one.0.total_cmp(&other.0));
     let [from, to] = HEARD.map(|time| START + time);
     stage.play(&events, to).strings.swap_remove(0)[at(from)..].to_vec()

@@ -4,23 +4,17 @@
 use low_action::performance::PlayerEvent;
 use low_action_dsp::Gesture;
 use low_action_tests::pitch::{cents, frequency_near};
-use low_action_tests::stage::{Played, Stage, at, cc, decibels, hertz, off, on, peak};
+use low_action_tests::stage::{Played, Stage, at, cc, decibels, hertz, octave, off, on, peak, wheel};
 
 const RATE: f64 = 48_000.0;
-/// How far the wheel is announced to reach, semitones.
-const REACH: f64 = 12.0;
 /// When the first note ends, and when the wheel is turned then, s.
 const ENDS: f64 = 0.8;
 const TURNS: f64 = 0.802;
 
-fn wheel(semitones: f64) -> PlayerEvent {
-    PlayerEvent::PitchBend { channel: 0, value: (semitones / REACH) as f32 }
-}
-
 /// A note under a wheel that goes somewhere in 0.2 s, and elsewhere (semitones) when that is over; the next one comes at a time, s,
 /// by a stroke (CC 22).
 fn two_notes(key: u8, [first, then]: [f64; 2], next: f64, stroke: u8) -> Vec<(f64, PlayerEvent)> {
-    let announced = [cc(101, 0), cc(100, 0), cc(6, REACH as u8)].map(|event| (0.0, event));
+    let announced = octave();
     let turns = (1..=20).map(|step| (0.2 + 0.01 * f64::from(step), wheel(first * f64::from(step) / 20.0)));
     let between = [(ENDS, off(key)), (TURNS, wheel(then)), (next, cc(22, stroke)), (next, on(key, 90))];
     announced.into_iter().chain([(0.0, on(key, 90))]).chain(turns).chain(between).collect()
@@ -75,7 +69,7 @@ fn the_next_note_begins_in_tune_and_as_loud() {
 fn a_string_that_is_still_held_is_bent_as_hands_bend() {
     let mut stage = Stage::alone("electric", 0);
     for key in [64, 69] {
-        let announced = [cc(101, 0), cc(100, 0), cc(6, REACH as u8)].map(|event| (0.0, event));
+        let announced = octave();
         let again = [
             (0.0, on(key, 90)),
             (0.5, wheel(2.0)),

@@ -5,23 +5,17 @@ use low_action::performance::PlayerEvent;
 use low_action_dsp::{Gesture, StringGeometry};
 use low_action_tests::hands::Neck;
 use low_action_tests::numbers::largest;
-use low_action_tests::stage::{LOOK, Stage, at, cc, decibels, on, peak};
+use low_action_tests::stage::{LOOK, Stage, at, decibels, octave, on, peak, wheel};
 
 const RATE: f64 = 48_000.0;
-/// How far the wheel is announced to reach, semitones.
-const REACH: f64 = 12.0;
 /// Times between its messages, s: as keyboards send them, and as tracks of a host do.
 const DENSE: f64 = 0.005;
 /// The fastest slide, m/s, and what rounding to samples makes of it.
 const FASTEST: f64 = 1.001;
 
-fn wheel(semitones: f64) -> PlayerEvent {
-    PlayerEvent::PitchBend { channel: 0, value: (semitones / REACH) as f32 }
-}
-
 /// A note under a wheel that goes from place to place (semitones) from 0.5 s on, in such a time each (s; 0 at once).
 fn turned(key: u8, velocity: u8, places: &[(f64, f64)]) -> Vec<(f64, PlayerEvent)> {
-    let announced = [cc(101, 0), cc(100, 0), cc(6, REACH as u8)].map(|event| (0.0, event));
+    let announced = octave();
     let mut events = [&announced[..], &[(0.0, on(key, velocity))]].concat();
     let (mut from, mut time) = (0.0, 0.5);
     for &(to, duration) in places {

@@ -5,11 +5,10 @@
 use low_action_dsp::{Scene, Simulation};
 use low_action_tests::numbers::largest;
 
-const FIRM: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/others/firm.toml");
+const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/others");
 
-#[test]
-fn strings_held_firmly_stay_on_the_frets() {
-    let text = std::fs::read_to_string(FIRM).expect("the scene is there");
+fn stay_on_the_frets(name: &str) {
+    let text = std::fs::read_to_string(format!("{SCENES}/{name}.toml")).expect("the scene is there");
     let mut scene = Scene::from_toml(&text).expect("the scene is valid");
     let board = scene.fretboard.clone().expect("there is a fretboard");
     for cap in [0, 1, 4, 20] {
@@ -30,4 +29,14 @@ fn strings_held_firmly_stay_on_the_frets() {
         assert!(deepest > 1e-7 && deepest < all_of_it, "cap {cap}: {deepest:e} m of {all_of_it:e} m");
         println!("cap {cap}: {deepest:.2e} m of {all_of_it:.2e} m");
     }
+}
+
+#[test]
+fn strings_held_firmly_stay_on_the_frets() {
+    stay_on_the_frets("firm");
+}
+
+#[test]
+fn so_do_strings_held_gently() {
+    stay_on_the_frets("gentle");
 }

@@ -2,7 +2,7 @@
 
 use crate::performance::{GestureSink, Moment};
 
-/// From one value to another, slowly at first and at the end.
+/// From one value to another, slowly at first and at the end: by 3x² − 2x³, as strings are pulled.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Course {
     from: f64,

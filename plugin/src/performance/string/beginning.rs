@@ -14,7 +14,7 @@ impl StringPlayer {
         // A hand that is farther away has not come to the string when it turns to this note.
         self.overtaken += u64::from(self.deeds.await_sound());
         let (stills, silent, damped) =
-            (self.wants_stilling(time), self.is_silent(time), self.is_damped(time));
+            (self.wants_stilling(time), self.is_silent(time), self.is_under_dampers(time));
         self.take_presses(&mut start);
         self.under = [None; UNDER];
         self.deeds = Deeds::default();

@@ -57,7 +57,7 @@ impl StringPlayer {
 
     /// Whether hands damp it whose note is over, and have done so for as long as a bend takes at least: under them nobody hears what
     /// pulls it for another one.
-    pub(super) fn is_damped(&self, time: u64) -> bool {
+    pub(super) fn is_under_dampers(&self, time: u64) -> bool {
         let damps = self.ending.is_some_and(|(_, step)| step != Ending::Damp)
             && time >= self.damped + self.samples(BEND_RAMP);
         self.note.is_none() && self.touched.is_none() && damps
