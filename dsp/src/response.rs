@@ -12,8 +12,9 @@ mod tests;
 
 use crate::roomy::Roomy;
 use crate::solver::Answer;
-use elimination::{springs_of_any, springs_of_few};
+use elimination::{springs_of_any, springs_of_few, springs_of_several};
 pub(crate) use few::Few;
+use few::product_of_few;
 
 /// Points of the string that a finger may touch at once, by cubic interpolation.
 const FINGER_POINTS: usize = 4;
@@ -173,12 +174,16 @@ impl Response {
         self.pull_factor = pull_factor;
         let Response { blocks, starts, entries, .. } = self;
         let add_block = |start: usize, end: usize| {
-            blocks.push(Block { start, len: end - start, offset: entries.len() });
-            for i in start..end {
-                for j in start..end {
-                    let own = if i == j { contacts[i].own_mobility() } else { 0.0 };
-                    entries.push(contacts[i].coupling(&contacts[j]) + own);
+            let (len, offset) = (end - start, entries.len());
+            blocks.push(Block { start, len, offset });
+            entries.resize(offset + len * len, 0.0);
+            let (contacts, entries) = (&contacts[start..end], &mut entries[offset..]);
+            for i in 0..len {
+                for j in 0..i {
+                    let coupling = contacts[i].coupling(&contacts[j]);
+                    (entries[i * len + j], entries[j * len + i]) = (coupling, coupling);
                 }
+                entries[i * len + i] = contacts[i].own_coupling() + contacts[i].own_mobility();
             }
         };
         split(starts, contacts.len(), |i| contacts[i].span(), add_block);
@@ -186,13 +191,31 @@ impl Response {
 }
 
 impl Answer for Response {
-    #[inline]
+    #[inline(always)]
     fn product(&self, x: &[f64], out: &mut [f64]) {
         for block in &self.blocks {
-            let x = &x[block.start..block.start + block.len];
-            for i in 0..block.len {
-                let row = &self.entries[block.offset + i * block.len..][..block.len];
-                out[block.start + i] = row.iter().zip(x).map(|(m, x)| m * x).sum();
+            // Most contacts stand alone.
+            if block.len == 1 {
+                out[block.start] = self.entries[block.offset] * x[block.start];
+                continue;
+            }
+            let entries = &self.entries[block.offset..][..block.len * block.len];
+            let range = block.start..block.start + block.len;
+            let (x, out) = (&x[range.clone()], &mut out[range]);
+            match block.len {
+                2 => product_of_few::<2>(entries.as_chunks().0, x, out),
+                3 => product_of_few::<3>(entries.as_chunks().0, x, out),
+                4 => product_of_few::<4>(entries.as_chunks().0, x, out),
+                5 => product_of_few::<5>(entries.as_chunks().0, x, out),
+                6 => product_of_few::<6>(entries.as_chunks().0, x, out),
+                count => {
+                    out.fill(0.0);
+                    for (column, x) in entries.chunks_exact(count).zip(x) {
+                        for (out, m) in out.iter_mut().zip(column) {
+                            *out += m * x;
+                        }
+                    }
+                }
             }
         }
         if self.pull_factor > 0.0 {
@@ -203,40 +226,48 @@ impl Answer for Response {
         }
     }
 
+    #[inline(always)]
     fn springs(&mut self, slopes: &[f64], x: &mut [f64]) {
-        for index in 0..self.blocks.len() {
-            self.springs_of_block(self.blocks[index], slopes, x);
-        }
         if self.pull_factor > 0.0 {
             // Sherman–Morrison on 1 + D(S + own) − ω D z zᵀ.
             let mut pulled = std::mem::take(&mut *self.pulled);
             pulled.clone_from(&self.pull);
+            self.springs_without_pull(slopes, [&mut *x, &mut pulled]);
             let along = dot(&self.pull, x);
-            for index in 0..self.blocks.len() {
-                self.springs_of_block(self.blocks[index], slopes, &mut pulled);
-            }
             let factor = self.pull_factor * along / (1.0 - self.pull_factor * dot(&self.pull, &pulled));
             for (x, pulled) in x.iter_mut().zip(&pulled) {
                 *x += factor * pulled;
             }
             *self.pulled = pulled;
+        } else {
+            self.springs_without_pull(slopes, [x]);
         }
     }
 }
 
 impl Response {
-    fn springs_of_block(&mut self, block: Block, slopes: &[f64], x: &mut [f64]) {
-        let range = block.start..block.start + block.len;
-        let (slopes, x) = (&slopes[range.clone()], &mut x[range]);
-        let entries = &self.entries[block.offset..][..block.len * block.len];
-        match block.len {
-            1 => springs_of_few::<1>(|_, _| entries[0], slopes, x),
-            2 => springs_of_few::<2>(|i, j| entries[2 * i + j], slopes, x),
-            3 => springs_of_few::<3>(|i, j| entries[3 * i + j], slopes, x),
-            4 => springs_of_few::<4>(|i, j| entries[4 * i + j], slopes, x),
-            5 => springs_of_few::<5>(|i, j| entries[5 * i + j], slopes, x),
-            6 => springs_of_few::<6>(|i, j| entries[6 * i + j], slopes, x),
-            _ => springs_of_any(&mut self.matrix, &mut self.roots, entries, slopes, x),
+    /// The forces of springs under several sets of penetrations, each in place, were there no pull.
+    #[inline(always)]
+    fn springs_without_pull<const SIDES: usize>(&mut self, slopes: &[f64], mut sides: [&mut [f64]; SIDES]) {
+        let Response { blocks, entries, matrix, roots, .. } = self;
+        for block in &*blocks {
+            let range = block.start..block.start + block.len;
+            let slopes = &slopes[range.clone()];
+            let sides = sides.each_mut().map(|x| &mut x[range.clone()]);
+            let entries = &entries[block.offset..][..block.len * block.len];
+            match block.len {
+                1 => springs_of_few::<1, SIDES>(|_, _| entries[0], slopes, sides),
+                2 => springs_of_few::<2, SIDES>(|i, j| entries[2 * i + j], slopes, sides),
+                3 => springs_of_few::<3, SIDES>(|i, j| entries[3 * i + j], slopes, sides),
+                4 => springs_of_few::<4, SIDES>(|i, j| entries[4 * i + j], slopes, sides),
+                5 => springs_of_few::<5, SIDES>(|i, j| entries[5 * i + j], slopes, sides),
+                6 => springs_of_few::<6, SIDES>(|i, j| entries[6 * i + j], slopes, sides),
+                7 => springs_of_several::<7, SIDES>(entries, slopes, sides),
+                8 => springs_of_several::<8, SIDES>(entries, slopes, sides),
+                9 => springs_of_several::<9, SIDES>(entries, slopes, sides),
+                10 => springs_of_several::<10, SIDES>(entries, slopes, sides),
+                _ => springs_of_any(matrix, roots, entries, slopes, sides),
+            }
         }
     }
 }

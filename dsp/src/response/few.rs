@@ -30,18 +30,23 @@ impl<const N: usize> Few<N> {
 impl<const N: usize> Answer for Few<N> {
     #[inline(always)]
     fn product(&self, x: &[f64], out: &mut [f64]) {
-        // By columns, which are the rows: the sums are those of the rows in order, side by side.
-        let mut sums = [0.0; N];
-        for (column, x) in self.entries.iter().zip(x) {
-            for (sum, m) in sums.iter_mut().zip(column) {
-                *sum += m * x;
-            }
-        }
-        out[..N].copy_from_slice(&sums);
+        product_of_few(&self.entries, x, out);
     }
 
     #[inline(always)]
     fn springs(&mut self, slopes: &[f64], x: &mut [f64]) {
-        springs_of_few::<N>(|i, j| self.entries[i][j], slopes, x);
+        springs_of_few::<N, 1>(|i, j| self.entries[i][j], slopes, [x]);
     }
+}
+
+/// M x of a symmetric matrix, by columns, which are the rows: the sums are those of the rows in order, side by side.
+#[inline(always)]
+pub(super) fn product_of_few<const N: usize>(entries: &[[f64; N]], x: &[f64], out: &mut [f64]) {
+    let mut sums = [0.0; N];
+    for (column, x) in entries.iter().zip(x) {
+        for (sum, m) in sums.iter_mut().zip(column) {
+            *sum += m * x;
+        }
+    }
+    out[..N].copy_from_slice(&sums);
 }

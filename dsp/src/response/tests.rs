@@ -186,6 +186,33 @@ fn springs_answer_what_they_are_asked_where_the_tension_pulls() {
     }
 }
 
+/// Code of a fixed size finds the same bits as code for any, and several sides at once the same as each by itself.
+#[test]
+fn sizes_and_sides_do_not_change_a_bit() {
+    fn check<const N: usize>(state: &mut u64) {
+        let grid = Grid::new(1.0, 40, 1e-5);
+        let points: [_; N] = std::array::from_fn(|_| Point(grid.reading(0.3 + 0.1 * random(state))));
+        let entries = points.each_ref().map(|one| points.each_ref().map(|other| one.coupling(other)));
+        let entries = entries.as_flattened();
+        let slopes = [(); N].map(|()| 1e3 * random(state));
+        let asked: [[f64; N]; 2] = [(); 2].map(|()| [(); N].map(|()| random(state) - 0.5));
+        let [mut one, mut other] = asked;
+        springs_of_several::<N, 2>(entries, &slopes, [&mut one, &mut other]);
+        let (mut room, mut roots) = (Vec::new(), Vec::new());
+        for (found, mut alone) in [one, other].into_iter().zip(asked) {
+            springs_of_any(&mut room, &mut roots, entries, &slopes, [&mut alone]);
+            assert_eq!(found.map(f64::to_bits), alone.map(f64::to_bits), "{N} springs");
+        }
+    }
+    let mut state = 1;
+    for _ in 0..100 {
+        check::<7>(&mut state);
+        check::<8>(&mut state);
+        check::<9>(&mut state);
+        check::<10>(&mut state);
+    }
+}
+
 #[test]
 fn room_is_enough_and_blocks_share_nothing() {
     let mut state = 1;

@@ -13,7 +13,7 @@ use clap::Parser;
 use super::features::callgrind_is_there;
 use super::page;
 use crate::repository::root;
-use buzz::SUSPECTS;
+use buzz::{Hands, SUSPECTS, Work};
 use timed::Timed;
 
 /// Where the table stands.
@@ -39,12 +39,15 @@ struct Arguments {
     /// Only time songs by one thread and by as many as there are processors, and put only that row into docs/speed.md.
     #[arg(long, conflicts_with = "last")]
     songs: bool,
-    /// Only count iterations and instructions of the chord that buzzes, and put only those rows into docs/speed.md.
+    /// Only count what is solved, and instructions, of the chord that buzzes, and put only those rows into docs/speed.md.
     #[arg(long, conflicts_with_all = ["last", "songs"])]
     buzz: bool,
     /// Play so many samples of that chord, as callgrind is told to.
     #[arg(long, hide = true)]
     play_buzz: Option<usize>,
+    /// What the left hand does meanwhile.
+    #[arg(long, hide = true, value_enum, default_value_t = Hands::Fretted)]
+    hands: Hands,
     /// Which of them are counted by themselves.
     #[arg(long, hide = true, value_delimiter = ',')]
     counted: Vec<usize>,
@@ -57,7 +60,7 @@ type Rows = Vec<(&'static str, String)>;
 pub fn run(arguments: Vec<String>) -> Result<()> {
     let Some(arguments) = super::parse::<Arguments>(arguments)? else { return Ok(()) };
     if let Some(samples) = arguments.play_buzz {
-        return buzz::play(samples, &arguments.counted);
+        return buzz::play(arguments.hands, samples, &arguments.counted);
     }
     let (songs, buzz) = (!arguments.buzz, !arguments.songs);
     if arguments.write {
@@ -161,22 +164,34 @@ fn row(name: &str, found: &str, aim: &str) -> String {
 
 /// The rows of the chord that buzzes.
 fn buzz() -> Result<Rows> {
-    const ITERATIONS: &str = "heavy buzzing chord: Newton iterations of the worst sample over the mean";
-    const INSTRUCTIONS: &str = "… instructions";
-    let times = |work: &buzz::Work| format!("{:.1} ×", work.most / work.mean);
-    let work = buzz::iterations()?;
-    let iterations = format!("{} ({} and {:.2})", times(&work), work.most, work.mean);
-    let instructions = if callgrind_is_there() {
-        let work = buzz::instructions()?;
-        format!("{} ({:.0} and {:.0})", times(&work), work.most, work.mean)
-    } else {
-        "not counted: valgrind is not there".into()
-    };
-    let name = format!("{INSTRUCTIONS}, the worst of the {SUSPECTS} likeliest samples");
-    Ok(vec![
-        (ITERATIONS, row(ITERATIONS, &iterations, "6 ×")),
-        (INSTRUCTIONS, row(&name, &instructions, "6 ×")),
-    ])
+    let mut rows = Rows::new();
+    for (hands, systems, instructions) in [
+        (Hands::Fretted, "heavy buzzing chord, fretted: linear systems", "… instructions, fretted"),
+        (Hands::Open, "heavy buzzing chord, open strings: linear systems", "… instructions, open strings"),
+    ] {
+        let times = |work: &Work| format!("{:.1} ×", work.most / work.mean);
+        let [all, later] = buzz::solved(hands)?;
+        let name = format!("{systems} solved for contacts, the worst sample over the mean");
+        let found = format!(
+            "{} ({} and {:.2}; of iterations after a start {}, {} and {:.2})",
+            times(&all),
+            all.most,
+            all.mean,
+            times(&later),
+            later.most,
+            later.mean
+        );
+        rows.push((systems, row(&name, &found, "6 ×")));
+        let found = if callgrind_is_there() {
+            let work = buzz::instructions(hands)?;
+            format!("{} ({:.0} and {:.0})", times(&work), work.most, work.mean)
+        } else {
+            "not counted: valgrind is not there".into()
+        };
+        let name = format!("{instructions}, the worst of the {SUSPECTS} likeliest samples");
+        rows.push((instructions, row(&name, &found, "6 ×")));
+    }
+    Ok(rows)
 }
 
 /// The row of songs.

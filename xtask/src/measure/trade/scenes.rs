@@ -151,10 +151,16 @@ const SLIDE: [f64; 2] = [0.25, 0.55];
 const SAME_AT: f64 = 1e-6;
 
 impl Playing {
-    /// All strings of an instrument, open, plucked at once with one force.
-    pub fn plucked_at_once(instrument: &'static str, force: f64) -> Result<Playing> {
+    /// All strings of an instrument plucked at once with one force, each under a hand of its own; the lowest string is the first.
+    pub fn plucked_at_once(
+        instrument: &'static str,
+        force: f64,
+        hand: impl Fn(usize) -> Hand,
+    ) -> Result<Playing> {
         let setup = Setup::builtin(instrument).context("a built-in instrument")?;
-        let parts = (0..setup.string.len()).map(|string| part(string, Hand::Open, force, 0.0)).collect();
+        let strings = (0..setup.string.len()).rev().enumerate();
+        let parts =
+            strings.map(|(from_lowest, string)| part(string, hand(from_lowest), force, 0.0)).collect();
         Ok(playing("plucked at once", Kind::Mixed, instrument, parts))
     }
 
