@@ -40,6 +40,9 @@ pub(crate) const NEAREST_PLUCK: f64 = 0.006;
 pub(crate) const STILLING: (f64, f64) = (0.4, 5.0);
 /// At least for so long, s: until hands that rested there are off the string.
 pub(crate) const STILLED_AT_LEAST: f64 = 0.003;
+/// How much longer it does for a harmonic, s: until a finger or a bar that let the string up is surely off it. What still touches it would
+/// take up a harmonic, and what it still does is not covered by other partials.
+pub(crate) const STILLED_LONGER: f64 = 0.003;
 /// The hand may still be there while the plectrum begins to push, for this part of it: most of a push is at its end.
 pub(crate) const STILLED_PUSH: f64 = 0.7;
 /// Longest time by which a stroke may come later for that, s.

@@ -19,6 +19,7 @@ mod glides;
 mod global_channel;
 mod goes_on;
 mod harmonics;
+mod harmonics_after_notes;
 mod landings;
 mod late_fingers;
 mod late_palms;

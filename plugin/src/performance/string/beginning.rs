@@ -27,8 +27,8 @@ impl StringPlayer {
         }
         let strength = start.force();
         let stroke = start.stroke();
-        // A light finger at a node takes up what it is to take up.
-        let stilling = (stills && !taps && stop != Stop::Harmonic).then(|| self.stilling(stroke, start.fret));
+        let touched = stop == Stop::Harmonic;
+        let stilling = (stills && !taps).then(|| self.stilling(stroke, start.fret, touched));
         start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
         self.call_off(&mut self.moment(time, out));
         self.begin(time, &start, strength);
@@ -76,8 +76,10 @@ impl StringPlayer {
             Stop::Mute => start.fret,
         };
         let by_little = fret > self.fingers.capo();
+        // A finger that still touches the string takes up what a light one lets through.
+        let hinders = stop == Stop::Harmonic && !self.fingers.palm_rests();
         let leaves = match stilling {
-            Some(stilling) if by_little && stilling.comes_at_once(start.wait) => QUICK_LIFT,
+            Some(stilling) if (by_little || hinders) && stilling.comes_at_once(start.wait) => QUICK_LIFT,
             // Under a palm a string that is let up would be louder than the stroke.
             _ if self.fingers.palm_rests() => self.fingers.letting_go(0.0),
             _ => self.fingers.letting_go(coming.strength),
@@ -108,7 +110,7 @@ impl StringPlayer {
     fn tremble_after(&mut self, wait: f64, at: &Moment<impl GestureSink>) {
         if let Some(note) = self.note.filter(|_| self.tremolo > 0.0) {
             let stills = note.partial.is_none();
-            let lead = if stills { self.stilling(note.struck.stroke, note.fret).lead } else { 0.0 };
+            let lead = if stills { self.stilling(note.struck.stroke, note.fret, false).lead } else { 0.0 };
             self.deeds.plan(at.after(wait + 1.0 / self.tremolo - lead), Deed::Tremolo);
         }
     }

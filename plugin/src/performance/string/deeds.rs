@@ -45,7 +45,8 @@ pub(super) enum Deed {
         strength: f64,
         technique: Technique,
     },
-    /// The light finger leaves its node.
+    /// A light finger touches the node of a harmonic, and leaves it.
+    TouchNode,
     LeaveNode,
     /// The thumb bounces off, and the palm comes back.
     Bounce,
@@ -57,9 +58,9 @@ pub(super) enum Deed {
     LeaveGraze,
 }
 
-/// Deeds in any order, one of each kind: there is room for all ten.
+/// Deeds in any order, one of each kind: there is room for all eleven.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Deeds([Option<(u64, Deed)>; 10]);
+pub(super) struct Deeds([Option<(u64, Deed)>; 11]);
 
 impl Deeds {
     /// Adds one, in place of another of its kind.
@@ -85,15 +86,19 @@ impl Deeds {
         self.keep(|deed| *deed != Deed::LayPalm);
     }
 
-    /// The string is stopped elsewhere: a finger that was to strike does not, and no thumb grazes what has no node there any more.
+    /// The string is stopped elsewhere: a finger that was to strike does not, and neither thumb nor finger touches what has no node
+    /// there any more.
     pub(super) fn forget_touches(&mut self) {
-        self.keep(|deed| !matches!(deed, Deed::Tap { .. } | Deed::Graze(_)));
+        self.keep(|deed| !matches!(deed, Deed::Tap { .. } | Deed::Graze(_) | Deed::TouchNode));
     }
 
     /// No stroke comes any more.
     pub(super) fn forget_strokes(&mut self) {
         self.keep(|deed| {
-            !matches!(deed, Deed::Strike(_) | Deed::Still(_) | Deed::Tremolo | Deed::Tap { .. })
+            !matches!(
+                deed,
+                Deed::Strike(_) | Deed::Still(_) | Deed::Tremolo | Deed::Tap { .. } | Deed::TouchNode
+            )
         });
     }
 
@@ -147,6 +152,7 @@ impl StringPlayer {
             Some(Deed::Still(stilling)) => self.still(stilling, at),
             Some(Deed::Tremolo) => self.tremble(at),
             Some(Deed::Tap { fret, strength, technique }) => self.tap(fret, strength, technique, at),
+            Some(Deed::TouchNode) => self.lay_light_finger(at),
             Some(Deed::LeaveNode) => self.fingers.leave_node(at),
             Some(Deed::Bounce) => {
                 self.fingers.bounce(at);
@@ -177,7 +183,7 @@ impl StringPlayer {
             if note.partial.is_some() {
                 self.strike(note.struck, 0.0, at);
             } else {
-                let stilling = self.stilling(note.struck.stroke, note.fret);
+                let stilling = self.stilling(note.struck.stroke, note.fret, false);
                 self.still(stilling, at);
                 self.deeds.plan(at.after(stilling.lead), Deed::Strike(note.struck));
             }
@@ -185,11 +191,24 @@ impl StringPlayer {
         self.deeds.plan(at.after(1.0 / self.tremolo).max(at.time + 1), Deed::Tremolo);
     }
 
-    /// A finger touches the node of a harmonic, and stays for a while after a stroke so many seconds from now.
+    /// A finger touches the node of a harmonic for a stroke so many seconds from now, and stays for a while after it. It comes with the
+    /// stroke: what stopped the string before has let it up by then, and hands that damped it have gone.
     pub(super) fn touch_node(&mut self, wait: f64, at: &mut Moment<impl GestureSink>) {
+        if self.note.is_none_or(|note| note.partial.is_none()) {
+            return;
+        }
+        if wait > 0.0 {
+            self.deeds.plan(at.after(wait), Deed::TouchNode);
+        } else {
+            self.lay_light_finger(at);
+        }
+        self.deeds.plan(at.after(wait + AT_NODE), Deed::LeaveNode);
+    }
+
+    /// It does so now.
+    fn lay_light_finger(&mut self, at: &mut Moment<impl GestureSink>) {
         if let Some(order) = self.note.and_then(|note| note.partial) {
             self.fingers.touch_node(order, at);
-            self.deeds.plan(at.after(wait + AT_NODE), Deed::LeaveNode);
         }
     }
 

@@ -63,14 +63,15 @@ impl StringPlayer {
         self.note.is_none() && self.touched.is_none() && damps
     }
 
-    /// How the hand stills the string for a stroke on a fret, 0 for the open string. Where a finger lets the string up to
-    /// that, what counts is how long the hand is still there when the string has come up: letting go is a pluck, too.
-    pub(super) fn stilling(&self, stroke: Stroke, fret: usize) -> Stilling {
+    /// How the hand stills the string for a stroke on a fret, 0 for the open string, or for a harmonic there. Where a finger lets the
+    /// string up to that, what counts is how long the hand is still there when the string has come up: letting go is a pluck, too.
+    pub(super) fn stilling(&self, stroke: Stroke, fret: usize, harmonic: bool) -> Stilling {
         let period = self.fingers.period(fret);
         // A thumb takes some time to come.
         let within = |stroke| STILLED_PUSH * self.fingers.push_time(stroke).unwrap_or(0.0);
         let rising = if self.fingers.lets_up_to(fret) { RISING } else { 0.0 };
-        let time = (rising + STILLING.0 * period).max(STILLED_AT_LEAST);
+        let longer = if harmonic { STILLED_LONGER } else { 0.0 };
+        let time = (rising + STILLING.0 * period).max(STILLED_AT_LEAST) + longer;
         let lead = (time - within(Stroke::Down)).clamp(0.0, LONGEST_LEAD);
         Stilling { lead, duration: time.min(lead + within(stroke)), loss: STILLING.1 / period }
     }
