@@ -113,10 +113,12 @@ impl Bend {
         let [raised, ratio] = [&self.raised, &self.tension].map(|course| course.at(at.time));
         let semitones = moved + raised;
         let is_told = (semitones - self.told.at(at.time)).abs() < OUT_OF_TUNE;
-        if !is_told && self.unheard.is_none() {
+        // On a string at rest what is pulled is there at once, too.
+        if !is_told && self.unheard.is_none_or(|(_, within)| within > 0.0) {
             self.tell(semitones, 0.0, Pull::new(raised, ratio, fingers.stretched_at()), at);
             self.ready = self.ready.max(at.time + 1);
             self.due = self.due.map(|due| due.max(self.ready));
+            self.unheard = self.unheard.map(|(_, within)| (self.ready, within));
         }
     }
 
@@ -204,7 +206,9 @@ impl Bend {
         let mut taken: f64 = 0.0;
         if fingers.glides() {
             let goal = fingers.can_glide(asked + swing);
-            taken = duration(goal - self.glided);
+            if fingers.has_to_glide(goal) {
+                taken = duration(goal - fingers.away_by_now(at));
+            }
             moved = fingers.glide(goal, taken, at);
             reached = moved - swing;
             self.glided = goal;

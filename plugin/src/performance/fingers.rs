@@ -66,9 +66,23 @@ impl Finger {
         self.stands().round() as usize
     }
 
-    /// Whether it stops the string nearer to the nut than a fret.
-    fn is_below(&self, fret: usize) -> bool {
-        self.stands() < fret as f64
+    /// Whether it stops the string nearer to the nut than at a place counted in frets, or nearer to the saddle.
+    fn is_below(&self, place: f64) -> bool {
+        self.stands() < place - same_fret(place)
+    }
+
+    fn is_above(&self, place: f64) -> bool {
+        self.stands() > place + same_fret(place)
+    }
+
+    /// Whether it stops the string there.
+    fn is_at(&self, place: f64) -> bool {
+        !self.is_below(place) && !self.is_above(place)
+    }
+
+    /// It counts from another fret, and stays where it is.
+    fn count_from(&mut self, fret: usize) {
+        (self.fret, self.glided) = (fret, self.stands() - fret as f64);
     }
 
     /// It leaves when the next note is about to sound.
@@ -80,6 +94,11 @@ impl Finger {
     fn lets_go(&self, manner: Leaving) -> Gesture {
         if self.bar { self.gives_way() } else { lifting(self.slot, self.touch, manner) }
     }
+}
+
+/// How far from a place counted in frets a finger is there. None is where the open string is stopped.
+fn same_fret(place: f64) -> f64 {
+    if place > 0.0 { SAME_FRET } else { 0.0 }
 }
 
 /// A finger that is leaving the string.
@@ -201,12 +220,12 @@ impl Fingers {
 
     /// Period of the string as it is stopped, or as it will be at a fret (0 for none) if that is longer, s.
     pub(crate) fn period(&self, fret: usize) -> f64 {
-        self.stopped_period(fret.max(self.capo[0])).max(self.period_of(self.sounding_length()))
+        self.stopped_period(fret.max(self.capo[0]) as f64).max(self.period_of(self.sounding_length()))
     }
 
-    /// Period of the string stopped at a fret, 0 for the open string, s.
-    fn stopped_period(&self, fret: usize) -> f64 {
-        self.period_of(self.string.geometry.length - self.string.geometry.finger_position(fret))
+    /// Period of the string stopped at a place counted in frets, 0 for the open string, s.
+    fn stopped_period(&self, place: f64) -> f64 {
+        self.period_of(self.string.geometry.length - self.glided_place(place, false))
     }
 
     /// Period of a part of the string so long, m, in s.
@@ -214,14 +233,9 @@ impl Fingers {
         self.open_period() * (sounding / self.string.geometry.length)
     }
 
-    /// Whether a finger at a lower fret, not 0, takes over from the one that stops the string.
-    fn gives_way_to(&self, fret: usize) -> bool {
-        fret > 0 && self.lets_up_to(fret)
-    }
-
-    /// Whether the finger that stops the string lets it up for a note at a fret, 0 for the open string.
-    pub(crate) fn lets_up_to(&self, fret: usize) -> bool {
-        self.fretting.is_some_and(|finger| !finger.bar && finger.stands() > fret as f64)
+    /// Whether the finger that stops the string lets it up for a note at a place counted in frets, 0 for the open string.
+    pub(crate) fn lets_up_to(&self, place: f64) -> bool {
+        self.fretting.is_some_and(|finger| !finger.bar && finger.is_above(place))
     }
 
     /// Period of the open string, s.

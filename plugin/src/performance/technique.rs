@@ -59,6 +59,9 @@ pub(crate) const BEND_RAMP: f64 = 0.012;
 pub(crate) const BEND_INTERVAL: f64 = 0.003;
 /// How far off a bend is out of tune, semitones: a hundredth of a fret is less than anybody hears.
 pub(crate) const OUT_OF_TUNE: f64 = 0.01;
+/// A finger that stops the string no farther than so from a place is there, frets: where nothing keeps it on any it has no other place
+/// so near.
+pub(crate) const SAME_FRET: f64 = 0.5;
 /// How far pulling goes from where a wheel has slid a finger before that slides on, or back, semitones.
 pub(crate) const SLID_STAYS: f64 = 0.75;
 /// A wheel that is turned by no more than so much at once is followed without a break where a finger slides for it, semitones.

@@ -72,6 +72,15 @@ fn one_that_is_called_back_comes_to_its_fret() {
     are_in_tune("glided down, called back", &off, 8.0);
 }
 
+/// Fingers that come down beside their frets, the second one behind the first, which is behind the fret of the second. (So it was left
+/// down until that had come, and was heard for 100 ms.)
+#[test]
+fn which_of_two_is_behind_goes_by_where_they_are() {
+    let events = [(0.0, wheel(-5.0)), (0.0, on(43, 90)), (0.8, off(43)), (0.82, on(41, 90))];
+    let off = off_keys(FRETLESS, &events, &[(0.4, 0.8, 38.0), (0.84, 0.94, 36.0), (0.9, 1.3, 36.0)]);
+    are_in_tune("two notes five down", &off, 15.0);
+}
+
 /// What stopped the string before is still on its way up behind, where a slide passes: as if nobody had been there.
 #[test]
 fn a_slide_down_passes_what_is_leaving() {

@@ -42,6 +42,8 @@ fn the_next_note_begins_in_tune_and_as_loud() {
     for (setup, string, key, ways) in [
         ("electric", 0, 69, &[[5.0, 0.0], [0.0, 12.0], [7.0, -3.0], [2.0, 0.0], [0.0, 2.0]][..]),
         ("bass", 0, 55, &[[5.0, 0.0], [0.0, 7.0]]),
+        // Where nothing keeps it on frets the finger has glided: its note is over, and it is no finger for the next one there.
+        ("fretless-bass", 2, 43, &[[5.0, 0.0], [0.0, 5.0], [5.0, -1.0], [0.4, 0.0]]),
     ] {
         let mut stage = Stage::alone(setup, string);
         for &way in ways {

@@ -15,7 +15,7 @@ use low_action_dsp::{Gesture, Touch};
 use super::Fingers;
 use super::held::Down;
 use crate::performance::technique::*;
-use crate::performance::{GestureSink, Moment, PlayedString};
+use crate::performance::{GestureSink, Moment};
 
 /// How a string is set down.
 pub(super) struct SetDown {
@@ -58,7 +58,8 @@ impl Fingers {
         coming: Coming,
         at: &mut Moment<impl GestureSink>,
     ) -> bool {
-        let SetDown { touch, rise, waits } = self.set_down(fret, stopped, coming, self.force());
+        let place = self.comes_to(fret);
+        let SetDown { touch, rise, waits } = self.set_down(place, stopped, coming, self.force());
         self.take_slot(fret, touch, false);
         self.awaited = Some(Awaited { time: at.after(waits.unwrap_or(0.0)), rise });
         if waits.is_none() {
@@ -81,12 +82,13 @@ impl Fingers {
         self.awaited.map(|awaited| awaited.time)
     }
 
-    /// How the string is set down behind a fret with a force, N. What a finger does to it under a hand that stills it is lost, and could
-    /// not take up what the fret does later: a finger that would be down only after such a hand has come moves the string when that
-    /// goes. (And comes only then: from higher up, as high over a string that swings, it would be early or late by as much.)
+    /// How the string is set down at a place counted in frets with a force, N. What a finger does to it under a hand that stills it is
+    /// lost, and could not take up what the fret does later: a finger that would be down only after such a hand has come moves the
+    /// string when that goes. (And comes only then: from higher up, as high over a string that swings, it would be early or late by as
+    /// much.)
     pub(super) fn set_down(
         &self,
-        fret: usize,
+        place: f64,
         stopped: Down,
         Coming { strength, haste, stilled }: Coming,
         force: f64,
@@ -96,8 +98,8 @@ impl Fingers {
         let softness = (from / strength.max(f64::MIN_POSITIVE)).max(1.0);
         let slower = (softness * softness).min(if strength < drowned { f64::INFINITY } else { most });
         touch.hand_damping *= (slower / (1.0 + HASTE * haste)).min(slowest);
-        let (way, pull) = self.way_down(fret, stopped);
-        let period = self.stopped_period(fret);
+        let (way, pull) = self.way_down(place, stopped);
+        let period = self.stopped_period(place);
         // The hand's damping is what makes the speed constant.
         let driven = driving(force, pull);
         let damping_in = |time: f64| driven * time / way;
@@ -122,17 +124,17 @@ impl Fingers {
         (self.hands.fretting.hover + pressed_in) / speed
     }
 
-    /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, behind a fret of a string that is held down
-    /// somewhere: thrown if it takes a small part of a period, slowly at first if it takes more than half of one, and
+    /// How a finger comes down so fast that the string sounds by it, at a speed, m/s, at a place counted in frets of a string that is
+    /// held down somewhere: thrown if it takes a small part of a period, slowly at first if it takes more than half of one, and
     /// something of both in between.
-    pub(super) fn throw(&self, fret: usize, stopped: Down, speed: f64) -> Thrown {
+    pub(super) fn throw(&self, place: f64, stopped: Down, speed: f64) -> Thrown {
         let Fretting { mut touch, hover, .. } = self.hands.fretting;
         let force = self.force();
         touch.hand_damping = touch.hand_damping.min(force / (HAMMER_GRIP * speed));
-        let (way, pull) = self.way_down(fret, stopped);
+        let (way, pull) = self.way_down(place, stopped);
         let time = way * touch.hand_damping / driving(force, pull);
         let Gathering { from, to, most } = GATHERING;
-        let gathered = most * ((time / self.stopped_period(fret) - from) / (to - from)).clamp(0.0, 1.0);
+        let gathered = most * ((time / self.stopped_period(place) - from) / (to - from)).clamp(0.0, 1.0);
         let thrown = 1.0 - gathered;
         // Of a force that grows all the while, the mean of its beginning and its end.
         touch.hand_damping *= 0.5 * (thrown + 1.0);
@@ -141,32 +143,39 @@ impl Fingers {
         Thrown { touch, clearance: thrown * hover, speed: thrown * speed, force_at_first, rise }
     }
 
-    /// How far a finger moves that touches a string held down somewhere until that touches a fret, m, and what the string pulls
-    /// it back with then, N.
-    fn way_down(&self, fret: usize, down: Down) -> (f64, f64) {
-        let beyond = self.string.geometry.length - self.string.geometry.finger_position(fret);
-        let depth = (beyond * (self.slope(Down::on(fret)) - self.slope(down))).max(LEAST_WAY);
+    /// How far a finger moves that touches a string held down somewhere until that touches the neck at a place counted in frets, m, and
+    /// what the string pulls it back with then, N.
+    fn way_down(&self, place: f64, down: Down) -> (f64, f64) {
+        let position = self.glided_place(place, false);
+        let beyond = self.string.geometry.length - position;
+        let depth = (beyond * (self.slope_on(place) - self.slope(down))).max(LEAST_WAY);
         // A finger that lets the string up supports it no more.
         let support = if down.part < 1.0 { self.capo[1] } else { down.fret };
-        if fret <= support {
+        let near = position - self.string.geometry.finger_position(support);
+        if near <= 0.0 {
             return (LEAST_WAY, 0.0);
         }
-        let pull = self.string.pull(depth, support, fret);
+        let pull = self.string.stiffness(near, beyond) * depth;
         let touch = self.hands.fretting.touch;
         (depth + libm::pow(pull / touch.stiffness, 1.0 / touch.exponent), pull)
     }
 
     /// How steeply the string goes from where it is held down straight to the saddle.
     fn slope(&self, down: Down) -> f64 {
-        let PlayedString { geometry, .. } = &self.string;
-        let on = |fret| self.string.depth(fret) / (geometry.length - geometry.finger_position(fret));
-        let without = on(self.capo[1]);
-        without + down.part * (on(down.fret) - without)
+        let [without, on] = [self.capo[1], down.fret].map(|fret| self.slope_on(fret as f64));
+        without + down.part * (on - without)
     }
 
-    /// Whether a string that is held down somewhere has some way to go to a fret.
-    pub(super) fn is_over(&self, fret: usize, down: Down) -> bool {
-        self.slope(Down::on(fret)) > self.slope(down)
+    /// How steeply from where it is held down on the neck, at a place counted in frets.
+    fn slope_on(&self, place: f64) -> f64 {
+        let (below, part) = (place.floor() as usize, place - place.floor());
+        let [depth, next] = [below, below + 1].map(|fret| self.string.depth(fret));
+        (depth + part * (next - depth)) / (self.string.geometry.length - self.glided_place(place, false))
+    }
+
+    /// Whether a string that is held down somewhere has some way to go to the neck, at a place counted in frets.
+    pub(super) fn is_over(&self, place: f64, down: Down) -> bool {
+        self.slope_on(place) > self.slope(down)
     }
 }
 

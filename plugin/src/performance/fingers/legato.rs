@@ -28,15 +28,19 @@ impl Fingers {
             // It has been told to go elsewhere, and does so before anything else stops the string.
             self.lay_capo(at);
         }
-        let stopped = self.slidable().map_or(self.capo[1], |finger| finger.fret);
+        let place = self.comes_to(fret);
+        let (is_there, is_below) = match self.slidable() {
+            Some(finger) => (finger.is_at(place), finger.is_below(place)),
+            None => (fret == self.capo[1], fret > self.capo[1]),
+        };
         match slide.filter(|_| fret > self.capo[1] && self.slidable().is_some()) {
-            _ if fret == stopped => self.go_on(fret, strength, at),
+            _ if is_there => self.go_on(fret, strength, at),
             Some(duration) => (Technique::Slide, self.slide_to(fret, duration, at)),
-            None if fret > stopped && bar => {
+            None if is_below && bar => {
                 self.stop(fret, Stop::Bar, Coming { strength, ..AT_ONCE }, self.letting_go(strength), at);
                 (Technique::HammerOn, None)
             }
-            None if fret > stopped => (Technique::HammerOn, Some(self.hammer(fret, strength, at))),
+            None if is_below => (Technique::HammerOn, Some(self.hammer(fret, strength, at))),
             None => match self.pull_off(fret, strength, at) {
                 None => CONTINUED,
                 pull => (Technique::PullOff, pull),
@@ -53,6 +57,10 @@ impl Fingers {
         at: &mut Moment<impl GestureSink>,
     ) -> (Technique, Option<Gesture>) {
         self.home = fret;
+        let place = self.comes_to(fret);
+        if let Some(finger) = self.fretting.as_mut().filter(|finger| finger.is_at(place)) {
+            finger.count_from(fret);
+        }
         if self.light.is_none() && self.resting_slots().next().is_none() {
             return CONTINUED;
         }
@@ -77,14 +85,15 @@ impl Fingers {
         self.lay_capo(at);
         let before = self.take_fretting(at);
         let stopped = self.down(before.as_ref(), at);
+        let place = self.comes_to(fret);
         // An anchor there was has the slot that the new finger takes.
         self.anchor = None;
         match before {
-            Some(old) if old.is_below(fret) && !old.bar => self.hold_behind(old, at),
+            Some(old) if old.is_below(place) && !old.bar => self.hold_behind(old, at),
             Some(old) => at.does(old.gives_way()),
             None => {}
         }
-        self.come_down(fret, stopped, self.hammer_speed(fret, strength), at)
+        self.come_down(fret, stopped, self.hammer_speed(place, strength), at)
     }
 
     /// The finger that stops the string leaves, for another to strike it at a fret, how hard, 0 to 1. Gives back in how many
@@ -96,7 +105,8 @@ impl Fingers {
         strength: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> Option<f64> {
-        if self.fretting.is_some_and(|finger| finger.is_below(fret) && !finger.bar) {
+        let place = self.comes_to(fret);
+        if self.fretting.is_some_and(|finger| finger.is_below(place) && !finger.bar) {
             return None;
         }
         let manner = self.letting_go(strength);
@@ -140,7 +150,8 @@ impl Fingers {
         anchor: Option<Finger>,
         at: &mut Moment<impl GestureSink>,
     ) {
-        let is_near = |anchor: &Finger| (anchor.stands() - fret as f64).abs() <= BEHIND_REACH;
+        let place = self.comes_to(fret);
+        let is_near = |anchor: &Finger| (anchor.stands() - place).abs() <= BEHIND_REACH;
         let Some(anchor) = anchor.filter(is_near) else {
             self.come_down(fret, Down::on(fret), BEHIND_SPEED, at);
             return;
@@ -174,7 +185,7 @@ impl Fingers {
         speed: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> Gesture {
-        let position = self.glided_place(fret as f64 + self.comes_beside(fret), false);
+        let position = self.glided_place(self.comes_to(fret), false);
         self.come_down_at(fret, stopped, position, speed, at)
     }
 
@@ -187,7 +198,8 @@ impl Fingers {
         speed: f64,
         at: &mut Moment<impl GestureSink>,
     ) -> Gesture {
-        let Thrown { touch, clearance, speed, force_at_first, rise } = self.throw(fret, stopped, speed);
+        let Thrown { touch, clearance, speed, force_at_first, rise } =
+            self.throw(self.comes_to(fret), stopped, speed);
         self.home = fret;
         let finger = self.take_slot(fret, touch, false);
         let thrown = Gesture::Throw { finger, touch, position, clearance, speed };

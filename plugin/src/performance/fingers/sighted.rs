@@ -35,7 +35,7 @@ impl Fingers {
             at.does(old.gives_way());
         }
         self.expect_beside(0.0);
-        let speed = self.hammer_speed(fret, POINTED);
+        let speed = self.hammer_speed(fret as f64, POINTED);
         self.come_down_at(fret, Down::on(self.capo[1]), position, speed, at);
         if let Some(finger) = &mut self.fretting {
             finger.free = Some(position);

@@ -32,15 +32,16 @@ impl Fingers {
         self.fretting.map_or(0.0, |finger| finger.time_to_arrive(at))
     }
 
-    /// A finger behind the one that moves to a fret leaves, fast if it is in the way, as one does that is leaving there already.
-    fn lift_anchor(&mut self, fret: usize, at: &mut Moment<impl GestureSink>) {
+    /// A finger behind the one that moves to a place counted in frets leaves, fast if it is in the way, as one does that is leaving there
+    /// already.
+    fn lift_anchor(&mut self, place: f64, at: &mut Moment<impl GestureSink>) {
         if let Some(anchor) = self.anchor.take() {
-            let manner = if anchor.is_below(fret) { NODE_LIFT } else { QUICK_LIFT };
+            let manner = if anchor.is_below(place) { NODE_LIFT } else { QUICK_LIFT };
             self.depart(anchor.slot, anchor.touch, manner, at);
         }
         let time = at.time;
         let in_the_way = |departing: &mut Departing| {
-            time < departing.clear && departing.back.is_some_and(|(finger, _)| !finger.is_below(fret))
+            time < departing.clear && departing.back.is_some_and(|(finger, _)| !finger.is_below(place))
         };
         for departing in &mut self.departing {
             if let Some(Departing { lift, .. }) = departing.take_if(in_the_way) {
@@ -60,14 +61,13 @@ impl Fingers {
     ) -> (i32, Option<Gesture>) {
         let frets = self.can_slide(frets);
         let Some(sliding) = self.slidable() else { return (frets, None) };
-        let Finger { fret: at_fret, bar, .. } = sliding;
         let fret = self.home as i32 + frets;
         let mut slide = None;
-        if fret as usize != at_fret {
+        if f64::from(fret) != sliding.stands() {
             self.come(at);
             let here = sliding.way.come_to(self.pressed(&sliding), at.time);
-            self.lift_anchor(fret as usize, at);
-            let position = self.place(fret as usize, bar);
+            self.lift_anchor(f64::from(fret), at);
+            let position = self.place(fret as usize, sliding.bar);
             let duration = sliding.unhurried(duration, at).max((position - here).abs() / SLIDE_SPEED);
             if let Some(finger) = &mut self.fretting {
                 (finger.fret, finger.glided, finger.free) = (fret as usize, 0.0, None);
@@ -113,6 +113,11 @@ impl Fingers {
         self.slidable().map_or(semitones, |finger| self.within_board(finger.fret, semitones))
     }
 
+    /// Whether a finger that glides is to be elsewhere for so many semitones than where it is or goes.
+    pub(crate) fn has_to_glide(&self, semitones: f64) -> bool {
+        self.slidable().is_some_and(|finger| finger.glided != semitones)
+    }
+
     pub(super) fn within_board(&self, fret: usize, semitones: f64) -> f64 {
         let (fret, last) = (fret as f64, self.string.geometry.frets.len() as f64);
         semitones.max(0.3 - fret).min(last - fret)
@@ -123,9 +128,14 @@ impl Fingers {
         self.beside = semitones;
     }
 
-    /// How far from a fret a finger comes down, semitones.
+    /// How far from a fret a finger comes down, semitones; what nut or capo stops has none.
     pub(super) fn comes_beside(&self, fret: usize) -> f64 {
-        if self.beside == 0.0 { 0.0 } else { self.within_board(fret, self.beside) }
+        if self.beside == 0.0 || fret <= self.capo[0] { 0.0 } else { self.within_board(fret, self.beside) }
+    }
+
+    /// Where that is, counted in frets.
+    pub(super) fn comes_to(&self, fret: usize) -> f64 {
+        fret as f64 + self.comes_beside(fret)
     }
 
     pub(super) fn slidable(&self) -> Option<Finger> {
@@ -152,18 +162,21 @@ impl Fingers {
     pub(crate) fn glide(&mut self, semitones: f64, duration: f64, at: &mut Moment<impl GestureSink>) -> f64 {
         let Some(finger) = self.slidable() else { return 0.0 };
         let reached = self.can_glide(semitones);
-        if reached == finger.glided {
+        if !self.has_to_glide(reached) {
             return reached;
         }
         self.come(at);
-        let stands = finger.fret as f64 + reached;
-        self.lift_anchor(stands as usize, at);
-        if let Some(finger) = &mut self.fretting {
-            finger.glided = reached;
-        }
-        let position = self.glided_place(stands, finger.bar);
-        let duration = finger.unhurried(duration, at);
-        self.move_along(&finger, position, duration, at);
+        self.lift_anchor(finger.fret as f64 + reached, at);
+        self.move_beside(reached, finger.unhurried(duration, at), at);
         reached
+    }
+
+    /// The finger that stops the string goes to so many semitones from its fret.
+    pub(super) fn move_beside(&mut self, semitones: f64, duration: f64, at: &mut Moment<impl GestureSink>) {
+        let Some(finger) = self.fretting else { return };
+        let way = Way::from(finger.way.come_to(self.pressed(&finger), at.time), duration, at);
+        let moved = Finger { glided: semitones, way, ..finger };
+        self.fretting = Some(moved);
+        self.move_along(&moved, self.pressed(&moved), duration, at);
     }
 }

@@ -10,10 +10,10 @@ use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
 impl Fingers {
-    /// Makes way for a note: dampers off, a finger behind the fret (0: none). One that is there already stays. One at a lower
-    /// fret leaves when the new one has landed, one at a higher fret, in a manner of leaving, when the new one stops the string
-    /// behind it, so that the string does not come up in between. Gives back whether a finger waits for a hand that stills the string to
-    /// go.
+    /// Makes way for a note: dampers off, a finger behind the fret (0: none), or beside it where it is expected. One that is there
+    /// already stays. One nearer to the nut leaves when the new one has landed, one nearer to the saddle, in a manner of leaving, when the
+    /// new one stops the string behind it, so that the string does not come up in between. Gives back whether a finger waits for a hand
+    /// that stills the string to go.
     pub(crate) fn stop(
         &mut self,
         fret: usize,
@@ -22,7 +22,9 @@ impl Fingers {
         leaves: Leaving,
         at: &mut Moment<impl GestureSink>,
     ) -> bool {
-        let called_back = if self.gives_way_to(fret) { self.call_back(at.time) } else { None };
+        let place = self.comes_to(fret);
+        let damped = self.resting_slots().next().is_some();
+        let called_back = if fret > 0 && self.lets_up_to(place) { self.call_back(at.time) } else { None };
         self.make_way(coming.strength, at);
         self.lay_capo(at);
         self.home = fret;
@@ -33,26 +35,28 @@ impl Fingers {
             false => self.down(Some(finger), at).part > STILL_DOWN,
         };
         let stays = |finger: &Finger| {
-            finger.fret == fret
+            finger.is_at(place)
                 && finger.bar == bar
                 && finger.free.is_none()
                 && stop != Stop::Mute
                 && stays_down(finger)
+                // On a string that sounds it goes on to its place; on one that hands damp it is not to be heard on its way.
+                && !(damped && self.is_far(finger, at.time))
         };
         if self.fretting.is_some_and(|finger| stays(&finger)) {
-            self.press_again(at);
+            self.stay(fret, damped, at);
             return false;
         }
         let (old, anchor) = (self.take_fretting(at), self.anchor.take().or(called_back));
         let presses = matches!(stop, Stop::Press | Stop::Harmonic) && !bar && fret > self.capo[1];
         let down = self.down(old.as_ref(), at);
         match old.filter(|old| presses && !old.bar && old.free.is_none()) {
-            Some(old) if old.is_below(fret) && !old.is_under_way(at.time) => {
+            Some(old) if old.is_below(place) && !self.is_far(&old, at.time) => {
                 let waits = self.land(fret, down, coming, at);
                 self.depart_from(old, BEHIND_LIFT, at);
                 return waits;
             }
-            Some(old) if self.is_over(fret, down) => {
+            Some(old) if self.is_over(place, down) => {
                 let waits = self.land(fret, down, coming, at);
                 at.does(old.lets_go(leaves));
                 return waits;
@@ -90,6 +94,18 @@ impl Fingers {
         Leaving {
             speed: (1.0 - softness) * speed + softness * RISE * pitch,
             turning: turning + softness / pitch,
+        }
+    }
+
+    /// The finger that stops the string does so for a note at its fret. The little that it is beside its place it goes at once where
+    /// hands damp the string, unheard.
+    fn stay(&mut self, fret: usize, damped: bool, at: &mut Moment<impl GestureSink>) {
+        self.press_again(at);
+        let place = self.comes_to(fret);
+        let Some(finger) = &mut self.fretting else { return };
+        finger.count_from(fret);
+        if damped && finger.stands() != place {
+            self.move_beside(place - fret as f64, BEHIND_SLIDE, at);
         }
     }
 

@@ -134,7 +134,7 @@ impl Fingers {
         let mut landing = self.hands.fretting.landing;
         let force = self.capo_force();
         if wanted != there {
-            let SetDown { touch, rise, .. } = self.set_down(wanted, Down::on(0), AT_ONCE, force);
+            let SetDown { touch, rise, .. } = self.set_down(wanted as f64, Down::on(0), AT_ONCE, force);
             (self.capo_touch, landing) = (touch, rise);
             let position = self.string.geometry.finger_position(wanted);
             let clearance = self.hands.fretting.hover;

@@ -58,10 +58,20 @@ impl Fingers {
 
     /// How far from the fret of its note a finger has come, semitones.
     pub(crate) fn away_by_now(&self, at: &Moment<impl GestureSink>) -> f64 {
-        let Some(finger) = self.fretting.filter(|finger| finger.is_under_way(at.time)) else {
-            return self.away();
-        };
-        self.frets_at(finger.way.come_to(self.pressed(&finger), at.time), finger.bar) - self.home as f64
+        self.fretting.map_or(0.0, |finger| self.stands_by_now(&finger, at.time) - self.home as f64)
+    }
+
+    /// Whether a finger is on its way and not yet at its fret.
+    pub(super) fn is_far(&self, finger: &Finger, time: u64) -> bool {
+        !finger.is_at(self.stands_by_now(finger, time))
+    }
+
+    /// Where it stops the string, counted in frets.
+    fn stands_by_now(&self, finger: &Finger, time: u64) -> f64 {
+        if !finger.is_under_way(time) {
+            return finger.stands();
+        }
+        self.frets_at(finger.way.come_to(self.pressed(finger), time), finger.bar)
     }
 }
 

@@ -69,7 +69,7 @@ impl StringPlayer {
         let period = self.fingers.period(fret);
         // A thumb takes some time to come.
         let within = |stroke| STILLED_PUSH * self.fingers.push_time(stroke).unwrap_or(0.0);
-        let rising = if self.fingers.lets_up_to(fret) { RISING } else { 0.0 };
+        let rising = if self.fingers.lets_up_to(fret as f64) { RISING } else { 0.0 };
         let longer = if harmonic { STILLED_LONGER } else { 0.0 };
         let time = (rising + STILLING.0 * period).max(STILLED_AT_LEAST) + longer;
         let lead = (time - within(Stroke::Down)).clamp(0.0, LONGEST_LEAD);
