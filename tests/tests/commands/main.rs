@@ -3,6 +3,7 @@
 mod documented_ranges;
 mod instruments_command;
 mod labels_besides;
+mod labels_glides;
 mod labels_notes;
 mod labels_set;
 mod labels_sound;
