@@ -177,6 +177,6 @@ impl Fingers {
         let way = Way::from(finger.way.come_to(self.pressed(&finger), at.time), duration, at);
         let moved = Finger { glided: semitones, way, ..finger };
         self.fretting = Some(moved);
-        self.move_along(&moved, self.pressed(&moved), duration, at);
+        self.move_along(&moved, self.glided_place(moved.stands(), moved.bar), duration, at);
     }
 }
