@@ -11,13 +11,14 @@ const MULTIPLIED: usize = 4;
 /// out. No pivots are needed: where a slope is 0 its row is done, and the others are those of the positive D⁻¹ + M, scaled,
 /// so that every pivot is at least 1. The last two unknowns are found together, and up to four rows are multiplied by the
 /// pivot and not divided by it, so that only one division is waited for. (For so few unknowns what counts is how long each
-/// operation waits for the one before. With more of them the products of steep slopes could pass the largest number.)
+/// operation waits for the one before. With more of them the products of steep slopes could pass the largest number.) The sides
+/// follow when the matrix is done, which a fretted string's three contacts take less time for than row by row.
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "indices are how the formulas are written")]
 pub(super) fn springs_of_few<const N: usize, const SIDES: usize>(
     entry: impl Fn(usize, usize) -> f64,
     slopes: &[f64],
-    mut sides: [&mut [f64]; SIDES],
+    sides: [&mut [f64]; SIDES],
 ) {
     let mut a = [[0.0; N]; N];
     for i in 0..N {
@@ -25,27 +26,35 @@ pub(super) fn springs_of_few<const N: usize, const SIDES: usize>(
             a[i][j] = slopes[i] * entry(i, j);
         }
         a[i][i] += 1.0;
-        sides.iter_mut().for_each(|x| x[i] *= slopes[i]);
     }
     let Some(pair) = N.checked_sub(2) else {
-        sides.iter_mut().for_each(|x| x[0] /= a[0][0]);
+        sides.into_iter().for_each(|x| x[0] = slopes[0] * x[0] / a[0][0]);
         return;
     };
     let mut inverses = [0.0; N];
     for j in 0..pair {
         inverses[j] = 1.0 / a[j][j];
         for i in j + 1..N {
-            let (pivot, share) =
-                if N > MULTIPLIED { (1.0, a[i][j] * inverses[j]) } else { (a[j][j], a[i][j]) };
+            if N > MULTIPLIED {
+                a[i][j] *= inverses[j];
+            }
+            let (pivot, share) = (pivot::<N>(a[j][j]), a[i][j]);
             for k in j + 1..N {
                 a[i][k] = pivot * a[i][k] - share * a[j][k];
             }
-            sides.iter_mut().for_each(|x| x[i] = pivot * x[i] - share * x[j]);
         }
     }
     let last = pair + 1;
     let inverse = 1.0 / (a[pair][pair] * a[last][last] - a[pair][last] * a[last][pair]);
     for x in sides {
+        for i in 0..N {
+            x[i] *= slopes[i];
+        }
+        for j in 0..pair {
+            for i in j + 1..N {
+                x[i] = pivot::<N>(a[j][j]) * x[i] - a[i][j] * x[j];
+            }
+        }
         let found = [
             inverse * (a[last][last] * x[pair] - a[pair][last] * x[last]),
             inverse * (a[pair][pair] * x[last] - a[last][pair] * x[pair]),
@@ -58,6 +67,12 @@ pub(super) fn springs_of_few<const N: usize, const SIDES: usize>(
             x[j] *= inverses[j];
         }
     }
+}
+
+/// What rows of so many unknowns are multiplied by for a pivot.
+#[inline(always)]
+fn pivot<const N: usize>(pivot: f64) -> f64 {
+    if N > MULTIPLIED { 1.0 } else { pivot }
 }
 
 /// The same for more: x = √D y with (1 + √D M √D) y = √D g, which is symmetric. Rare, and apart from the few.
