@@ -54,7 +54,7 @@ impl Quality {
             Self::Draft => "least work, buzz within 50 %",
             Self::Live => "within 1 cent, buzz within 25 %",
             Self::Studio => "4 × the work, buzz within 15 %",
-            Self::Reference => "11 × the work, buzz within 12 %",
+            Self::Reference => "10 × the work, buzz within 12 %",
         }
     }
 
