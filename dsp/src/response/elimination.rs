@@ -12,7 +12,7 @@ const MULTIPLIED: usize = 4;
 /// so that every pivot is at least 1. The last two unknowns are found together, and up to four rows are multiplied by the
 /// pivot and not divided by it, so that only one division is waited for. (For so few unknowns what counts is how long each
 /// operation waits for the one before. With more of them the products of steep slopes could pass the largest number.) The sides
-/// follow when the matrix is done, which a fretted string's three contacts take less time for than row by row.
+/// follow when the matrix is done.
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "indices are how the formulas are written")]
 pub(super) fn springs_of_few<const N: usize, const SIDES: usize>(
