@@ -202,6 +202,7 @@ impl Answer for Response {
             let entries = &self.entries[block.offset..][..block.len * block.len];
             let range = block.start..block.start + block.len;
             let (x, out) = (&x[range.clone()], &mut out[range]);
+            // One loop for all sizes would take the worst sample of a chord that buzzes 6 % more instructions.
             match block.len {
                 2 => product_of_few::<2>(entries.as_chunks().0, x, out),
                 3 => product_of_few::<3>(entries.as_chunks().0, x, out),
