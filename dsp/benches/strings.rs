@@ -12,7 +12,7 @@ use std::hint::black_box;
 
 use criterion::{BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group};
 use low_action_dsp::{Instrument, Stencil};
-use workloads::{Bare, Linear, OneString, SAMPLES, Steps, chord, over_frets, silent, strings_of};
+use workloads::{Bare, ByHand, Linear, OneString, SAMPLES, Steps, chord, over_frets, silent, strings_of};
 
 /// Runs an instrument for [`SAMPLES`] samples.
 fn play(
@@ -49,6 +49,18 @@ fn step_by(
     });
 }
 
+/// What is written by hand moves as the free string does, but for rounding.
+fn assert_same_motion(free: &OneString, by_hand: &ByHand) {
+    let (mut free, mut by_hand) = (free.clone(), by_hand.clone());
+    free.run();
+    by_hand.run();
+    let points = free.displacement();
+    let largest = points.iter().fold(0.0, |most: f64, point| most.max(point.abs()));
+    for (point, by_hand) in points.iter().zip(by_hand.displacement()) {
+        assert!((point - by_hand).abs() < 1e-9 * largest, "{by_hand} m by hand, and {point}");
+    }
+}
+
 fn strings(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("chord");
     group.sample_size(20);
@@ -75,6 +87,11 @@ fn strings(criterion: &mut Criterion) {
         let mut bare = Bare::new(unknowns);
         group.bench_function(name, |bencher| bencher.iter(|| black_box(&mut bare).run(linear)));
     }
+    let by_hand = ByHand::new(&free);
+    group.bench_function("by hand", |bencher| {
+        bencher.iter_batched_ref(|| by_hand.clone(), ByHand::run, BatchSize::LargeInput);
+    });
+    assert_same_motion(&free, &by_hand);
     step(&mut group, "free", &free);
     step(&mut group, "free, paper stencil", &OneString::free(48e3, Stencil::Paper));
     step(&mut group, "fretted", &fretted);

@@ -1,9 +1,9 @@
 //! The shortest string there is: linear, flexible, lossless, touching nothing, written by hand.
 
-use aligned_vec::{AVec, ConstAlign};
 use pulp::{Arch, Simd, WithSimd};
 
 use super::SAMPLES;
+use super::points::{FIRST, Points, points};
 
 /// What is done to it.
 #[derive(Debug, Clone, Copy)]
@@ -14,16 +14,7 @@ pub enum Linear {
     Stepped,
 }
 
-/// The most vector lanes of any instruction set that is chosen.
-const LANES: usize = 8;
-
-/// Numbers of which the first moving point's begins a cache line, wherever they are put.
-type Points = AVec<f64, ConstAlign<64>>;
-
-/// Where it stands.
-const FIRST: usize = LANES;
-
-/// Displacement and motion, with room for a whole vector on either side.
+/// Displacement and motion.
 pub struct Bare {
     arch: Arch,
     displacement: Points,
@@ -34,13 +25,10 @@ pub struct Bare {
 impl Bare {
     /// A string of so many moving points in the shape of a triangle.
     pub fn new(unknowns: usize) -> Self {
-        let room = unknowns.div_ceil(LANES) * LANES + 2 * LANES;
-        let still = || Points::from_iter(64, std::iter::repeat_n(0.0, room));
-        let mut displacement = still();
-        for (point, height) in (1..=unknowns).zip(&mut displacement[FIRST..]) {
-            *height = 1e-3 * point.min(unknowns + 1 - point) as f64 / unknowns as f64;
-        }
-        Bare { arch: Arch::new(), displacement, motion: still(), unknowns }
+        let height = |point: usize| 1e-3 * point.min(unknowns + 1 - point) as f64 / unknowns as f64;
+        let displacement: Vec<f64> = (1..=unknowns).map(height).collect();
+        let motion = points(&vec![0.0; unknowns]);
+        Bare { arch: Arch::new(), displacement: points(&displacement), motion, unknowns }
     }
 
     /// [`SAMPLES`] samples.

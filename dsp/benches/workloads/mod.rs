@@ -1,11 +1,14 @@
 //! What is timed.
 
 mod bare;
+mod by_hand;
 mod chord;
 mod instruments;
+mod points;
 mod strings;
 
 pub use bare::{Bare, Linear};
+pub use by_hand::ByHand;
 pub use instruments::{Steps, chord, silent, strings_of};
 pub use strings::{OneString, over_frets};
 

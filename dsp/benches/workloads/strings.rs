@@ -76,6 +76,16 @@ impl OneString {
         }
     }
 
+    /// Where its moving points are, m.
+    pub fn displacement(&self) -> Vec<f64> {
+        self.state.displacement().collect()
+    }
+
+    /// How far they moved in the last step, m.
+    pub fn motion(&self) -> Vec<f64> {
+        self.state.motion().collect()
+    }
+
     /// [`SAMPLES`] samples.
     pub fn run(&mut self) -> f64 {
         self.steps(SAMPLES);

@@ -132,12 +132,14 @@ fn timed(found: &Timed) -> Result<String> {
         row(&format!("… every string at {khz}"), found, aim);
     }
     let string = |name: &str| found.median("string", name);
-    let (copy, bare, free) = (string("copy")?, string("bare")?, string("free")?);
-    let fretted = string("fretted")?;
+    let (copy, bare, by_hand) = (string("copy")?, string("bare")?, string("by hand")?);
+    let (free, fretted) = (string("free")?, string("fretted")?);
     let times = |a: f64, b: f64| format!("{:.2} ×", a / b);
     row("bare linear string, by hand", format!("{:.0} ns", bare / SAMPLES), "");
     row("… over a copy of its arrays and back", times(bare, copy), "reported");
     row("free string (`wide`, stiff, lossy, stretching) over the bare one", times(free, bare), "1.5 ×");
+    row("… the same motion by hand, and nothing else, over the bare one", times(by_hand, bare), "");
+    row("… free string over that", times(free, by_hand), "");
     row("fretted string (a finger and two frets) over the free one", times(fretted, free), "1.9 ×");
     let scalar = times(string("free, without vectors")?, free);
     row("free string without vectors over with", scalar, "4 ×");
