@@ -19,8 +19,8 @@ pub(crate) enum Laid {
     Nothing,
     /// The palm, with this pressure, above 0 to 1.
     Palm(f64),
-    /// The thumb.
-    Thumb,
+    /// The thumb, of a slap or a pinch.
+    Thumb(Touch),
 }
 
 /// The right hand on one string.
@@ -87,8 +87,14 @@ impl Field<'_> {
         (touch, if matched.is_finite() { times * matched } else { times * force })
     }
 
+    /// What the palm touches the string with, pressed so hard (0 to 1), and its force, N.
+    fn palm_force(&self, pressure: f64) -> (Touch, f64) {
+        let (least, most) = PALM_FORCE;
+        self.matched(least * libm::pow(most / least, pressure))
+    }
+
     /// How far the palm reaches, pressed so hard (0 to 1), m from the saddle.
-    fn palm(&self, pressure: f64) -> f64 {
+    fn palm_reach(&self, pressure: f64) -> f64 {
         let part = PALM_PLACE.0 + (PALM_PLACE.1 - PALM_PLACE.0) * pressure;
         let before_pluck = PALM_BEFORE_PLUCK * self.hands.pluck_position;
         (part * self.geometry.length).min(before_pluck)
@@ -117,7 +123,7 @@ impl Field<'_> {
 
 impl RightHand {
     /// Pressure of the palm on notes to come, and on the one that sounds, 0 to 1.
-    pub(crate) fn palm(&self) -> f64 {
+    pub(crate) fn palm_pressure(&self) -> f64 {
         self.palm
     }
 
@@ -162,8 +168,16 @@ impl RightHand {
     /// A thumb goes first; the palm follows it.
     fn follow_now(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
         self.pace.done();
-        if self.laid != Laid::Thumb {
+        if self.thumb().is_none() {
             self.lay(GENTLY, field, at);
+        }
+    }
+
+    /// The thumb, if it is on the string.
+    fn thumb(&self) -> Option<Touch> {
+        match self.laid {
+            Laid::Thumb(touch) => Some(touch),
+            Laid::Nothing | Laid::Palm(_) => None,
         }
     }
 
@@ -176,7 +190,7 @@ impl RightHand {
     pub(crate) fn prepare(&mut self, strength: f64, field: &Field, at: &mut Moment<impl GestureSink>) {
         let lingers = self.palm <= 0.0 && (self.laid != Laid::Nothing || at.time < self.clear);
         self.clear = 0;
-        if self.laid == Laid::Thumb || lingers {
+        if self.thumb().is_some() || lingers {
             self.lift(QUICK_LIFT, field, at);
             self.laid = Laid::Nothing;
         }
@@ -193,15 +207,14 @@ impl RightHand {
         let Laid::Palm(pressure) = wanted else {
             return self.leave(field, at);
         };
-        let (touch, light) = field.matched(1.0);
-        let force = light * PALM_FORCE.0 * libm::pow(PALM_FORCE.1 / PALM_FORCE.0, pressure);
-        let reach = field.palm(pressure);
+        let (touch, force) = field.palm_force(pressure);
+        let reach = field.palm_reach(pressure);
         let falls = stroke.map(|stroke| falling(touch, force, stroke));
         let stays = self.rests() && !(falls.is_some() && at.time < self.sinking);
         for (finger, place, share) in PALM {
             let position = field.geometry.length - place * reach;
             // The thumb becomes the part of the palm that has its slot.
-            let is_there = stays || self.laid == Laid::Thumb && finger == RIGHT_HAND;
+            let is_there = stays || self.thumb().is_some() && finger == RIGHT_HAND;
             at.does(match falls {
                 _ if is_there => Gesture::Slide { finger, position, duration },
                 Some(speed) => Gesture::Throw { finger, touch, position, clearance: 0.0, speed },
@@ -232,13 +245,13 @@ impl RightHand {
         let thrown = Gesture::Throw { finger, touch: THUMB, position, clearance: SLAP_CLEARANCE, speed };
         at.does(thrown);
         at.does(Gesture::Press { finger, force: SLAP_FORCE * strength, duration: 0.0 });
-        self.laid = Laid::Thumb;
+        self.laid = Laid::Thumb(THUMB);
         thrown
     }
 
     /// The thumb bounces off the string it was thrown at.
     pub(crate) fn bounce(&mut self, at: &mut Moment<impl GestureSink>) {
-        if self.laid == Laid::Thumb {
+        if self.thumb().is_some() {
             at.does(Gesture::Lift { finger: RIGHT_HAND, force: SLAP_BOUNCE, duration: 0.001 });
             self.laid = Laid::Nothing;
         }
@@ -251,7 +264,7 @@ impl RightHand {
         self.make_room(field, at);
         at.does(Gesture::Place { finger, touch, position: field.pinched(partial), clearance: 0.0 });
         at.does(Gesture::Press { finger, force, duration: PALM_LANDING });
-        self.laid = Laid::Thumb;
+        self.laid = Laid::Thumb(touch);
     }
 
     /// The thumb takes the slot of one part of a palm; the others leave with it.
@@ -265,7 +278,7 @@ impl RightHand {
 
     /// The thumb that grazes the string leaves it, or gives way to the palm, which is as soft.
     pub(crate) fn leave_graze(&mut self, field: &Field, at: &mut Moment<impl GestureSink>) {
-        if self.laid == Laid::Thumb {
+        if self.thumb().is_some() {
             self.lay(GENTLY, field, at);
         }
     }
@@ -279,9 +292,10 @@ impl RightHand {
 
     /// Thumb or palm goes in a manner of leaving.
     fn lift(&self, manner: Leaving, field: &Field, at: &mut Moment<impl GestureSink>) {
-        let parts = if self.laid == Laid::Thumb { 1 } else { PALM.len() };
+        // (A palm is as soft as any damper.)
+        let (parts, touch) = self.thumb().map_or((PALM.len(), field.hands.damper.touch), |thumb| (1, thumb));
         for (finger, ..) in PALM.into_iter().take(parts) {
-            at.does(lifting(finger, field.hands.damper.touch, manner));
+            at.does(lifting(finger, touch, manner));
         }
     }
 

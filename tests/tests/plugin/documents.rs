@@ -67,7 +67,9 @@ fn what_is_said_of_qualities_was_measured() {
         assert!(told.contains(&format!(" {words}")), "{quality}: {told}");
         if let Some((times, _)) = summary.split_once(" × the work") {
             let found = price(quality) / price(Quality::Live);
-            assert_eq!(times, found.round().to_string(), "{quality}: {found} ×");
+            // In whole numbers, of times that differ by some ten per cent from run to run.
+            let said: f64 = times.parse().expect("a number");
+            assert!(said.fract() == 0.0 && (said - found).abs() < 0.5 + 0.1 * found, "{quality}: {found} ×");
             assert!(told.contains(&format!("{times} × the work of `live`")), "{quality}: {told}");
         }
     }

@@ -25,6 +25,6 @@ impl Fingers {
 
     /// How hard the palm rests on the string, 0 to 1.
     pub(crate) fn palm(&self) -> f64 {
-        self.right.palm()
+        self.right.palm_pressure()
     }
 }
