@@ -88,9 +88,13 @@ fn strings(criterion: &mut Criterion) {
         group.bench_function(name, |bencher| bencher.iter(|| black_box(&mut bare).run(linear)));
     }
     let by_hand = ByHand::new(&free);
-    group.bench_function("by hand", |bencher| {
-        bencher.iter_batched_ref(|| by_hand.clone(), ByHand::run, BatchSize::LargeInput);
-    });
+    for (name, run) in
+        [("linear by hand", ByHand::run_linear as fn(&mut ByHand) -> f64), ("by hand", ByHand::run)]
+    {
+        group.bench_function(name, |bencher| {
+            bencher.iter_batched_ref(|| by_hand.clone(), run, BatchSize::LargeInput);
+        });
+    }
     assert_same_motion(&free, &by_hand);
     step(&mut group, "free", &free);
     step(&mut group, "free, paper stencil", &OneString::free(48e3, Stencil::Paper));

@@ -1,5 +1,5 @@
-//! What a free string does, in the shortest way that it can be written by hand: stiff, lossy and stretching, but with nothing known of
-//! its energy, of what it might touch, or of when it rests.
+//! What a free string does, in the shortest way that it can be written by hand: stiff and lossy, linear or stretching, but with nothing
+//! known of its energy, of what it might touch, or of when it rests.
 
 use std::hint::black_box;
 
@@ -61,13 +61,23 @@ impl ByHand {
 
     /// [`SAMPLES`] samples.
     pub fn run(&mut self) -> f64 {
+        self.steps::<true>()
+    }
+
+    /// The same of a string that does not pull itself tight: a linear one.
+    pub fn run_linear(&mut self) -> f64 {
+        self.steps::<false>()
+    }
+
+    fn steps<const STRETCHES: bool>(&mut self) -> f64 {
         for _ in 0..SAMPLES {
             let ByHand { arch, u, d, v, w, stretched, weights, unknowns } = self;
             // Beyond the ends the string goes on oddly.
             let past = FIRST + *unknowns;
             (u[FIRST - 2], u[FIRST - 3]) = (-u[FIRST], -u[FIRST + 1]);
             (u[past + 1], u[past + 2]) = (-u[past - 1], -u[past - 2]);
-            arch.dispatch(Step { u, d, v, w, stretched, weights, unknowns: *unknowns });
+            let unknowns = *unknowns;
+            arch.dispatch(Step::<STRETCHES> { u, d, v, w, stretched, weights, unknowns });
             // What the last vectors wrote beyond the end.
             for written in [u, d, v] {
                 written[past..].fill(0.0);
@@ -106,7 +116,7 @@ impl Weights {
     }
 }
 
-struct Step<'a> {
+struct Step<'a, const STRETCHES: bool> {
     u: &'a mut [f64],
     d: &'a mut [f64],
     v: &'a mut [f64],
@@ -116,7 +126,7 @@ struct Step<'a> {
     unknowns: usize,
 }
 
-impl WithSimd for Step<'_> {
+impl<const STRETCHES: bool> WithSimd for Step<'_, STRETCHES> {
     type Output = ();
 
     #[inline(always)]
@@ -142,6 +152,10 @@ impl WithSimd for Step<'_> {
             }
             value = simd.sub_f64s(value, simd.mul_f64s(before, v[at]));
             value = simd.add_f64s(value, simd.mul_f64s(motion, d[at]));
+            if !STRETCHES {
+                (v[at], d[at]) = (bend, value);
+                continue;
+            }
             let bend = if at + 1 < count { bend } else { simd.select_f64s(last_lanes, bend, none) };
             along = simd.add_f64s(along, simd.mul_f64s(bend, simd.add_f64s(here, value)));
             curvature = simd.add_f64s(curvature, simd.mul_f64s(bend, bend));
@@ -153,7 +167,9 @@ impl WithSimd for Step<'_> {
         let pull = simd.splat_f64s(-2.0 * weights.stretch * stretching);
         let u = &mut S::as_mut_simd_f64s(&mut u[FIRST..]).0[..count];
         for at in 0..count {
-            d[at] = simd.sub_f64s(w[at], simd.mul_f64s(pull, v[at]));
+            if STRETCHES {
+                d[at] = simd.sub_f64s(w[at], simd.mul_f64s(pull, v[at]));
+            }
             u[at] = simd.add_f64s(u[at], d[at]);
         }
     }

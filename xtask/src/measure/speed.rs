@@ -132,14 +132,21 @@ fn timed(found: &Timed) -> Result<String> {
         row(&format!("… every string at {khz}"), found, aim);
     }
     let string = |name: &str| found.median("string", name);
-    let (copy, bare, by_hand) = (string("copy")?, string("bare")?, string("by hand")?);
+    let (copy, bare) = (string("copy")?, string("bare")?);
+    let (linear, stretching) = (string("linear by hand")?, string("by hand")?);
     let (free, fretted) = (string("free")?, string("fretted")?);
     let times = |a: f64, b: f64| format!("{:.2} ×", a / b);
-    row("bare linear string, by hand", format!("{:.0} ns", bare / SAMPLES), "");
+    row("bare linear string, flexible and lossless, by hand", format!("{:.0} ns", bare / SAMPLES), "");
     row("… over a copy of its arrays and back", times(bare, copy), "reported");
+    row(
+        "linear string, as stiff and lossy as the free one, by hand, over the bare one",
+        times(linear, bare),
+        "",
+    );
+    row("string that stretches, too, by hand, over the bare one", times(stretching, bare), "");
     row("free string (`wide`, stiff, lossy, stretching) over the bare one", times(free, bare), "1.5 ×");
-    row("… the same motion by hand, and nothing else, over the bare one", times(by_hand, bare), "");
-    row("… free string over that", times(free, by_hand), "");
+    row("… over the linear one that is as stiff and lossy", times(free, linear), "1.5 ×");
+    row("… over the one by hand that stretches", times(free, stretching), "");
     row("fretted string (a finger and two frets) over the free one", times(fretted, free), "1.9 ×");
     let scalar = times(string("free, without vectors")?, free);
     row("free string without vectors over with", scalar, "4 ×");
