@@ -94,10 +94,7 @@ impl Performance {
         let said = Said::from(expression);
         if let Some(Unplaced { manner, own, .. }) = note {
             match said {
-                Said::Note(Own::Tuning(semitones)) => manner.tuning = semitones,
-                Said::Note(Own::Pressure(factor)) => manner.pressure = factor,
-                Said::Note(Own::Firmness(factor)) => manner.firmness = factor,
-                Said::Note(Own::Vibrato(depth)) => manner.vibrato = depth,
+                Said::Note(said) => said.tell(manner),
                 Said::Brightness(metres) => own.brightness = metres,
                 Said::PluckPlace(metres) => own.place = metres,
                 Said::PluckForce(factor) => own.force = factor,

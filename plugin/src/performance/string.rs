@@ -157,7 +157,7 @@ impl StringPlayer {
 
     /// The finger presses with so many times its usual force, as keys are pressed; the note may have a factor of its own.
     pub(crate) fn press(&mut self, time: u64, pressure: f64, out: &mut impl GestureSink) {
-        let firmness = self.note.map_or(1.0, |note| note.firmness);
+        let firmness = self.note.map_or(1.0, |note| note.manner.firmness);
         let mut at = self.moment(time, out);
         self.fingers.press(pressure * firmness, &mut at);
     }

@@ -2,9 +2,8 @@
 //! what is to come: so those that began a moment ago, and whose keys are down, are placed anew with the next. They stay where they
 //! are unless another needs their string; then they are struck once more on one of their own. None is lost to it.
 
-use super::{Articulation, Manner, Placement, Stroke, Unplaced, Use, Wanted};
+use super::{Articulation, Placement, Stroke, Unplaced, Use, Wanted};
 use crate::performance::hand::LARGEST_CHORD;
-use crate::performance::string::Note;
 use crate::performance::technique::{LONGEST_CHORD, TOGETHER};
 use crate::performance::{Channels, Performance};
 
@@ -68,8 +67,7 @@ impl Performance {
         if !begun.is(channel, key) || self.chord.iter().any(|other| other.is(channel, key)) {
             return None;
         }
-        let Note { tuning, pressure, firmness, vibrato, .. } = note;
-        let manner = Manner { tuning, pressure, firmness, vibrato, ..begun.manner };
+        let manner = begun.manner.by_now(&note.manner);
         let Articulation { palm, tremolo, .. } = self.channels[usize::from(channel)].articulation;
         let articulation = Articulation { palm, tremolo, ..begun.articulation };
         let on = Some(Placement { string, fret: note.fret });

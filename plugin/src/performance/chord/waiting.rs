@@ -104,8 +104,7 @@ impl Performance {
             let count = self.chord.len();
             self.ask_for(note.channel, note.key, note.velocity, note.presses);
             if let Some(Unplaced { manner, caught, .. }) = self.chord.get_mut(count) {
-                (manner.tuning, manner.vibrato) = (note.tuning, note.vibrato);
-                (manner.pressure, manner.firmness) = (note.pressure, note.firmness);
+                *manner = manner.by_now(&note.manner);
                 *caught = note.caught;
             }
         }

@@ -18,7 +18,7 @@ impl Fingers {
         let stiffness = |from_end: f64| self.string.stiffness(from_end, length - from_end);
         let usual = stiffness(self.hands.pluck_position.min(FARTHEST_PLUCK * length));
         let here = stiffness((place - stop).max(NEAREST_PLUCK));
-        let Pull { part, hardest, duration, release } = PULL_OFF;
+        let PullOff { part, hardest, duration, release } = PULL_OFF;
         let force = part * (here / usual).clamp(1.0, hardest) * strength * self.hands.pluck_force;
         Gesture::Pluck { position: place, force, duration, release }
     }

@@ -140,7 +140,7 @@ impl StringPlayer {
         if back.fret < capo {
             self.fingers.keep_capo();
         }
-        let asked = self.bend.asked_by(back.channel, back.tuning);
+        let asked = self.bend.asked_by(back.channel, back.manner.tuning);
         self.bend.begin(back.channel);
         self.fingers.expect_palm(back.palm);
         let fret = self.bend.begin_slid(back.fret, asked, from.bar, &mut self.fingers);
@@ -157,10 +157,9 @@ impl StringPlayer {
         self.fingers.set_capo(capo);
         self.bend.tell_change(&self.fingers, &mut at);
         self.tells_sound(0.0, self.fingers.excitation(technique, gesture, None), &mut at);
-        self.fingers.press(back.firm(), &mut at);
+        self.fingers.press(back.manner.firm(), &mut at);
         self.fingers.set_palm(back.palm, &mut at);
-        self.bend.tune(time, back.tuning);
-        self.bend.set_vibrato(time, back.vibrato);
+        self.follow(time, &back.manner);
         self.gone_back = true;
         true
     }

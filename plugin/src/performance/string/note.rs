@@ -89,6 +89,11 @@ impl Manner {
         self.pressure * self.firmness
     }
 
+    /// That of a note by now, with the pluck that it began with.
+    pub(crate) fn by_now(self, now: &Self) -> Self {
+        Self { place: self.place, force: self.force, ..*now }
+    }
+
     /// This, under what another channel says for all.
     pub(crate) fn under(&self, all: &Self) -> Self {
         Self {
@@ -126,13 +131,8 @@ pub(crate) struct Note {
     pub(super) goes_late: f64,
     /// How it was struck last, or would be: what a tremolo goes on with.
     pub(super) struck: Struck,
-    /// Its own tuning, semitones.
-    pub tuning: f64,
-    /// Factor of its finger's force, and depth of its vibrato, 0 to 1: its own or its channel's, whichever was said last.
-    pub pressure: f64,
-    pub vibrato: f64,
-    /// Another factor of its finger's force, which only it has.
-    pub firmness: f64,
+    /// What it has for itself; pressure and vibrato are its own or its channel's, whichever was said last.
+    pub manner: Manner,
     /// How hard the palm rests on it, 0 to 1.
     pub palm: f64,
     /// Whether a bar stops it.
@@ -151,11 +151,6 @@ impl Note {
     /// Whether its key is down.
     pub fn key_down(&self) -> bool {
         self.presses > 0
-    }
-
-    /// Factor of its finger's force, everything counted.
-    pub(super) fn firm(&self) -> f64 {
-        self.pressure * self.firmness
     }
 
     /// Whether it is touched lightly instead of stopped: no hammer and no pull leads from there and back.

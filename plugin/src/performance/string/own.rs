@@ -17,6 +17,18 @@ pub(crate) enum Own {
     Vibrato(f64),
 }
 
+impl Own {
+    /// Says it of a note that is, or is to be, played in some manner.
+    pub(crate) fn tell(self, manner: &mut Manner) {
+        match self {
+            Self::Tuning(semitones) => manner.tuning = semitones,
+            Self::Pressure(factor) => manner.pressure = factor,
+            Self::Firmness(factor) => manner.firmness = factor,
+            Self::Vibrato(depth) => manner.vibrato = depth,
+        }
+    }
+}
+
 impl StringPlayer {
     /// Whether a key of a channel has the note that sounds.
     pub(crate) fn is_of(&self, channel: u8, key: u8) -> bool {
@@ -43,13 +55,8 @@ impl StringPlayer {
     ) {
         let sounds = self.is_of(channel, key);
         let Some(note) = self.notes().find(|note| note.is(channel, key)) else { return };
-        match own {
-            Own::Tuning(semitones) => note.tuning = semitones,
-            Own::Pressure(factor) => note.pressure = factor,
-            Own::Firmness(factor) => note.firmness = factor,
-            Own::Vibrato(depth) => note.vibrato = depth,
-        }
-        let firm = note.firm();
+        own.tell(&mut note.manner);
+        let firm = note.manner.firm();
         match own {
             _ if !sounds => {}
             Own::Tuning(semitones) => self.bend.tune(time, semitones),
@@ -67,10 +74,10 @@ impl StringPlayer {
         for note in self.notes() {
             let Some((manner, palm)) = said(note.channel) else { continue };
             if matches!(request, Request::Press | Request::Reset) {
-                note.pressure = manner.pressure;
+                note.manner.pressure = manner.pressure;
             }
             if matches!(request, Request::Swing | Request::Reset) {
-                note.vibrato = manner.vibrato;
+                note.manner.vibrato = manner.vibrato;
             }
             if matches!(request, Request::Touch | Request::Reset) {
                 note.palm = palm;

@@ -48,7 +48,7 @@ pub(crate) const BEHIND_SLIDE: f64 = 0.002;
 pub(crate) const BEHIND_REACH: f64 = 2.0;
 /// How a finger plucks the string that it pulls off.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Pull {
+pub(crate) struct PullOff {
     /// How far it takes the string along, as a part of the usual pluck.
     pub part: f64,
     /// The most force that may take, as a multiple of what takes the string as far at the usual place.
@@ -61,7 +61,7 @@ pub(crate) struct Pull {
 
 /// The usual. (Fitted to notes plucked as hard, in runs of pull-offs from fret 12 to the open string on eight strings of five
 /// instruments. Let go of at once so near to the fret, the string would be up to 14 dB brighter than it is plucked.)
-pub(crate) const PULL_OFF: Pull = Pull { part: 0.7, hardest: 6.0, duration: 0.0025, release: 0.0002 };
+pub(crate) const PULL_OFF: PullOff = PullOff { part: 0.7, hardest: 6.0, duration: 0.0025, release: 0.0002 };
 /// Farthest a hammer or a pull reaches, frets: from the first finger to the last, stretched.
 pub(crate) const HAMMER_REACH: usize = 5;
 /// Fastest slide to another note, m/s: seven frets of a guitar in 0.17 s. Where frets go by much faster, they pluck the
