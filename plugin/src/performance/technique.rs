@@ -88,7 +88,7 @@ pub(crate) const HARDEST_POINTED: f64 = 50.0;
 /// How long a string rings after such a pluck, s, before it is as good as silent; under a capo hands damp it then.
 pub(crate) const POINTED_RINGING: f64 = 30.0;
 
-/// How long a light finger stays at a node, s, and how it leaves.
+/// How long a light finger stays at a node after the stroke, or the last one of a tremolo, s, and how it leaves.
 pub(crate) const AT_NODE: f64 = 0.12;
 /// How light: the damping of its pad as a multiple of a match with the string.
 pub(crate) const NODE_TOUCH: f64 = 1.0;

@@ -18,6 +18,7 @@ mod gestures;
 mod glides;
 mod global_channel;
 mod goes_on;
+mod harmonic_tremolo;
 mod harmonics;
 mod harmonics_after_notes;
 mod landings;

@@ -34,24 +34,6 @@ fn a_tremolo_ends_with_its_key_under_the_pedal() {
     assert!(plucks.len() > 3 && plucks.iter().all(|&time| time < 0.4), "{plucks:?}");
 }
 
-/// A light finger is back at its node for every stroke, whether it has left meanwhile or not.
-#[test]
-fn each_stroke_of_a_tremolo_is_a_harmonic() {
-    // A natural one and one of a stopped note, slow and fast.
-    for (key, rate) in [(76, 10), (76, 64), (76, 127), (81, 10), (81, 64)] {
-        let mut stage = Stage::alone("electric", 0);
-        let events = [(0.0, cc(23, 1)), (0.0, cc(25, rate)), (0.0, on(key, 90))];
-        let sound = &stage.play(&events, 1.6).strings[0][48_000..];
-        let pitch = hertz(f64::from(key));
-        let off = cents(frequency_near(sound, stage.rate, pitch), pitch);
-        assert!(off.abs() < 10.0, "key {key} at {rate}: {off} cents");
-        let [asked, below] = [pitch, 0.5 * pitch].map(|pitch| amplitude(sound, stage.rate, pitch));
-        // Each pluck has some of it until the finger has taken it up.
-        let down = decibels(below / asked);
-        assert!(down < -6.0, "key {key} at {rate}: an octave below at {down} dB");
-    }
-}
-
 /// No finger taps where none presses: a harmonic that is to be tapped is plucked, and sounds at its key.
 #[test]
 fn only_what_is_pressed_is_tapped() {

@@ -109,8 +109,7 @@ impl StringPlayer {
     /// A tremolo goes on with the note if it has one: a stroke follows upon its first sound, so many seconds from now.
     fn tremble_after(&mut self, wait: f64, at: &Moment<impl GestureSink>) {
         if let Some(note) = self.note.filter(|_| self.tremolo > 0.0) {
-            let stills = note.partial.is_none();
-            let lead = if stills { self.stilling(note.struck.stroke, note.fret, false).lead } else { 0.0 };
+            let lead = self.stilling(note.struck.stroke, note.fret, false).lead;
             self.deeds.plan(at.after(wait + 1.0 / self.tremolo - lead), Deed::Tremolo);
         }
     }

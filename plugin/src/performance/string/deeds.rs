@@ -179,20 +179,17 @@ impl StringPlayer {
         let note = *note;
         // Under the pedal it waits: a key below may come back.
         if note.key_down() {
-            self.touch_node(0.0, at);
-            if note.partial.is_some() {
-                self.strike(note.struck, 0.0, at);
-            } else {
-                let stilling = self.stilling(note.struck.stroke, note.fret, false);
-                self.still(stilling, at);
-                self.deeds.plan(at.after(stilling.lead), Deed::Strike(note.struck));
-            }
+            // A light finger that is at its node already lets no finger up: nothing asks the hand to stay longer for it.
+            let stilling = self.stilling(note.struck.stroke, note.fret, false);
+            self.touch_node(stilling.lead, at);
+            self.still(stilling, at);
+            self.deeds.plan(at.after(stilling.lead), Deed::Strike(note.struck));
         }
         self.deeds.plan(at.after(1.0 / self.tremolo).max(at.time + 1), Deed::Tremolo);
     }
 
-    /// A finger touches the node of a harmonic for a stroke so many seconds from now, and stays for a while after it. It comes with the
-    /// stroke: what stopped the string before has let it up by then, and hands that damped it have gone.
+    /// A finger touches the node of a harmonic for a stroke so many seconds from now, and stays for a while after it, in a tremolo until
+    /// the next one. It comes with the stroke: what stopped the string before has let it up by then, and hands that damped it have gone.
     pub(super) fn touch_node(&mut self, wait: f64, at: &mut Moment<impl GestureSink>) {
         if self.note.is_none_or(|note| note.partial.is_none()) {
             return;
@@ -202,7 +199,8 @@ impl StringPlayer {
         } else {
             self.lay_light_finger(at);
         }
-        self.deeds.plan(at.after(wait + AT_NODE), Deed::LeaveNode);
+        let next = if self.tremolo > 0.0 { 1.0 / self.tremolo } else { 0.0 };
+        self.deeds.plan(at.after(wait + next + AT_NODE), Deed::LeaveNode);
     }
 
     /// It does so now.
