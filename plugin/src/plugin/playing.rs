@@ -36,8 +36,6 @@ pub(super) struct Playing {
     awaits_since: Option<u64>,
     /// A finished engine waiting until the last one has faded.
     ready: Option<Finished>,
-    /// What the outgoing part of the engine was ordered as.
-    leaving: Order,
     workshop: Workshop,
     offline: bool,
     budget: Budget,
@@ -70,7 +68,6 @@ impl Playing {
             asked_at: 0,
             awaits_since: None,
             ready: None,
-            leaving: order,
             workshop,
             offline,
             budget: Budget::new(order.sample_rate),

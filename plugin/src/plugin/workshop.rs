@@ -15,11 +15,13 @@ use super::order::Order;
 use super::shelf::Shelf;
 use crate::engine::Replacement;
 
+/// A replacement, or why there is none, in one line.
+type Built = Result<Box<Replacement>, String>;
+
 /// What came of an order.
 pub(super) struct Finished {
     pub order: Order,
-    /// The replacement, or why there is none, in one line.
-    pub result: Result<Box<Replacement>, String>,
+    pub result: Built,
 }
 
 /// The door between the two threads.
@@ -28,7 +30,7 @@ struct Counter {
     orders: ArrayQueue<Order>,
     finished: ArrayQueue<Finished>,
     /// What is no longer needed.
-    used: ArrayQueue<Finished>,
+    used: ArrayQueue<Built>,
     closing: AtomicBool,
 }
 
@@ -73,7 +75,7 @@ impl Workshop {
         loop {
             match self.collect() {
                 Some(finished) if finished.order == *order => return Some(finished),
-                Some(other) => self.give_back(other),
+                Some(other) => self.give_back(other.result),
                 None if self.thread.as_ref().is_none_or(JoinHandle::is_finished) => return None,
                 None => thread::sleep(SHORT_NAP),
             }
@@ -81,7 +83,7 @@ impl Workshop {
     }
 
     /// Takes back what is no longer needed.
-    pub fn give_back(&self, used: Finished) {
+    pub fn give_back(&self, used: Built) {
         // The queue has room for more than can be under way; should it ever be full, forgetting is the
         // one thing that neither blocks nor gives back memory here.
         if let Err(used) = self.counter.used.push(used) {

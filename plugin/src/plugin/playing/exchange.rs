@@ -24,7 +24,7 @@ impl Playing {
                 if late.result.is_err() && wanted == self.order {
                     self.say_that_all_is_well();
                 }
-                self.workshop.give_back(late);
+                self.workshop.give_back(late.result);
             }
             return None;
         }
@@ -37,13 +37,13 @@ impl Playing {
         }
         let Finished { order, result } = self.ready.take()?;
         if order == self.order {
-            self.workshop.give_back(Finished { order, result });
+            self.workshop.give_back(result);
             return None;
         }
         match result {
             Ok(replacement) => match self.engine.replace(replacement, self.asked_at) {
                 Ok(()) => {
-                    self.leaving = std::mem::replace(&mut self.order, order);
+                    self.order = order;
                     self.set_effort(self.relaxed);
                     self.meters.count_exchange();
                 }
@@ -56,7 +56,7 @@ impl Playing {
                 // The engine there is plays on, and nothing is asked for again.
                 self.refused = Some(order);
                 self.meters.refuse();
-                self.workshop.give_back(Finished { order, result: Err(message) });
+                self.workshop.give_back(Err(message));
             }
         }
         if self.asked == Some(order) {
@@ -106,7 +106,7 @@ impl Playing {
     /// Sends what has been replaced back to the workshop.
     pub(super) fn retire(&mut self) {
         if let Some(outgoing) = self.engine.take_outgoing() {
-            self.workshop.give_back(Finished { order: self.leaving, result: Ok(outgoing) });
+            self.workshop.give_back(Ok(outgoing));
         }
     }
 }
