@@ -5,8 +5,8 @@
 //! time into other blocks changes no bit of it.
 
 mod handover;
+mod played;
 mod record;
-mod sink;
 
 use std::collections::VecDeque;
 use std::num::NonZeroUsize;
@@ -22,8 +22,8 @@ use crate::performance::{
     WIDEST_BEND_RANGE,
 };
 pub use handover::Replacement;
+use played::Played;
 pub use record::Record;
-use sink::Sink;
 
 /// Samples handed from the player to the instrument at a time. It bounds how many gestures can be
 /// waiting in the instrument, however large the blocks asked for.
@@ -137,18 +137,13 @@ struct Waiting {
 #[derive(Debug)]
 pub struct Engine {
     performance: Performance,
-    instrument: Instrument,
+    played: Played,
     waiting: VecDeque<Waiting>,
-    lost: u64,
-    /// Sample of the last gesture by which a string may begin to sound.
-    touched: u64,
     /// How long it rings at most, s.
     tail: f64,
     threads: NonZeroUsize,
     /// What this engine was before its last change, on its way out.
     outgoing: Option<Box<Replacement>>,
-    /// What the player does, if that is kept.
-    record: Option<Box<Record>>,
 }
 
 impl Engine {
@@ -164,15 +159,14 @@ impl Engine {
         let (performance, instrument) = options.build()?;
         let waiting = VecDeque::with_capacity(WAITING_EVENTS);
         let (tail, threads) = (options.tail(), options.threads);
-        let (lost, touched, outgoing, record) = (0, 0, None, None);
-        Ok(Self { performance, instrument, waiting, lost, touched, tail, threads, outgoing, record })
+        let played = Played::new(instrument);
+        Ok(Self { performance, played, waiting, tail, threads, outgoing: None })
     }
 
     /// Has the hands act differently from the next sample on.
     pub fn touch(&mut self, touching: &Touching) {
-        let now = self.instrument.now();
-        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.touched, &mut self.record);
-        self.performance.touch(now, touching, &mut sink);
+        let now = self.played.instrument.now();
+        self.performance.touch(now, touching, &mut self.played);
     }
 
     /// Has channels mean something else from now on.
@@ -188,7 +182,7 @@ impl Engine {
     /// Has contacts solved so exactly from the next sample on: Newton iterations at most, and the change of
     /// penetration, m, at which they stop, each brought into its range.
     pub fn set_effort(&mut self, max_iterations: usize, tolerance: f64) {
-        self.instrument.set_effort(max_iterations, tolerance);
+        self.played.instrument.set_effort(max_iterations, tolerance);
     }
 
     /// Whether another event finds room to wait for a later sample.
@@ -199,14 +193,14 @@ impl Engine {
     /// Takes an event that happens `offset` samples after the start of the next block. Events at
     /// the same sample happen in the order they come in.
     pub fn event(&mut self, offset: u32, event: PlayerEvent) {
-        let now = self.instrument.now();
+        let now = self.played.instrument.now();
         let time = now + u64::from(offset);
         if self.waiting.len() == WAITING_EVENTS {
             // Those of the present sample need not wait.
             self.deliver_present();
         }
         if self.waiting.len() == WAITING_EVENTS {
-            self.lost += 1;
+            self.played.lost += 1;
             return;
         }
         // Hosts send events in order, so this looks at the last one and is done.
@@ -216,7 +210,7 @@ impl Engine {
 
     /// Has the events of the next sample happen at once, so that what hands are told from now on comes after them.
     pub fn deliver_present(&mut self) {
-        self.deliver(self.instrument.now() + 1);
+        self.deliver(self.played.instrument.now() + 1);
     }
 
     /// Plays the next block. Both channels must be of one length; it may be any.
@@ -239,7 +233,7 @@ impl Engine {
                 *part = &mut stem[span.clone()];
             }
             let (left, right) = (&mut left[span.clone()], &mut right[span]);
-            self.instrument.process_stems_by(self.threads, &mut parts[..count], left, right);
+            self.played.instrument.process_stems_by(self.threads, &mut parts[..count], left, right);
         }
     }
 
@@ -264,27 +258,27 @@ impl Engine {
 
     /// Number of strings, and so of stems.
     pub fn string_count(&self) -> usize {
-        self.instrument.string_count()
+        self.played.instrument.string_count()
     }
 
     /// What is played.
     pub fn instrument(&self) -> &Instrument {
-        &self.instrument
+        &self.played.instrument
     }
 
     /// Has what happens to the strings kept for pictures from now on, or no longer. The sound is the same bits.
     pub fn observe(&mut self, looking: bool) {
-        self.instrument.observe(looking);
+        self.played.instrument.observe(looking);
     }
 
     /// Forgets what has happened to the strings.
     pub fn observe_anew(&mut self) {
-        self.instrument.observe_anew();
+        self.played.instrument.observe_anew();
     }
 
     /// Largest size of the sound over the last 50 to 100 ms, 1 is full scale; for the end of tails.
     pub fn level(&self) -> f64 {
-        self.instrument.level()
+        self.played.instrument.level()
     }
 
     /// How long the string that rings longest takes to be [`QUIET`] when nobody damps it, s; endless without losses.
@@ -294,14 +288,15 @@ impl Engine {
 
     /// Whether nothing sounds, moves or is waiting: until the next event all samples are 0.
     pub fn is_silent(&self) -> bool {
-        self.waiting.is_empty() && !self.is_behind() && self.instrument.is_silent()
+        self.waiting.is_empty() && !self.is_behind() && self.played.instrument.is_silent()
     }
 
     /// Whether nothing is heard, nor will be until somebody plays, though strings may move yet: as under a finger that holds a note
     /// which has died away, under which a string never comes to rest by itself.
     pub fn is_inaudible(&self) -> bool {
-        let left_alone = self.waiting.is_empty() && !self.is_behind() && !self.instrument.is_fading();
-        let since = self.now().saturating_sub(self.touched) as f64 / self.instrument.sample_rate();
+        let left_alone = self.waiting.is_empty() && !self.is_behind() && !self.played.instrument.is_fading();
+        let since =
+            self.now().saturating_sub(self.played.touched) as f64 / self.played.instrument.sample_rate();
         self.is_silent() || left_alone && since >= LONGEST_ATTACK && self.level() < INAUDIBLE
     }
 
@@ -312,7 +307,7 @@ impl Engine {
 
     /// Index of the next sample since construction or reset.
     pub fn now(&self) -> u64 {
-        self.instrument.now()
+        self.played.instrument.now()
     }
 
     /// What could not be played as written so far.
@@ -323,7 +318,7 @@ impl Engine {
     /// What was lost because too much came at once: events beyond 16,384 that wait in one block, and gestures that the
     /// instrument's queue has no room for.
     pub fn lost_events(&self) -> u64 {
-        self.lost
+        self.played.lost
     }
 
     /// Silence, hands off, pedals up, wheels in the middle, sample 0.
@@ -354,12 +349,8 @@ impl Engine {
     }
 
     fn forget(&mut self) {
-        self.instrument.reset();
+        self.played.reset();
         self.waiting.clear();
-        (self.lost, self.touched) = (0, 0);
-        if let Some(record) = &mut self.record {
-            **record = Record::default();
-        }
     }
 
     /// Has the player do all that belongs to the next samples, [`STEP`] at most, and returns how many those are. Threads
@@ -368,13 +359,11 @@ impl Engine {
         let mut prepared = 0;
         loop {
             prepared += STEP.min(frames - prepared);
-            let until = self.instrument.now() + prepared as u64;
+            let until = self.played.instrument.now() + prepared as u64;
             self.deliver(until);
-            let mut sink =
-                Sink::of(&mut self.instrument, &mut self.lost, &mut self.touched, &mut self.record);
-            self.performance.advance(until, &mut sink);
+            self.performance.advance(until, &mut self.played);
             let alone = self.threads == NonZeroUsize::MIN;
-            if alone || prepared == frames || self.instrument.waiting() > MANY_GESTURES {
+            if alone || prepared == frames || self.played.instrument.waiting() > MANY_GESTURES {
                 return prepared;
             }
         }
@@ -382,10 +371,9 @@ impl Engine {
 
     /// Hands the player all events before sample `until`.
     fn deliver(&mut self, until: u64) {
-        let mut sink = Sink::of(&mut self.instrument, &mut self.lost, &mut self.touched, &mut self.record);
         while let Some(&Waiting { time, event }) = self.waiting.front().filter(|next| next.time < until) {
             self.waiting.pop_front();
-            self.performance.event(time, event, &mut sink);
+            self.performance.event(time, event, &mut self.played);
         }
     }
 }

@@ -40,8 +40,8 @@ impl Engine {
             return Err(replacement);
         }
         let Some(instrument) = replacement.instrument.take() else { return Err(replacement) };
-        let goes_on = self.instrument.continues_in(&instrument);
-        if let Err(instrument) = self.instrument.hand_over(instrument) {
+        let goes_on = self.played.instrument.continues_in(&instrument);
+        if let Err(instrument) = self.played.instrument.hand_over(instrument) {
             replacement.instrument = Some(instrument);
             return Err(replacement);
         }
@@ -57,12 +57,12 @@ impl Engine {
 
     /// Samples until what the engine was before has faded, 0 if nothing fades.
     pub fn fading_left(&self) -> u64 {
-        self.instrument.fading_left()
+        self.played.instrument.fading_left()
     }
 
     /// What the engine was before, once it has faded; to be dropped where that does no harm.
     pub fn take_outgoing(&mut self) -> Option<Box<Replacement>> {
-        let instrument = self.instrument.take_before()?;
+        let instrument = self.played.instrument.take_before()?;
         let mut outgoing = self.outgoing.take()?;
         outgoing.instrument = Some(instrument);
         Some(outgoing)

@@ -21,11 +21,11 @@ impl Engine {
     /// Has what the player does kept from now on. The sound is the same bits. Unlike everything else, this takes memory as it
     /// goes: it is not for a thread of sound.
     pub fn record(&mut self) {
-        self.record = Some(Box::default());
+        self.played.record = Some(Box::default());
     }
 
     /// What the player has done since then, which is kept no longer; nothing if it was not.
     pub fn take_record(&mut self) -> Record {
-        self.record.take().map_or_else(Record::default, |record| *record)
+        self.played.record.take().map_or_else(Record::default, |record| *record)
     }
 }
