@@ -1,4 +1,5 @@
-//! An entry of the energy ledger: one sample's energies and powers, term by term.
+//! An entry of the energy ledger: one sample's energies and powers, term by term. Whatever sums terms takes all of them apart first,
+//! so that a new one is not forgotten there.
 
 use std::ops::AddAssign;
 
@@ -21,17 +22,19 @@ pub struct Energies {
 impl Energies {
     /// All of it, J.
     pub fn total(&self) -> f64 {
-        self.string + self.tension + self.contact + self.finger + self.body
+        let Self { string, tension, contact, finger, body } = *self;
+        string + tension + contact + finger + body
     }
 }
 
 impl AddAssign for Energies {
     fn add_assign(&mut self, other: Energies) {
-        self.string += other.string;
-        self.tension += other.tension;
-        self.contact += other.contact;
-        self.finger += other.finger;
-        self.body += other.body;
+        let Energies { string, tension, contact, finger, body } = other;
+        self.string += string;
+        self.tension += tension;
+        self.contact += contact;
+        self.finger += finger;
+        self.body += body;
     }
 }
 
@@ -53,11 +56,12 @@ pub struct Losses {
 
 impl AddAssign for Losses {
     fn add_assign(&mut self, other: Losses) {
-        self.loss_0 += other.loss_0;
-        self.loss_1 += other.loss_1;
-        self.contact += other.contact;
-        self.hand += other.hand;
-        self.body += other.body;
+        let Losses { loss_0, loss_1, contact, hand, body } = other;
+        self.loss_0 += loss_0;
+        self.loss_1 += loss_1;
+        self.contact += contact;
+        self.hand += hand;
+        self.body += body;
     }
 }
 
@@ -83,13 +87,14 @@ pub struct Inputs {
 
 impl AddAssign for Inputs {
     fn add_assign(&mut self, other: Inputs) {
-        self.pluck += other.pluck;
-        self.bridge += other.bridge;
-        self.hand += other.hand;
-        self.slide += other.slide;
-        self.barrier += other.barrier;
-        self.tension += other.tension;
-        self.finger += other.finger;
+        let Inputs { pluck, bridge, hand, slide, barrier, tension, finger } = other;
+        self.pluck += pluck;
+        self.bridge += bridge;
+        self.hand += hand;
+        self.slide += slide;
+        self.barrier += barrier;
+        self.tension += tension;
+        self.finger += finger;
     }
 }
 
@@ -114,12 +119,13 @@ pub struct Entry {
 
 impl AddAssign for Entry {
     fn add_assign(&mut self, other: Entry) {
-        self.energies += other.energies;
-        self.power_loss += other.power_loss;
-        self.losses += other.losses;
-        self.power_solver += other.power_solver;
-        self.power_in += other.power_in;
-        self.inputs += other.inputs;
-        self.residual += other.residual;
+        let Entry { energies, power_loss, losses, power_solver, power_in, inputs, residual } = other;
+        self.energies += energies;
+        self.power_loss += power_loss;
+        self.losses += losses;
+        self.power_solver += power_solver;
+        self.power_in += power_in;
+        self.inputs += inputs;
+        self.residual += residual;
     }
 }
