@@ -104,10 +104,26 @@ pub enum Stencil {
     Wide,
 }
 
+impl Stencil {
+    /// All of them, the published one first.
+    pub const ALL: [Self; 3] = [Self::Paper, Self::Corrected, Self::Wide];
+
+    /// Its name in a scene file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Corrected => "corrected",
+            Self::Wide => "wide",
+        }
+    }
+}
+
 impl<'de> Deserialize<'de> for Stencil {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         use Stencil::{Corrected, Paper, Wide};
-        choice(deserializer, &[("paper", Paper), ("corrected", Corrected), ("wide", Wide)])
+        const NAMED: [(&str, Stencil); Stencil::ALL.len()] =
+            [(Paper.name(), Paper), (Corrected.name(), Corrected), (Wide.name(), Wide)];
+        choice(deserializer, &NAMED)
     }
 }
 

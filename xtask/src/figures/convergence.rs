@@ -19,10 +19,10 @@ const STRING: &str = "scenes/paper/figure_2.toml";
 const BARRIER: &str = "scenes/paper/barrier.toml";
 
 /// The stencils, in the colours that they have in the picture of the trade, too.
-const STENCILS: [(&str, Stencil, Stroke); 3] = [
-    ("paper", Stencil::Paper, Stroke::new(colour::ORANGE)),
-    ("corrected", Stencil::Corrected, Stroke::new(colour::GREEN)),
-    ("wide", Stencil::Wide, Stroke::new(colour::BLUE)),
+const STENCILS: [(Stencil, Stroke); 3] = [
+    (Stencil::Paper, Stroke::new(colour::ORANGE)),
+    (Stencil::Corrected, Stroke::new(colour::GREEN)),
+    (Stencil::Wide, Stroke::new(colour::BLUE)),
 ];
 
 /// Orders in the grid spacing that the analysis promises for partials, of an ideal string and of a stiff one.
@@ -60,7 +60,7 @@ struct Measured {
 pub fn make(repository: &Repository) -> Result<Made> {
     let (string, barrier) = (repository.scene(STRING)?, repository.scene(BARRIER)?);
     let each = |errors: &dyn Fn(Stencil) -> Result<Errors>| -> Result<Vec<Errors>> {
-        STENCILS.iter().map(|stencil| errors(stencil.1)).collect()
+        STENCILS.iter().map(|stencil| errors(stencil.0)).collect()
     };
     let measured = Measured {
         ideal: each(&|stencil| GRIDS.iter().map(|&intervals| ideal(&string, stencil, intervals)).collect())?,
@@ -181,7 +181,8 @@ fn draw(measured: &Measured) -> Result<String> {
         intervals(),
         Axis::log("error, % of the height (rms)", 1e-1..1e1).ticks(3),
     );
-    for (index, (name, _, stroke)) in STENCILS.into_iter().enumerate() {
+    for (index, (stencil, stroke)) in STENCILS.into_iter().enumerate() {
+        let name = stencil.name();
         let add = |panel: Panel, errors: &Errors| {
             panel.with(Layer::line(name, stroke, errors.clone())).with(Layer::dots(
                 "",
@@ -213,7 +214,8 @@ fn draw(measured: &Measured) -> Result<String> {
 fn section(measured: &Measured) -> Section {
     let mut claims = Vec::new();
     let mut rows = Vec::new();
-    for (index, (name, _, _)) in STENCILS.into_iter().enumerate() {
+    for (index, (stencil, _)) in STENCILS.into_iter().enumerate() {
+        let name = stencil.name();
         let orders = [order(&measured.ideal[index]), order(&measured.stiff[index])];
         let promised = [IDEAL[index], STIFF[index]];
         claims.push(Claim::ours(

@@ -7,7 +7,7 @@ use low_action_dsp::curve::{CountOrList, Curve, OneOrEach};
 use low_action_dsp::scene::{
     BoardSpec, FingerSpec, FretPlacement, FretboardSpec, ListeningPoint, OutputSpec, PluckSpec, StringSpec,
 };
-use low_action_dsp::{Drive, Gesture, Scene, Setup, Simulation, SolverSettings, Stencil};
+use low_action_dsp::{Drive, Gesture, Scene, Setup, Simulation, SolverSettings};
 
 use super::bodies;
 use super::draw::Draw;
@@ -160,11 +160,7 @@ fn see_scene(scene: &Scene, drawn: &mut BTreeSet<&'static str>) {
     // Rates and durations are in all of them.
     let Scene { sample_rate: _, duration: _, solver, string, fretboard, body, pluck, finger, output } = scene;
     let SolverSettings { max_iterations: _, tolerance, stencil } = solver;
-    drawn.insert(match stencil {
-        Stencil::Paper => "paper",
-        Stencil::Corrected => "corrected",
-        Stencil::Wide => "wide",
-    });
+    drawn.insert(stencil.name());
     let OutputSpec { position } = output;
     drawn.insert(match position {
         ListeningPoint::Bridge => "heard at the bridge",

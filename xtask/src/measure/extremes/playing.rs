@@ -107,7 +107,7 @@ fn settings(draw: &mut Draw) -> EngineSettings {
     EngineSettings {
         sample_rate: RATE,
         widest_spacing: draw.over(2e-3, 0.1),
-        stencil: draw.one_of(&[Stencil::Paper, Stencil::Corrected, Stencil::Wide]),
+        stencil: draw.one_of(&Stencil::ALL),
         max_iterations: 20,
         tolerance: 1e-10,
     }

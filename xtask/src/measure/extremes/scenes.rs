@@ -31,7 +31,7 @@ struct Drawn {
 /// A scene.
 pub fn scene(draw: &mut Draw) -> Table {
     let rate = draw.over(8e3, 768e3);
-    let stencil = draw.one_of(&["paper", "corrected", "wide"]);
+    let stencil = draw.one_of(&Stencil::ALL);
     let count = if draw.chance(0.1) { 2 } else { 1 };
     let strings: Vec<_> = (0..count).map(|_| string(draw, rate, stencil)).collect();
     let points: usize = strings.iter().map(|string| string.intervals).sum();
@@ -46,7 +46,7 @@ pub fn scene(draw: &mut Draw) -> Table {
     let mut solver = Table::new();
     solver.insert("max_iterations".into(), Value::Integer(draw.one_of(&CAPS) as i64));
     solver.insert("tolerance".into(), draw.over_or_nothing(0.1, 1e-18, 1e-6).into());
-    solver.insert("stencil".into(), stencil.into());
+    solver.insert("stencil".into(), stencil.name().into());
     let mut scene = Table::new();
     scene.insert("sample_rate".into(), rate.into());
     scene.insert("duration".into(), duration.into());
@@ -90,7 +90,7 @@ pub fn scene(draw: &mut Draw) -> Table {
 
 /// A string of 2 cm to 20 m at 0.1 N to 10 kN. Its density and bending stiffness are chosen from the share
 /// of the grid's stability they take up, so that grids from the coarsest on all occur.
-fn string(draw: &mut Draw, rate: f64, stencil: &str) -> Drawn {
+fn string(draw: &mut Draw, rate: f64, stencil: Stencil) -> Drawn {
     loop {
         let length = draw.over(0.02, 20.0);
         let tension = draw.over(0.1, 1e4);
@@ -126,11 +126,6 @@ fn string(draw: &mut Draw, rate: f64, stencil: &str) -> Drawn {
             loss_0,
             loss_1,
             tension_modulation,
-        };
-        let stencil = match stencil {
-            "corrected" => Stencil::Corrected,
-            "wide" => Stencil::Wide,
-            _ => Stencil::Paper,
         };
         // One that has no grid is drawn all the same: the scene is then refused, and counted.
         let grid = Model::grid(&parameters, stencil, k).ok();

@@ -51,7 +51,7 @@ fn settings(draw: &mut Draw, sample_rate: f64) -> EngineSettings {
     EngineSettings {
         sample_rate,
         widest_spacing: draw.over(3e-3, 0.1),
-        stencil: draw.one_of(&[Stencil::Paper, Stencil::Corrected, Stencil::Wide]),
+        stencil: draw.one_of(&Stencil::ALL),
         max_iterations: draw.one_of(&scenes::CAPS),
         tolerance: draw.over_or_nothing(0.1, 1e-15, 1e-6),
     }

@@ -6,7 +6,7 @@ use low_action_figures::style::colour;
 use low_action_figures::{Axis as Scale, Layer, Panel, Sheet, Stroke};
 
 use super::scenes::Kind;
-use super::settings::{Axis, BASE, Setting, quality, settings, stencil_name};
+use super::settings::{Axis, BASE, Setting, quality, settings};
 use super::table::{self, mean_load, of};
 use super::{Outcome, percent};
 
@@ -116,7 +116,7 @@ fn front(wrong: &Wrong, outcomes: &[Outcome]) -> Panel {
     for (stencil, stroke) in STENCILS {
         let own: Vec<&Setting> = grid.iter().filter(|setting| setting.stencil == stencil).collect();
         let points: Vec<(f64, f64)> = own.iter().map(|setting| place(setting)).collect();
-        panel = panel.with(Layer::line(stencil_name(stencil), stroke, points.clone()));
+        panel = panel.with(Layer::line(stencil.name(), stroke, points.clone()));
         panel = panel.with(Layer::dots("", stroke, points.clone()));
         if stencil == Stencil::Wide {
             // A little above the dot; the two lowest rates are too near to each other for a word each, and stand to the left.

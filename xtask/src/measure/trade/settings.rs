@@ -234,18 +234,9 @@ impl Setting {
                     if self.widest.is_finite() { format!("{} mm", 1e3 * self.widest) } else { rate };
                 format!("{}{loss}, {spacing}", placement_name(self.frets))
             }
-            Axis::Grid => format!("{rate}, {}", stencil_name(self.stencil)),
+            Axis::Grid => format!("{rate}, {}", self.stencil.name()),
             Axis::Solver => format!("{rate}, cap {}, {:e} m", self.cap, self.tolerance),
             Axis::Exponent => format!("{rate}, exponent {}", self.exponent.unwrap_or(OWN_NECK.exponent)),
         }
-    }
-}
-
-/// How files and tables write a stencil.
-pub fn stencil_name(stencil: Stencil) -> &'static str {
-    match stencil {
-        Stencil::Paper => "paper",
-        Stencil::Corrected => "corrected",
-        Stencil::Wide => "wide",
     }
 }
