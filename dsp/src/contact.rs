@@ -54,7 +54,6 @@ impl ContactLaw {
     /// # Errors
     /// When either is out of range; `name` says whose they are.
     pub fn new(name: &str, stiffness: f64, exponent: f64) -> Result<Self, Error> {
-        // The full name is put together only for a refusal: whoever places a good finger between steps allocates nothing.
         ranged("stiffness", stiffness, Self::STIFFNESS, "N/m^exponent")
             .and_then(|_| ranged("exponent", exponent, Self::EXPONENT, ""))
             .map_err(|error| error.under(name))?;
