@@ -4,7 +4,7 @@ use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
 use crate::error::Error;
-use crate::setup::Setup;
+use crate::setup::{self, Setup};
 use crate::times::refuse_times;
 
 /// The set-ups that show what strings over frets can do: name and file.
@@ -32,15 +32,10 @@ const BASE: &str = "based_on";
 
 impl Setup {
     /// Names of the set-ups that come with the program beside [`Setup::BUILTIN`].
-    pub const PRESETS: [&'static str; FILES.len()] = {
-        let mut names = [""; FILES.len()];
-        let mut i = 0;
-        while i < FILES.len() {
-            names[i] = FILES[i].0;
-            i += 1;
-        }
-        names
-    };
+    pub const PRESETS: [&'static str; FILES.len()] = names(&[&FILES]);
+
+    /// Names of all set-ups that come with the program, those before these.
+    pub const SHIPPED: [&'static str; setup::FILES.len() + FILES.len()] = names(&[&setup::FILES, &FILES]);
 
     /// Any set-up that comes with the program, by its name.
     pub fn shipped(name: &str) -> Option<Setup> {
@@ -49,6 +44,22 @@ impl Setup {
             Some(Setup::from_toml(text).expect("the files in instruments/presets are read by the tests"))
         })
     }
+}
+
+/// The names in lists of names and files, of which there must be so many in all.
+pub(crate) const fn names<const COUNT: usize>(lists: &[&[(&'static str, &str)]]) -> [&'static str; COUNT] {
+    let mut names = [""; COUNT];
+    let (mut list, mut place, mut count) = (0, 0, 0);
+    while list < lists.len() {
+        if place < lists[list].len() {
+            names[count] = lists[list][place].0;
+            (place, count) = (place + 1, count + 1);
+        } else {
+            (list, place) = (list + 1, 0);
+        }
+    }
+    assert!(count == COUNT, "one of them has no name");
+    names
 }
 
 /// Reads a description that may be another with a few things changed: `based_on = "NAME"` stands for all of

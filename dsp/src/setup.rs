@@ -18,6 +18,7 @@ use crate::error::{Error, limited, ranged, within};
 use crate::intonation::Behind;
 use crate::model::{Barrier, StringParameters};
 use crate::neck::Neck;
+use crate::preset::names;
 pub use body::Body;
 pub(crate) use body::Mode;
 pub use bridge::Bridge;
@@ -91,7 +92,7 @@ fn yes() -> bool {
 }
 
 /// The built-in set-ups: name and file.
-const FILES: [(&str, &str); 4] = [
+pub(crate) const FILES: [(&str, &str); 4] = [
     ("electric", include_str!("../instruments/electric.toml")),
     ("classical", include_str!("../instruments/classical.toml")),
     ("steel", include_str!("../instruments/steel.toml")),
@@ -112,7 +113,7 @@ const PITCH: [f64; 2] = [0.0, 127.0];
 
 impl Setup {
     /// Names of the built-in set-ups; the first is the default.
-    pub const BUILTIN: [&'static str; 4] = [FILES[0].0, FILES[1].0, FILES[2].0, FILES[3].0];
+    pub const BUILTIN: [&'static str; FILES.len()] = names(&[&FILES]);
 
     /// A built-in set-up by its name.
     pub fn builtin(name: &str) -> Option<Setup> {

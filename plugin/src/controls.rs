@@ -238,9 +238,8 @@ mod tests {
                 format!("based_on = \"electric\"\n[pickup]\nposition = {position}\naperture = {aperture}\n");
             Setup::from_toml(&text).expect("the coil is on the string")
         };
-        let shipped = Setup::BUILTIN.into_iter().chain(Setup::PRESETS);
-        let mut setups: Vec<_> =
-            shipped.map(|name| Setup::shipped(name).expect("it comes with the program")).collect();
+        let mut setups =
+            Setup::SHIPPED.map(|name| Setup::shipped(name).expect("it comes with the program")).to_vec();
         // Beside the saddle, beside the nut, and all along the string of 0.6477 m.
         setups.extend([tight(0.0104, 0.02), tight(0.637, 0.02), tight(0.3238, 0.645), tight(5e-4, 0.0)]);
         for setup in setups {

@@ -12,17 +12,7 @@ use crate::engine::{Engine, EngineOptions};
 use crate::files;
 
 /// Names of the set-ups that come with the program, the usual one first. Hosts number them in this order.
-pub const SHIPPED: [&str; Setup::BUILTIN.len() + Setup::PRESETS.len()] = {
-    let mut names = [""; Setup::BUILTIN.len() + Setup::PRESETS.len()];
-    let mut index = 0;
-    while index < names.len() {
-        let built_in = Setup::BUILTIN.len();
-        names[index] =
-            if index < built_in { Setup::BUILTIN[index] } else { Setup::PRESETS[index - built_in] };
-        index += 1;
-    }
-    names
-};
+pub const SHIPPED: [&str; Setup::SHIPPED.len()] = Setup::SHIPPED;
 
 /// Largest set-up file read, bytes; those that come with the program have a few thousand.
 pub const LARGEST_FILE: u64 = 1 << 20;

@@ -32,7 +32,7 @@ fn each_note(name: &str, last: usize, mut heard: impl FnMut(usize, u8, &[f32])) 
 
 #[test]
 fn instruments_have_bodies_where_guitars_have_them() {
-    for name in Setup::BUILTIN.into_iter().chain(Setup::PRESETS) {
+    for name in Setup::SHIPPED {
         let setup = shipped(name);
         assert_eq!(setup.body.is_some(), BODIES.contains(&name), "{name}");
         assert_eq!(setup.pickup == (Pickup::Microphone {}), BODIES.contains(&name), "{name}");

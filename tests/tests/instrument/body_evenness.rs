@@ -44,7 +44,7 @@ fn over_neighbours(levels: &[f64]) -> Vec<f64> {
 fn no_note_is_dead() {
     let page = include_str!("../../../docs/physics.md");
     let (mut softest, mut loudest): (f64, f64) = (0.0, 0.0);
-    for name in Setup::BUILTIN.into_iter().chain(Setup::PRESETS) {
+    for name in Setup::SHIPPED {
         let setup = Setup::shipped(name).expect("it comes with the program");
         if setup.body.is_none() {
             continue;

@@ -14,7 +14,7 @@ const RATES: [f64; 6] = [8e3, 11_025.0, 12e3, 16e3, 22_050.0, 24e3];
 fn in_tune() -> impl Iterator<Item = Setup> {
     // Its fingers hardly press; and a wide bridge is off by some cents itself, in `live` as well.
     let others = ["light-fingers", "sitar"];
-    let names = Setup::BUILTIN.into_iter().chain(Setup::PRESETS).filter(move |name| !others.contains(name));
+    let names = Setup::SHIPPED.into_iter().filter(move |name| !others.contains(name));
     let setups = names.map(|name| Setup::shipped(name).expect("it is shipped"));
     setups.filter(|setup| {
         setup.intonation == Intonation::Compensated && !setup.neck.fretless && setup.neck.frets > 0

@@ -36,7 +36,7 @@ fn built_in_setups_read() {
 
 #[test]
 fn what_is_written_is_read_again() {
-    for name in Setup::BUILTIN.into_iter().chain(Setup::PRESETS) {
+    for name in Setup::SHIPPED {
         let setup = Setup::shipped(name).unwrap();
         let text = setup.to_toml().unwrap();
         assert_eq!(Setup::from_toml(&text).unwrap(), setup, "{text}");
@@ -359,7 +359,7 @@ fn what_is_limited_is_accepted() {
         setup.limit();
         setup.player.limit();
     };
-    for name in Setup::BUILTIN.into_iter().chain(Setup::PRESETS) {
+    for name in Setup::SHIPPED {
         let shipped = Setup::shipped(name).unwrap();
         let mut same = shipped.clone();
         limit(&mut same);
