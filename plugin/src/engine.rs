@@ -343,6 +343,11 @@ impl Engine {
         self.performance.announced()
     }
 
+    /// Wheels reach as far from the next sample on as before any reach was announced.
+    pub fn forget_reach(&mut self) {
+        self.performance.forget_reach();
+    }
+
     /// Takes it as announced to this engine, to which nothing has been since it was built or [reset](Self::reset).
     pub fn announce(&mut self, announced: &Announced) {
         self.performance.announce(announced);

@@ -106,7 +106,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
     let files = Files::begin(arguments, &output, &names)?;
 
     let started = Instant::now();
-    let rendering = Rendering { engine, touching, song: &song, source, files, warnings, longest_tail };
+    let rendering = Rendering { engine, song: &song, source, files, warnings, longest_tail };
     let rendered = rendering.play()?;
     report(arguments, &output, &rendered, started.elapsed().as_secs_f64())
 }

@@ -38,6 +38,12 @@ impl Performance {
         }
     }
 
+    /// Wheels reach as far from the next sample on as before any reach was announced.
+    pub fn forget_reach(&mut self) {
+        self.channels.iter_mut().for_each(super::Channel::forget_reach);
+        self.follow_wheels();
+    }
+
     /// Takes it as announced to this player, to whom nothing has been since the last [reset](Performance::reset).
     pub fn announce(&mut self, announced: &Announced) {
         for (channel, &Channel { reach, members }) in self.channels.iter_mut().zip(&announced.channels) {

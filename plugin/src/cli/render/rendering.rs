@@ -13,7 +13,6 @@ use super::timeline::timeline;
 use super::warnings;
 use crate::cli::progress::Progress;
 use crate::cli::wav::Findings;
-use crate::controls::Touching;
 use crate::engine::{Engine, INAUDIBLE, QUIET};
 use crate::midi_file::Song;
 use crate::performance::PlayerEvent;
@@ -35,8 +34,6 @@ pub(super) struct Rendered {
 /// A song on its way through the engine.
 pub(super) struct Rendering<'a> {
     pub engine: Engine,
-    /// How hands act, as the engine has been told.
-    pub touching: Touching,
     pub song: &'a Song,
     pub source: Source<'a>,
     pub files: Files,
@@ -124,18 +121,10 @@ impl Rendering<'_> {
             if sequence_ends {
                 // What no event puts back is put back between what ends and what begins at this sample.
                 self.engine.deliver_present();
-                self.forget_reach();
+                self.engine.forget_reach();
             }
         }
         frames
-    }
-
-    /// Has wheels reach as far as before any reach was announced: it is forgotten where it is to be passed over.
-    fn forget_reach(&mut self) {
-        let Touching { ignore_rpn, .. } = self.touching;
-        for ignore_rpn in [!ignore_rpn, ignore_rpn] {
-            self.engine.touch(&Touching { ignore_rpn, ..self.touching });
-        }
     }
 
     /// Computes so many samples and writes them, but for the first, which hold what was before the song. Returns the largest
