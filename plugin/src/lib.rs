@@ -29,6 +29,7 @@ pub mod display;
 pub mod editor;
 pub mod engine;
 mod files;
+mod locked;
 pub mod midi_file;
 pub mod params;
 pub mod performance;

@@ -4,13 +4,14 @@
 //! too, and so never looks between the two. That happens on a thread of its own, which may wait.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, Once, PoisonError};
+use std::sync::{Mutex, MutexGuard, Once};
 use std::{fs, io};
 
 use tempfile::NamedTempFile;
 
 use super::stopping;
 use crate::files;
+use crate::locked::lock;
 
 /// All of it in this process.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -77,7 +78,7 @@ pub(super) fn undisturbed<T>(work: impl FnOnce(&mut Vec<PathBuf>) -> T) -> T {
 }
 
 fn list() -> MutexGuard<'static, Vec<PathBuf>> {
-    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+    lock(&UNFINISHED)
 }
 
 /// Has whatever asks the program to stop clean up.

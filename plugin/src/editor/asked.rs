@@ -2,10 +2,11 @@
 //! earliest. What is done in the meantime goes on from what was asked for, or steps would be lost.
 
 use std::collections::HashMap;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 
 use nice_plug::params::internals::ParamPtr;
 
+use crate::locked::lock;
 use crate::pointer::OLD;
 
 /// How long a host has for it, s: as long as what is played may wait, more than the longest block takes.
@@ -84,9 +85,8 @@ impl Asked {
         self.inside().ways.is_empty()
     }
 
-    /// Nothing a panicking view could have left half-done matters here.
     fn inside(&self) -> MutexGuard<'_, Inside> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.0)
     }
 }
 

@@ -1,11 +1,12 @@
 //! Two sets of values, A and B, to be compared by ear.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 
 use nice_plug::params::internals::ParamPtr;
 
 use super::Given;
 use super::noted::put;
+use crate::locked::lock;
 use crate::plugin::shelf::Kept;
 
 /// Parameters and their values, 0 to 1.
@@ -62,9 +63,8 @@ impl Compare {
         *self.inside() = Inside::default();
     }
 
-    /// Nothing a panicking view could have left half-done matters here.
     fn inside(&self) -> MutexGuard<'_, Inside> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.0)
     }
 }
 

@@ -6,7 +6,7 @@
 mod tests;
 
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard};
 
 use nice_plug::context::gui::GuiContext;
 use nice_plug::params::internals::ParamPtr;
@@ -15,6 +15,7 @@ use nice_plug::prelude::{Param, Params};
 use super::asked::Asked;
 use super::compare::{Compare, Set};
 use super::noted::put;
+use crate::locked::lock;
 use crate::params::LowActionParams;
 use crate::plugin::shelf::Kept;
 
@@ -288,9 +289,8 @@ impl History {
         }
     }
 
-    /// Nothing a panicking view could have left half-done matters here.
     fn inside(&self) -> MutexGuard<'_, Inside> {
-        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.inside)
     }
 }
 

@@ -3,13 +3,14 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use anyhow::{Context, Result};
 use nice_plug::params::persist::PersistentField;
 use serde::{Deserialize, Serialize};
 
 use crate::files;
+use crate::locked::lock;
 
 /// Usual size of the window, in points.
 pub const SIZE: [f32; 2] = [1120.0, 760.0];
@@ -86,12 +87,12 @@ pub struct Layout(Arc<Mutex<Seen>>);
 impl Layout {
     /// What was seen last.
     pub fn seen(&self) -> Seen {
-        *self.lock()
+        *lock(&self.0)
     }
 
     /// Keeps what is seen now.
     pub fn keep(&self, seen: Seen) {
-        *self.lock() = seen.admitted();
+        *lock(&self.0) = seen.admitted();
     }
 
     /// Has the computer's keys play something else.
@@ -119,11 +120,6 @@ impl Layout {
     pub fn save(&self, path: &Path) -> Result<()> {
         let text = serde_json::to_string_pretty(&self.seen())?;
         files::put(path, &text).context("cannot keep how the window was left")
-    }
-
-    /// There is nothing in it that a panicking thread could have left half-done.
-    fn lock(&self) -> MutexGuard<'_, Seen> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

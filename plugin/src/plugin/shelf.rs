@@ -11,12 +11,13 @@ mod kept;
 mod tests;
 
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use low_action_dsp::Setup;
 use nice_plug::prelude::nice_error;
 
 use crate::cli::one_line;
+use crate::locked::lock;
 use crate::setups::{self, SetupFile};
 pub(crate) use kept::Kept;
 pub use kept::Saved;
@@ -351,9 +352,4 @@ impl Shelf {
             lock(&self.0.files).iter().position(|file| file.name == title).map(|place| place as i32 + 1);
         place.or_else(|| title.split(':').next()?.trim().parse().ok())
     }
-}
-
-/// Nothing a panicking thread could have left half-done matters here.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
