@@ -1,6 +1,7 @@
 //! Which files a command reads and writes: no result may take the place of another, or of what it is made from.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::descriptors::descriptor;
@@ -14,6 +15,17 @@ pub(super) type Named = (String, PathBuf);
 /// Standard input or output.
 pub(super) fn is_dash(path: &Path) -> bool {
     path == Path::new("-")
+}
+
+/// Reads a file or standard input: of more bytes than are accepted one more, so that an endless source ends and can be refused.
+pub(super) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    if is_dash(path) {
+        io::stdin().lock().take(most + 1).read_to_end(&mut bytes)?;
+    } else {
+        File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    }
+    Ok(bytes)
 }
 
 /// Refuses to write two results, or a result and something that is read, to one file.

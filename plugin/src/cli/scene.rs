@@ -11,8 +11,6 @@ mod seen;
 mod summary;
 mod warnings;
 
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::Path;
 use std::time::Instant;
 
@@ -21,7 +19,7 @@ use low_action_dsp::{Scene, Simulation};
 
 use super::endings::{self, refuse_others};
 use super::names::shown;
-use super::paths::{is_dash, keep_apart};
+use super::paths::{self, is_dash, keep_apart};
 use super::progress::Progress;
 use super::trace::Trace;
 use super::{Outcome, SceneArgs, say};
@@ -75,16 +73,8 @@ fn scene_name(path: &Path) -> String {
 
 /// Reads the scene from wherever it is: how it is written, and what that says.
 fn read(path: &Path) -> Result<(String, Scene)> {
-    let mut bytes = Vec::new();
-    // One byte more than is accepted, so that an endless source ends and is refused.
-    let limit = LARGEST_SCENE + 1;
     let name = scene_name(path);
-    let read = if is_dash(path) {
-        io::stdin().lock().take(limit).read_to_end(&mut bytes)
-    } else {
-        File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
-    };
-    read.with_context(|| format!("cannot read {name}"))?;
+    let bytes = paths::read(path, LARGEST_SCENE).with_context(|| format!("cannot read {name}"))?;
     if bytes.len() as u64 > LARGEST_SCENE {
         bail!("{name} is too large for a scene: at most {} MiB are accepted", LARGEST_SCENE >> 20);
     }

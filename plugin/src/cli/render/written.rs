@@ -1,14 +1,12 @@
 //! The song as it is written: its bytes, from wherever they are.
 
 use std::borrow::Cow;
-use std::fs::File;
-use std::io::{self, Read};
 
 use anyhow::{Context, Result};
 
 use super::{Seed, song_name};
 use crate::cli::RenderArgs;
-use crate::cli::paths::is_dash;
+use crate::cli::paths;
 use crate::demo;
 use crate::midi_file::{LARGEST_FILE, Selection, Song};
 use crate::params::InputChoice;
@@ -17,18 +15,11 @@ use crate::params::InputChoice;
 pub(super) struct Written(Cow<'static, [u8]>);
 
 impl Written {
-    /// Reads them all, but of more than are accepted one more, so that an endless source ends and is refused.
+    /// Reads them all, but of more than are accepted one more, for which they are refused.
     pub(super) fn read(arguments: &RenderArgs) -> Result<Self> {
         let Some(path) = &arguments.song else { return Ok(Self(demo::MIDI.into())) };
-        let limit = LARGEST_FILE as u64 + 1;
-        let mut bytes = Vec::new();
-        let read = if is_dash(path) {
-            io::stdin().lock().take(limit).read_to_end(&mut bytes)
-        } else {
-            File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
-        };
-        read.with_context(|| format!("cannot read {}", song_name(arguments)))?;
-        Ok(Self(bytes.into()))
+        let bytes = paths::read(path, LARGEST_FILE as u64);
+        Ok(Self(bytes.with_context(|| format!("cannot read {}", song_name(arguments)))?.into()))
     }
 
     /// The music in them.
