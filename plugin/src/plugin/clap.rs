@@ -6,6 +6,7 @@
 //! are refused (`refused`), what they ask of parameters wrongly is answered (`parameters`), the tail is known before anything sounds
 //! (`tail`), and one that sleeps is woken (`wake`) when the editor is shown (`shown`), or anything has been set.
 
+mod around;
 mod heard;
 mod in_order;
 mod modulated;

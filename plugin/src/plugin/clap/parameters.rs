@@ -2,8 +2,6 @@
 //! last, or told of a message that has no bytes; and with what a parameter is set to it answers what is added for the moment, which
 //! the host would keep.
 
-use std::sync::OnceLock;
-
 use clap_sys::events::{clap_input_events, clap_output_events};
 use clap_sys::ext::params::{clap_param_info, clap_plugin_params};
 use clap_sys::id::clap_id;
@@ -11,10 +9,10 @@ use clap_sys::plugin::clap_plugin;
 use nice_plug::wrapper::clap::Wrapper;
 
 use super::Instance;
+use super::around::Around;
 use crate::plugin::LowAction;
 
-/// The framework's functions for parameters, and ours around them: the same for all instances.
-static FUNCTIONS: OnceLock<[clap_plugin_params; 2]> = OnceLock::new();
+static FUNCTIONS: Around<clap_plugin_params> = Around::new();
 
 /// The extension for parameters, with these put right; nothing for nothing.
 ///
@@ -22,20 +20,18 @@ static FUNCTIONS: OnceLock<[clap_plugin_params; 2]> = OnceLock::new();
 /// It must be null or the framework's, whose functions are the same each time.
 pub(super) unsafe fn around(extension: *const clap_plugin_params) -> *const clap_plugin_params {
     // SAFETY: as above.
-    let Some(inner) = (unsafe { extension.as_ref() }) else { return std::ptr::null() };
-    let [_, outer] = FUNCTIONS.get_or_init(|| {
-        let (get_info, get_value, flush) = (Some(get_info as _), Some(get_value as _), Some(flush as _));
-        [*inner, clap_plugin_params { get_info, get_value, flush, ..*inner }]
-    });
-    outer
-}
-
-fn inner() -> Option<&'static clap_plugin_params> {
-    FUNCTIONS.get().map(|[inner, _]| inner)
+    unsafe {
+        FUNCTIONS.around(extension, |inner| clap_plugin_params {
+            get_info: Some(get_info),
+            get_value: Some(get_value),
+            flush: Some(flush),
+            ..*inner
+        })
+    }
 }
 
 unsafe extern "C" fn get_info(plugin: *const clap_plugin, index: u32, info: *mut clap_param_info) -> bool {
-    let Some((count, get_info)) = inner().and_then(|inner| inner.count.zip(inner.get_info)) else {
+    let Some((count, get_info)) = FUNCTIONS.inner().and_then(|inner| inner.count.zip(inner.get_info)) else {
         return false;
     };
     // SAFETY: the host gives back what it was given, and room.
@@ -43,7 +39,7 @@ unsafe extern "C" fn get_info(plugin: *const clap_plugin, index: u32, info: *mut
 }
 
 unsafe extern "C" fn get_value(plugin: *const clap_plugin, id: clap_id, value: *mut f64) -> bool {
-    let Some(inner) = inner().and_then(|inner| inner.get_value) else { return false };
+    let Some(inner) = FUNCTIONS.inner().and_then(|inner| inner.get_value) else { return false };
     // SAFETY: the host gives back what it was given, and room; the framework's own is behind it, and parameters live as long.
     unsafe {
         if !inner(plugin, id, value) {
@@ -63,7 +59,7 @@ unsafe extern "C" fn flush(
     input: *const clap_input_events,
     output: *const clap_output_events,
 ) {
-    let Some(inner) = inner().and_then(|inner| inner.flush) else { return };
+    let Some(inner) = FUNCTIONS.inner().and_then(|inner| inner.flush) else { return };
     if plugin.is_null() {
         return;
     }

@@ -3,17 +3,15 @@
 //! The framework (nice-plug 0.4.2) takes what the plugin has made empty as loaded. A host that believed it would save what is there
 //! over a session of a newer program.
 
-use std::sync::OnceLock;
-
 use clap_sys::ext::state::clap_plugin_state;
 use clap_sys::plugin::clap_plugin;
 use clap_sys::stream::clap_istream;
 
 use super::Instance;
+use super::around::Around;
 use crate::plugin::state::taken_in;
 
-/// The framework's functions for states, and ours around them: the same for all instances.
-static FUNCTIONS: OnceLock<[clap_plugin_state; 2]> = OnceLock::new();
+static FUNCTIONS: Around<clap_plugin_state> = Around::new();
 
 /// The extension for states, with refusals told; nothing for nothing.
 ///
@@ -21,13 +19,11 @@ static FUNCTIONS: OnceLock<[clap_plugin_state; 2]> = OnceLock::new();
 /// It must be null or the framework's, whose functions are the same each time.
 pub(super) unsafe fn around(extension: *const clap_plugin_state) -> *const clap_plugin_state {
     // SAFETY: as above.
-    let Some(inner) = (unsafe { extension.as_ref() }) else { return std::ptr::null() };
-    let [_, outer] = FUNCTIONS.get_or_init(|| [*inner, clap_plugin_state { load: Some(load), ..*inner }]);
-    outer
+    unsafe { FUNCTIONS.around(extension, |inner| clap_plugin_state { load: Some(load), ..*inner }) }
 }
 
 unsafe extern "C" fn load(plugin: *const clap_plugin, stream: *const clap_istream) -> bool {
-    let Some(inner) = FUNCTIONS.get().and_then(|[inner, _]| inner.load) else { return false };
+    let Some(inner) = FUNCTIONS.inner().and_then(|inner| inner.load) else { return false };
     // SAFETY: the host gives back what it was given, and a stream.
     unsafe {
         if plugin.is_null() {

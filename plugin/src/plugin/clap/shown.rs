@@ -5,15 +5,14 @@
 //! the framework: nobody looks at it.
 
 use std::ffi::c_char;
-use std::sync::OnceLock;
 
 use clap_sys::ext::gui::{clap_plugin_gui, clap_window};
 use clap_sys::plugin::clap_plugin;
 
 use super::Instance;
+use super::around::Around;
 
-/// The framework's functions for windows, and ours around them: the same for all instances.
-static FUNCTIONS: OnceLock<[clap_plugin_gui; 2]> = OnceLock::new();
+static FUNCTIONS: Around<clap_plugin_gui> = Around::new();
 
 /// The extension for windows, with the host woken by what shows one; nothing for nothing.
 ///
@@ -21,39 +20,37 @@ static FUNCTIONS: OnceLock<[clap_plugin_gui; 2]> = OnceLock::new();
 /// It must be null or the framework's, whose functions are the same each time.
 pub(super) unsafe fn around(extension: *const clap_plugin_gui) -> *const clap_plugin_gui {
     // SAFETY: as above.
-    let Some(inner) = (unsafe { extension.as_ref() }) else { return std::ptr::null() };
-    let [_, outer] = FUNCTIONS.get_or_init(|| {
-        let (create, set_parent) = (Some(create as _), Some(set_parent as _));
-        let (show, hide) = (Some(show as _), Some(hide as _));
-        [*inner, clap_plugin_gui { create, set_parent, show, hide, ..*inner }]
-    });
-    outer
-}
-
-fn inner() -> Option<&'static clap_plugin_gui> {
-    FUNCTIONS.get().map(|[inner, _]| inner)
+    unsafe {
+        FUNCTIONS.around(extension, |inner| clap_plugin_gui {
+            create: Some(create),
+            set_parent: Some(set_parent),
+            show: Some(show),
+            hide: Some(hide),
+            ..*inner
+        })
+    }
 }
 
 unsafe extern "C" fn create(plugin: *const clap_plugin, api: *const c_char, is_floating: bool) -> bool {
-    let Some(inner) = inner().and_then(|gui| gui.create) else { return false };
+    let Some(inner) = FUNCTIONS.inner().and_then(|gui| gui.create) else { return false };
     // SAFETY: the host gives back what it was given, and names a kind of windows.
     unsafe { inner(plugin, api, is_floating) && is_hidden(plugin) }
 }
 
 unsafe extern "C" fn set_parent(plugin: *const clap_plugin, window: *const clap_window) -> bool {
-    let Some(inner) = inner().and_then(|gui| gui.set_parent) else { return false };
+    let Some(inner) = FUNCTIONS.inner().and_then(|gui| gui.set_parent) else { return false };
     // SAFETY: the host gives back what it was given, and a window.
     unsafe { inner(plugin, window) && is_shown(plugin) }
 }
 
 unsafe extern "C" fn show(plugin: *const clap_plugin) -> bool {
-    let Some(inner) = inner().and_then(|gui| gui.show) else { return false };
+    let Some(inner) = FUNCTIONS.inner().and_then(|gui| gui.show) else { return false };
     // SAFETY: as above.
     unsafe { inner(plugin) && is_shown(plugin) }
 }
 
 unsafe extern "C" fn hide(plugin: *const clap_plugin) -> bool {
-    let Some(inner) = inner().and_then(|gui| gui.hide) else { return false };
+    let Some(inner) = FUNCTIONS.inner().and_then(|gui| gui.hide) else { return false };
     // SAFETY: as above.
     unsafe { inner(plugin) && is_hidden(plugin) }
 }
