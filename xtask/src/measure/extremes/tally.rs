@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use indicatif::HumanCount;
 use serde::{Deserialize, Serialize};
 
 use super::balance::TOLERANCE;
@@ -142,18 +143,18 @@ impl Tally {
 
     /// What trials of exchanges came to, in a few lines.
     pub fn exchanges_in_words(&self) -> String {
-        let [all, carried] = self.exchanges.map(grouped);
+        let [all, carried] = self.exchanges.map(HumanCount);
         format!(
             "{all} instruments took over from others, of {carried} of which the strings rang on, and {} were turned away\n\
              in {} trials board or frets stood above a string at rest\n\
              energy above what was put in, at most {:.0e} of it; balance open, at most {:.0e}\n\
              rounding alone may be more than 1e-9 in {}, and was in {}; {} refused, {} broke a promise",
-            grouped(self.turned_away),
-            grouped(self.raised),
+            HumanCount(self.turned_away),
+            HumanCount(self.raised),
             self.created,
             self.open,
-            grouped(self.coarse),
-            grouped(self.beyond),
+            HumanCount(self.coarse),
+            HumanCount(self.beyond),
             self.refused.values().sum::<u64>(),
             self.faults.len(),
         )
@@ -168,16 +169,16 @@ impl Tally {
             |name: &str, value: String| writeln!(text, "| {name} | {value} |").expect("it is a string");
         row("what", "count".into());
         row("---", "---".into());
-        row("trials", grouped(self.trials));
-        row("with a stream of events", grouped(self.streams));
-        row("grid points × samples", grouped(self.point_samples));
-        row("string-samples with contacts", grouped(self.solved));
+        row("trials", HumanCount(self.trials).to_string());
+        row("with a stream of events", HumanCount(self.streams).to_string());
+        row("grid points × samples", HumanCount(self.point_samples).to_string());
+        row("string-samples with contacts", HumanCount(self.solved).to_string());
         row("most contacts at once", self.contacts.to_string());
         row("**not finite, energy created, or balance open**", format!("**{}**", self.faults.len()));
         row("energy above what was put in, at most", format!("{:.0e} of it", self.created));
         row("balance open, at most", format!("{:.0e} of what was put in", self.open));
-        row("rounding alone may be more than 1e-9", grouped(self.coarse));
-        row("of these, it was", grouped(self.beyond));
+        row("rounding alone may be more than 1e-9", HumanCount(self.coarse).to_string());
+        row("of these, it was", HumanCount(self.beyond).to_string());
         row("refused", format!("{refused} ({:.2} %)", percent(refused, self.trials)));
         for (reason, count) in &self.refused {
             row(&format!("refused: {reason}"), count.to_string());
@@ -193,7 +194,7 @@ impl Tally {
             writeln!(
                 text,
                 "| {cap} | {} | {a} | {b} | {c} | {:.1} % | {:.2} | {:.3} |",
-                grouped(counts.trials),
+                HumanCount(counts.trials),
                 100.0 * counts.lost / counts.trials.max(1) as f64,
                 each(counts.iterations),
                 each(counts.fallbacks),
@@ -202,19 +203,6 @@ impl Tally {
         }
         text
     }
-}
-
-/// A number with its thousands set apart.
-fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 /// A refusal without its numbers, so that refusals for one reason count as one.
@@ -228,12 +216,12 @@ fn kind(reason: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{grouped, kind};
+    use super::*;
 
     #[test]
     fn numbers_are_grouped_and_left_out() {
-        assert_eq!(grouped(0), "0");
-        assert_eq!(grouped(1_234_567), "1,234,567");
+        assert_eq!(HumanCount(0).to_string(), "0");
+        assert_eq!(HumanCount(1_234_567).to_string(), "1,234,567");
         let reason = "string[1].length = 0.3 is refused: it must be at least 0.4 m";
         assert_eq!(kind(reason), "string.length, it must be at least");
     }
