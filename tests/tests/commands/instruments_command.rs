@@ -6,12 +6,10 @@ use low_action::setups::SHIPPED;
 use low_action_dsp::Setup;
 use low_action_tests::command::Workplace;
 
+use crate::workplace;
+
 const LOWER: &str =
     "name = \"lower\"\ndescription = \"two semitones lower\"\nbased_on = \"electric\"\ntuning = -2.0\n";
-
-fn workplace() -> Workplace {
-    Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
-}
 
 /// What is in the folder of the user's own.
 fn installed(place: &Workplace) -> Vec<String> {

@@ -17,3 +17,10 @@ mod scene_errors;
 mod scene_figure;
 mod scene_properties;
 mod scene_trace;
+
+use low_action_tests::command::Workplace;
+
+/// An empty folder to run the command line in.
+fn workplace() -> Workplace {
+    Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
+}

@@ -7,10 +7,11 @@ use std::path::Path;
 
 use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::{Entry, Scene, Simulation};
-use low_action_tests::command::Workplace;
 use low_action_tests::npz::{Array, arrays};
 use low_action_tests::numbers::largest;
 use low_action_tests::scenes::PLUCKED_AND_TAPPED as SCENE;
+
+use crate::workplace;
 
 /// The ledger's arrays, by the alphabet.
 const LEDGER: [&str; 24] = [
@@ -39,10 +40,6 @@ const LEDGER: [&str; 24] = [
     "work_loss",
     "work_solver",
 ];
-
-fn workplace() -> Workplace {
-    Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
-}
 
 fn simulation() -> Simulation {
     Simulation::new(&Scene::from_toml(SCENE).unwrap()).unwrap()
@@ -425,7 +422,7 @@ fn every_example_runs() {
 /// What the help shows as a scene is one, without a warning.
 #[test]
 fn the_scene_in_the_help_can_be_computed() {
-    let place = Workplace::new(env!("CARGO_BIN_EXE_low-action-command"));
+    let place = workplace();
     let help = place.run(&["scene", "--help"]).text();
     let lines = help.lines().skip_while(|line| !line.starts_with("A scene")).skip(1);
     let scene: Vec<&str> = lines.take_while(|line| !line.is_empty()).map(str::trim).collect();

@@ -4,7 +4,9 @@
 use std::path::Path;
 
 use low_action_dsp::{Scene, Simulation};
-use low_action_tests::command::{Finished, Workplace};
+use low_action_tests::command::Finished;
+
+use crate::workplace;
 
 const SCENE: &str = r#"
 sample_rate = 44100
@@ -30,10 +32,6 @@ stiffness = 1e8
 exponent = 2.0
 position = 0.2
 "#;
-
-fn workplace() -> Workplace {
-    Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
-}
 
 /// Whether there is such a device here; what is tried on it is passed over where there is none.
 fn has_device(path: &str) -> bool {

@@ -4,12 +4,9 @@
 use std::fs;
 use std::path::Path;
 
-use low_action_tests::command::Workplace;
 use low_action_tests::scenes::PLUCKED_AND_TAPPED as SCENE;
 
-fn workplace() -> Workplace {
-    Workplace::new(env!("CARGO_BIN_EXE_low-action-command"))
-}
+use crate::workplace;
 
 /// Every element of a picture ends, in the order in which they begin, every attribute has its quotes, and no `&` or `<`
 /// stands for itself.

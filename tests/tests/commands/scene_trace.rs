@@ -54,7 +54,7 @@ height = 0.01
 const PLUCKS: [[f64; 3]; 2] = [[0.0031, 0.00242, 2.5], [0.0, 0.002, -1.5]];
 
 fn workplace() -> Workplace {
-    let place = Workplace::new(env!("CARGO_BIN_EXE_low-action-command"));
+    let place = crate::workplace();
     place.write("scene.toml", SCENE);
     place
 }
