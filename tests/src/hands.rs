@@ -136,6 +136,20 @@ pub fn of_string(gestures: &[TimedGesture], string: usize) -> Vec<TimedGesture> 
     gestures.iter().filter(|gesture| gesture.string == string).copied().collect()
 }
 
+/// Sample, string and force of all plucks.
+pub fn plucks(gestures: &[TimedGesture]) -> Vec<(u64, usize, f64)> {
+    let pluck = |timed: &TimedGesture| match timed.gesture {
+        Gesture::Pluck { force, .. } => Some((timed.time, timed.string, force)),
+        _ => None,
+    };
+    gestures.iter().filter_map(pluck).collect()
+}
+
+/// How many those are.
+pub fn count_plucks(gestures: &[TimedGesture]) -> usize {
+    plucks(gestures).len()
+}
+
 /// Whether any finger is left on a string at the end.
 pub fn any_left(gestures: &[TimedGesture]) -> bool {
     let mut left = Vec::new();

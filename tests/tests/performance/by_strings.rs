@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use low_action::performance::{InputMode, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, of_string, play};
+use low_action_tests::hands::{EXACT, Neck, count_plucks as plucks, of_string, play};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
 const BY_STRINGS: InputMode = InputMode::Strings { first: 0, from_last: false };
@@ -39,10 +39,6 @@ fn connected(slides: bool, events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
 
 fn count(gestures: &[TimedGesture], kind: impl Fn(&Gesture) -> bool) -> usize {
     gestures.iter().filter(|timed| kind(&timed.gesture)).count()
-}
-
-fn plucks(gestures: &[TimedGesture]) -> usize {
-    count(gestures, |gesture| matches!(gesture, Gesture::Pluck { .. }))
 }
 
 #[test]

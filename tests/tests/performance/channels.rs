@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use low_action::controls::Touching;
 use low_action::performance::{Expression, InputMode, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, control, note, of_string, play, wheel};
+use low_action_tests::hands::{self, EXACT, Neck, control, note, of_string, play, wheel};
 use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
@@ -22,15 +22,9 @@ fn keyboard(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
     GUITAR.told(InputMode::Keyboard, &Touching::default(), events)
 }
 
-/// (time, string, force) of the plucks.
+/// (time, string, force) of the plucks, in order of strings.
 fn plucks(gestures: &[TimedGesture]) -> Vec<(u64, usize, f64)> {
-    let mut plucks: Vec<_> = gestures
-        .iter()
-        .filter_map(|g| match g.gesture {
-            Gesture::Pluck { force, .. } => Some((g.time, g.string, force)),
-            _ => None,
-        })
-        .collect();
+    let mut plucks = hands::plucks(gestures);
     plucks.sort_by_key(|pluck| pluck.1);
     plucks
 }

@@ -8,7 +8,7 @@ use low_action::controls::Touching;
 use low_action::performance::{InputMode, Performance, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::cases::cases;
-use low_action_tests::hands::{EXACT, Neck, RATE, play};
+use low_action_tests::hands::{self, EXACT, Neck, RATE, play};
 use low_action_tests::stage::{cc, off, on};
 use proptest::prelude::*;
 
@@ -23,13 +23,7 @@ fn player() -> Performance {
 
 /// (time, string, force) of the plucks, in order of time.
 fn plucks(gestures: &[TimedGesture]) -> Vec<(u64, usize, f64)> {
-    let mut plucks: Vec<(u64, usize, f64)> = gestures
-        .iter()
-        .filter_map(|g| match g.gesture {
-            Gesture::Pluck { force, .. } => Some((g.time, g.string, force)),
-            _ => None,
-        })
-        .collect();
+    let mut plucks = hands::plucks(gestures);
     plucks.sort_by_key(|pluck| pluck.0);
     plucks
 }

@@ -4,16 +4,13 @@
 
 use low_action::performance::PlayerEvent;
 use low_action_dsp::{FINGERS_PER_STRING, Gesture, Setup, TimedGesture};
+use low_action_tests::hands::count_plucks as plucks;
 use low_action_tests::pitch::off_key;
 use low_action_tests::stage::{
     Stage, amplitude, at, cc, decibels, hertz, level, octave, off, on, peak, wheel,
 };
 
 const RATE: f64 = 48_000.0;
-
-fn plucks(gestures: &[TimedGesture]) -> usize {
-    gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).count()
-}
 
 /// Set-up, string, its open key.
 const STRINGS: [(&str, usize, u8); 5] =

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use low_action::performance::{Performance, PlayerEvent};
 use low_action_dsp::{Gesture, TimedGesture};
 use low_action_tests::cases::cases;
-use low_action_tests::hands::{EXACT, Neck, any_left, play as play_by};
+use low_action_tests::hands::{EXACT, Neck, any_left, count_plucks as plucks, play as play_by};
 use low_action_tests::stage::{cc, off, on};
 use proptest::prelude::*;
 
@@ -24,10 +24,6 @@ fn play(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
 fn ends(gestures: &[TimedGesture]) -> Vec<u64> {
     let damper = |g: &&TimedGesture| matches!(g.gesture, Gesture::Place { finger: 2, .. });
     gestures.iter().filter(damper).map(|g| g.time).collect()
-}
-
-fn plucks(gestures: &[TimedGesture]) -> usize {
-    gestures.iter().filter(|g| matches!(g.gesture, Gesture::Pluck { .. })).count()
 }
 
 fn press(time: u64) -> (u64, PlayerEvent) {

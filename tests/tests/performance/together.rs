@@ -6,8 +6,8 @@ use std::sync::LazyLock;
 
 use low_action::controls::Touching;
 use low_action::performance::{InputMode, PlayerEvent};
-use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, control, play, wheel};
+use low_action_dsp::TimedGesture;
+use low_action_tests::hands::{EXACT, Neck, control, play, plucks, wheel};
 use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
@@ -20,15 +20,6 @@ const fn told(number: u8) -> PlayerEvent {
 
 fn played(events: &[(u64, PlayerEvent)]) -> Vec<TimedGesture> {
     GUITAR.told(InputMode::Keyboard, &Touching::new(0.0, 2.0), events)
-}
-
-/// Sample, string and force of the plucks.
-fn plucks(gestures: &[TimedGesture]) -> Vec<(u64, usize, f64)> {
-    let pluck = |g: &TimedGesture| match g.gesture {
-        Gesture::Pluck { force, .. } => Some((g.time, g.string, force)),
-        _ => None,
-    };
-    gestures.iter().filter_map(pluck).collect()
 }
 
 /// Events of one sample, some time after what else is told.

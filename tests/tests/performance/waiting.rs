@@ -4,8 +4,8 @@
 use std::sync::LazyLock;
 
 use low_action::performance::{Compromises, PlayerEvent};
-use low_action_dsp::{Gesture, TimedGesture};
-use low_action_tests::hands::{EXACT, Neck, play};
+use low_action_dsp::TimedGesture;
+use low_action_tests::hands::{EXACT, Neck, count_plucks as plucks, play};
 use low_action_tests::stage::{cc, off, on};
 
 static GUITAR: LazyLock<Neck> = LazyLock::new(|| Neck::of("electric"));
@@ -21,10 +21,6 @@ fn played(told: &[PlayerEvent], meanwhile: &[PlayerEvent]) -> (Vec<TimedGesture>
     let events = told.chain(meanwhile.iter().map(|&event| (MEANWHILE, event)));
     let gestures = play(&mut player, &events.collect::<Vec<_>>());
     (gestures, player.compromises())
-}
-
-fn plucks(gestures: &[TimedGesture]) -> usize {
-    gestures.iter().filter(|timed| matches!(timed.gesture, Gesture::Pluck { .. })).count()
 }
 
 #[test]
