@@ -94,7 +94,7 @@ pub(super) fn run(arguments: &RenderArgs) -> Outcome {
         Engine::new(&options).with_context(|| escaped(&arguments.instrument.to_string_lossy()))?;
     // (Of those that come with the program it is known, and what they are for.)
     if (setup_file.is_some() || !arguments.taken.set.is_empty())
-        && let Some(warning) = tuning::out_of_tune(&options.setup, engine.instrument(), options.quality)?
+        && let Some(warning) = source.tuned(engine.instrument()).out_of_tune()?
     {
         warn(arguments, &warning);
         warnings.push(warning);

@@ -379,9 +379,40 @@ fn frets_of_ones_own_that_cannot_be_in_tune_are_told_of() {
     for (frets, is_told) in [(30, true), (22, false)] {
         fs::write(room.path("own.toml"), format!("{own}{frets}\n")).unwrap();
         let said = room.renders(&[&brief[..], &["own.toml"]].concat());
-        let told = "warning: song.mid: fret 30 of string 5 cannot be brought in tune: it is off by +69 cents";
+        let told = "warning: song.mid: fret 30 of string 5 stays out of tune: it is off by +69 cents";
         assert_eq!(said.matches(told).count(), usize::from(is_told), "{said}");
         assert_eq!(said.contains("warning"), is_told, "{said}");
     }
     assert!(!room.renders(&[&brief[..], &["sitar"]].concat()).contains("warning"));
+}
+
+/// How firmly fingers are set to press decides, as it does of the frequencies that labels have.
+#[test]
+fn frets_out_of_tune_are_those_that_labels_show_to_be() {
+    let room = Room::new();
+    let brief = ["song.mid", "-q", "live", "--tail", "none", "--labels", "x.json", "-i"];
+    for (instrument, force, are_off) in
+        [("electric", 100, false), ("electric", 400, true), ("light-fingers", 400, true)]
+    {
+        let set = format!("finger_force={force}");
+        let said = room.renders(&[&brief[..], &[instrument, "--set", &set]].concat());
+        let labels = read_labels(&room);
+        let off = |string: &serde_json::Value| -> Vec<f64> {
+            let open = string["frequency"].as_f64().unwrap();
+            let frets =
+                string["fret_frequencies"].as_array().unwrap().iter().map(|sounds| sounds.as_f64().unwrap());
+            (1..)
+                .zip(frets)
+                .map(|(fret, sounds)| 1200.0 * (sounds / open).log2() - 100.0 * f64::from(fret))
+                .collect()
+        };
+        let cents: Vec<f64> = labels["strings"].as_array().unwrap().iter().flat_map(off).collect();
+        let farthest = cents.iter().copied().max_by(|one, other| one.abs().total_cmp(&other.abs())).unwrap();
+        assert_eq!(farthest.abs() > 15.0, are_off, "{instrument} {force} %: {farthest} cents");
+        let others = cents.iter().filter(|cents| cents.abs() > 15.0).count().saturating_sub(1);
+        let told =
+            format!(" stays out of tune: it is off by {farthest:+.0} cents, and {others} others by less");
+        assert_eq!(said.contains(&told), are_off, "{said}{told}");
+        assert_eq!(said.contains("out of tune"), are_off, "{said}");
+    }
 }

@@ -1,4 +1,4 @@
-//! What sounds where fingers stop the frets, and which frets cannot be brought in tune.
+//! What sounds where fingers stop the frets, and which frets stay out of tune under them.
 
 use low_action_dsp::intonation::{Intonated, Pressed, Sounding};
 use low_action_dsp::setup::{Intonation, frequency};
@@ -46,44 +46,40 @@ impl<'a> Tuned<'a> {
         self.sounding(index).frequency(fret, Pressed { force, tension_ratio })
     }
 
+    /// What to say of frets that were to be in tune and are not under these fingers, if there are any.
+    pub fn out_of_tune(&self) -> Result<Option<String>, Error> {
+        let setup = self.setup;
+        if setup.intonation == Intonation::Physical {
+            return Ok(None);
+        }
+        let mut off = Vec::new();
+        for (index, string) in setup.string.iter().enumerate() {
+            for (fret, sounds) in (1_usize..).zip(self.stopped(index)?) {
+                let cents = 1200.0 * (sounds / frequency(string.pitch + setup.tuning + fret as f64)).log2();
+                if cents.abs() > OUT_OF_TUNE {
+                    off.push((index + 1, fret, cents));
+                }
+            }
+        }
+        let farthest = off.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
+        Ok(farthest.map(|(string, fret, cents)| {
+            let others = match off.len() {
+                1 => String::new(),
+                2 => ", and 1 other by less".to_owned(),
+                count => format!(", and {} others by less", count - 1),
+            };
+            format!(
+                "fret {fret} of string {string} stays out of tune: it is off by {cents:+.0} cents{others}"
+            )
+        }))
+    }
+
     fn sounding(&self, index: usize) -> Sounding<'_> {
         let Self { setup, instrument, quality, ref placed, .. } = *self;
         let settings = quality.settings(instrument.sample_rate());
         let rate = instrument.ratio(index).value() * instrument.sample_rate();
         Sounding::new(setup, &setup.string[index], &placed[index], settings.stencil, rate)
     }
-}
-
-/// What to say of frets that were to be in tune and are not, if there are any.
-pub(super) fn out_of_tune(
-    setup: &Setup,
-    instrument: &Instrument,
-    quality: Quality,
-) -> Result<Option<String>, Error> {
-    if setup.intonation == Intonation::Physical {
-        return Ok(None);
-    }
-    let mut off = Vec::new();
-    let tuned = Tuned::new(setup, instrument, quality, setup.player.fretting.force);
-    for (index, string) in setup.string.iter().enumerate() {
-        for (fret, sounds) in (1_usize..).zip(tuned.stopped(index)?) {
-            let cents = 1200.0 * (sounds / frequency(string.pitch + setup.tuning + fret as f64)).log2();
-            if cents.abs() > OUT_OF_TUNE {
-                off.push((index + 1, fret, cents));
-            }
-        }
-    }
-    let farthest = off.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
-    Ok(farthest.map(|(string, fret, cents)| {
-        let others = match off.len() {
-            1 => String::new(),
-            2 => ", and 1 other by less".to_owned(),
-            count => format!(", and {} others by less", count - 1),
-        };
-        format!(
-            "fret {fret} of string {string} cannot be brought in tune: it is off by {cents:+.0} cents{others}"
-        )
-    }))
 }
 
 #[cfg(test)]
@@ -95,7 +91,8 @@ mod tests {
     fn told(setup: Setup, rate: f64, quality: Quality) -> Option<String> {
         let options = EngineOptions { quality, ..EngineOptions::new(setup, rate) };
         let engine = Engine::new(&options).unwrap();
-        out_of_tune(&options.setup, engine.instrument(), quality).unwrap()
+        let force = options.setup.player.fretting.force;
+        Tuned::new(&options.setup, engine.instrument(), quality, force).out_of_tune().unwrap()
     }
 
     #[test]
@@ -114,8 +111,7 @@ mod tests {
     fn frets_beyond_what_moving_them_can_mend_are_told_of() {
         let setup = "based_on = \"electric\"\n[neck]\nfrets = 30\n";
         let said = told(Setup::from_toml(setup).unwrap(), 48_000.0, Quality::Live).unwrap();
-        let worst =
-            "fret 30 of string 5 cannot be brought in tune: it is off by +69 cents, and 2 others by less";
+        let worst = "fret 30 of string 5 stays out of tune: it is off by +69 cents, and 2 others by less";
         assert_eq!(said, worst);
         // As sharp as pressing makes it is what was asked for.
         let physical = setup.replace("[neck]", "intonation = \"physical\"\n[neck]");

@@ -122,7 +122,7 @@ impl Source<'_> {
     }
 
     /// The strings as they are tuned, under fingers that press as they are told.
-    pub(super) fn tuned<'a>(&'a self, instrument: &'a Instrument) -> Tuned<'a> {
+    pub(in crate::cli::render) fn tuned<'a>(&'a self, instrument: &'a Instrument) -> Tuned<'a> {
         let Self { arguments, setup, .. } = *self;
         let hands = arguments.taken.touching().hands(&setup.player, setup.neck.scale_length);
         Tuned::new(setup, instrument, arguments.quality, hands.fretting.force)
