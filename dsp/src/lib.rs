@@ -85,7 +85,7 @@
 //! | the law of a contact | `contact.rs` and `contact` (the law, its discrete gradient), `model/barrier.rs` (board and frets), `finger.rs` (pads), `model/steepness.rs` (how stiff is allowed) |
 //! | how contacts are solved | `contact_step.rs`, `solver`, `response`, `active.rs` |
 //! | losses of the string | `model/coasting.rs`, `kernel` (the step), `scene/decay.rs` (`t60`), `energy/string.rs` (what is booked) |
-//! | the stencil, stiffness and stretching | `model/stiffness.rs`, `grid.rs`, `kernel` |
+//! | the stencil, stiffness and stretching | `scene.rs` (names of stencils), `model/stiffness.rs`, `grid.rs`, `kernel` |
 //! | a pluck or another push | `gesture.rs` (shape and numbers), `drive.rs`, `hands` and `ramp.rs` (of an instrument), `simulation/scene_string.rs` (of a scene) |
 //! | a finger, or a hand laid along a string | `finger.rs`, `gesture.rs`, `hands` |
 //! | the body | `body.rs` and `body`, `together.rs` (strings over it), `simulation/scene_body.rs` |
@@ -93,7 +93,7 @@
 //! | a key of a scene | `scene.rs` and `scene`, then `simulation`; `docs/formats.md` |
 //! | a key of a set-up, tuning and fret places | `setup.rs` and `setup`, `neck.rs`, `intonation`; `docs/formats.md` |
 //! | a quality | `quality.rs`, `settings.rs`; `docs/trade.md` |
-//! | a term of the energy balance | `energy` and `entry.rs`; `docs/physics.md` |
+//! | a term of the energy balance | `energy` and `entry.rs`, `plugin/src/cli/trace/booked.rs` (what traces have of it); `docs/physics.md`, `docs/formats.md` |
 //!
 //! The derivation is in `docs/physics.md`, the contact solver in `docs/solver.md`, the files in
 //! `docs/formats.md` of the repository.

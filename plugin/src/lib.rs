@@ -14,11 +14,13 @@
 //!
 //! | to add or change | where, in `plugin/src` unless it says otherwise |
 //! |---|---|
-//! | what a note, pedal or controller does | `performance`: `controller.rs` (numbers), `channel.rs`, `articulation.rs` (controllers), `control.rs` (what they ask of strings), `chord.rs` (who plays what), `right_hand.rs` (plucks), `technique.rs` (constants), `string/` (a note's life on its string), `fingers/` (what fingers and hands do for it); `docs/gestures.md` |
-//! | a parameter | `params.rs`, its range in `params/ranges.rs`, its words in `params/words.rs`, where nothing comes of it `params/idle.rs`, what it asks for in `plugin/order.rs`; `docs/plugin.md` |
+//! | what a note, pedal or controller does | `performance`: `controller.rs` (numbers), `channel.rs`, `articulation.rs` (controllers), `control.rs` (what they ask of strings), `chord.rs` (who plays what), `right_hand` (strokes, palm, thumb), `technique` (constants), `string/` (a note's life on its string), `fingers/` (what fingers and hands do for it); `docs/gestures.md` |
+//! | a parameter | `params.rs`, its range in `params/ranges.rs`, its words in `params/words.rs`, where nothing comes of it `params/idle.rs`, what it asks for in `plugin/order.rs`, what that does in `controls.rs`, its knob in `editor/panels`; `docs/plugin.md` |
 //! | a set-up that comes with the program | `dsp/instruments/presets` and `dsp/src/preset.rs`, a phrase in `plugin/examples/compose_music`; `docs/formats.md` |
 //! | what labels say of notes | `performance/annotation.rs`, put into words in `cli/render/labels`; `docs/formats.md` |
 //! | a command or an option | `cli/arguments.rs`, then the command's own file |
+//! | an array of traces | `cli/trace/plan.rs` and `cli/trace.rs` (what fills it), of the energy balance `cli/trace/booked.rs`, the help in `cli/arguments.rs`; `docs/formats.md` |
+//! | a format of files that are written | a file of its own as `cli/wav.rs` and `cli/npz.rs`, `cli/endings.rs` (what such files are called), then `cli/scene/outputs.rs` or `cli/render/files.rs`; `docs/formats.md` |
 //! | a control of the editor | `editor/panels`; `docs/editor.md` |
 
 pub mod cli;
