@@ -12,13 +12,13 @@ use low_action_dsp::pickup::stretch_tension;
 use low_action_dsp::simulation::SceneString;
 use low_action_dsp::{Entry, Simulation};
 
-use super::PROGRAM as PROGRAM_NAME;
+use super::PROGRAM;
 use super::names::shown;
 use super::npz::NpzFile;
 use super::output::Draft;
 use super::room_left::room_left;
 use booked::{LEDGER, WORK};
-use plan::{EVERY, PROGRAM, Plan, SAMPLE_RATE, SCENE, TIME};
+use plan::{OriginArrays, Plan};
 
 /// The largest trace written, bytes.
 const LARGEST: u64 = 1_000_000_000_000;
@@ -92,20 +92,20 @@ impl Trace {
 
     /// Keeps what does not change.
     fn keep_origin(&mut self, text: &str, simulation: &Simulation) -> io::Result<()> {
-        self.npz.add_text(SCENE, text)?;
-        self.npz.add_text(PROGRAM, PROGRAM_NAME)?;
-        self.npz.add(SAMPLE_RATE, &[simulation.sample_rate()])?;
-        self.npz.add_whole(EVERY, self.plan.every)?;
+        let OriginArrays { scene, program, sample_rate, every } = self.plan.origin;
+        self.npz.add_text(scene, text)?;
+        self.npz.add_text(program, PROGRAM)?;
+        self.npz.add(sample_rate, &[simulation.sample_rate()])?;
+        self.npz.add_whole(every, self.plan.every)?;
         for (arrays, string) in self.plan.strings.iter().zip(simulation.strings()) {
-            // Places stand just before displacements.
-            string.places().try_for_each(|place| self.npz.add(arrays.displacement - 1, &[place]))?;
+            string.places().try_for_each(|place| self.npz.add(arrays.places, &[place]))?;
         }
         Ok(())
     }
 
     /// Keeps the state that the next step leads from.
     fn keep_state(&mut self, simulation: &Simulation) -> io::Result<()> {
-        self.npz.add(TIME, &[simulation.steps() as f64 / simulation.sample_rate()])?;
+        self.npz.add(self.plan.time, &[simulation.steps() as f64 / simulation.sample_rate()])?;
         for (arrays, string) in self.plan.strings.iter().zip(simulation.strings()) {
             string.state.displacement().try_for_each(|u| self.npz.add(arrays.displacement, &[u]))?;
             for finger in string.fingers() {
@@ -134,10 +134,10 @@ impl Trace {
         }
         self.npz.add(self.plan.output, &[simulation.output()])?;
         self.npz.add_count(self.plan.iterations, iterations)?;
-        for (array, (_, number)) in (self.plan.ledger..).zip(LEDGER) {
+        for (array, (_, number)) in self.plan.ledger.into_iter().zip(LEDGER) {
             self.npz.add(array, &[number(entry)])?;
         }
-        for (array, sum) in (self.plan.ledger + LEDGER.len()..).zip(&mut self.since) {
+        for (array, sum) in self.plan.work.into_iter().zip(&mut self.since) {
             self.npz.add(array, &[std::mem::take(sum) / simulation.sample_rate()])?;
         }
         Ok(())
@@ -159,7 +159,7 @@ impl Trace {
         for (fret, force) in string.fret_forces() {
             self.fret_forces[fret] = force;
         }
-        for (&force, array) in self.fret_forces.iter().zip(arrays.frets..) {
+        for (&force, &array) in self.fret_forces.iter().zip(&arrays.frets) {
             self.npz.add(array, &[force])?;
         }
         for pluck in string.plucks() {

@@ -4,11 +4,21 @@ use low_action_dsp::Simulation;
 use low_action_dsp::digits::{at_least, plain};
 
 use super::booked::{LEDGER, WORK};
-use crate::cli::PROGRAM as PROGRAM_NAME;
+use crate::cli::PROGRAM;
 use crate::cli::npz::{Array, Kind};
+
+/// Where it is said what the trace is of: the scene's text, what computed it, at which rate, and how many samples apart rows are.
+#[derive(Clone, Copy)]
+pub(super) struct OriginArrays {
+    pub scene: usize,
+    pub program: usize,
+    pub sample_rate: usize,
+    pub every: usize,
+}
 
 /// Where the numbers of one string go.
 pub(super) struct StringArrays {
+    pub places: usize,
     pub displacement: usize,
     pub tension: usize,
     /// Of it on the bridge.
@@ -18,8 +28,7 @@ pub(super) struct StringArrays {
     /// Of the bridge of a body.
     pub bridge: Option<usize>,
     pub board: Option<usize>,
-    /// The first of its frets' arrays; the others follow.
-    pub frets: usize,
+    pub frets: Vec<usize>,
 }
 
 /// Where the numbers of one finger go.
@@ -29,17 +38,11 @@ pub(super) struct FingerArrays {
     pub force: usize,
 }
 
-/// Where times go, and what the trace is of: the scene's text, what computed it, at which rate, and how many samples apart rows
-/// are.
-pub(super) const TIME: usize = 0;
-pub(super) const SCENE: usize = 1;
-pub(super) const PROGRAM: usize = 2;
-pub(super) const SAMPLE_RATE: usize = 3;
-pub(super) const EVERY: usize = 4;
-
-/// The arrays of a trace and what fills them. Those above are the first.
+/// The arrays of a trace and what fills them.
 pub(super) struct Plan {
     pub arrays: Vec<Array>,
+    pub time: usize,
+    pub origin: OriginArrays,
     pub strings: Vec<StringArrays>,
     /// The force of each pluck.
     pub plucks: Vec<usize>,
@@ -48,7 +51,9 @@ pub(super) struct Plan {
     pub lift: Option<usize>,
     pub output: usize,
     pub iterations: usize,
-    pub ledger: usize,
+    /// As [`LEDGER`] and [`WORK`] have them.
+    pub ledger: [usize; LEDGER.len()],
+    pub work: [usize; WORK.len()],
     pub rows: u64,
     pub every: u64,
 }
@@ -62,11 +67,14 @@ impl Plan {
             arrays.push(Array { name, kind, shape: shape.to_vec() });
             arrays.len() - 1
         };
-        array("t".into(), Kind::Real, &[rows]);
-        array("scene".into(), Kind::Text(text.chars().count() as u64), &[]);
-        array("program".into(), Kind::Text(PROGRAM_NAME.chars().count() as u64), &[]);
-        array("sample_rate".into(), Kind::Real, &[]);
-        array("every".into(), Kind::Whole, &[]);
+        let written = |text: &str| Kind::Text(text.chars().count() as u64);
+        let time = array("t".into(), Kind::Real, &[rows]);
+        let origin = OriginArrays {
+            scene: array("scene".into(), written(text), &[]),
+            program: array("program".into(), written(PROGRAM), &[]),
+            sample_rate: array("sample_rate".into(), Kind::Real, &[]),
+            every: array("every".into(), Kind::Whole, &[]),
+        };
         let has_body = simulation.has_body();
         let has_others = has_body || simulation.strings().len() > 1;
         let mut strings = Vec::new();
@@ -74,7 +82,7 @@ impl Plan {
         let mut finger_numbers = Vec::new();
         for (number, string) in (1..).zip(simulation.strings()) {
             let points = string.model.grid.unknowns() as u64;
-            array(format!("x_{number}"), Kind::Real, &[points]);
+            let places = array(format!("x_{number}"), Kind::Real, &[points]);
             let displacement = array(format!("u_{number}"), Kind::Real, &[rows, points]);
             let tension = array(format!("tension_{number}"), Kind::Real, &[rows]);
             let on_bridge = array(format!("force_bridge_{number}"), Kind::Real, &[rows]);
@@ -82,12 +90,19 @@ impl Plan {
             let bridge = has_body.then(|| array(format!("power_bridge_{number}"), Kind::Real, &[rows]));
             let board =
                 string.has_board().then(|| array(format!("force_board_{number}"), Kind::Real, &[rows]));
-            let before = [stored, bridge, board].into_iter().flatten().count();
-            let frets = on_bridge + 1 + before;
-            for fret in 1..=string.fret_count() {
-                array(format!("force_fret_{number}_{fret}"), Kind::Real, &[rows]);
-            }
-            strings.push(StringArrays { displacement, tension, on_bridge, stored, bridge, board, frets });
+            let frets = (1..=string.fret_count())
+                .map(|fret| array(format!("force_fret_{number}_{fret}"), Kind::Real, &[rows]))
+                .collect();
+            strings.push(StringArrays {
+                places,
+                displacement,
+                tension,
+                on_bridge,
+                stored,
+                bridge,
+                board,
+                frets,
+            });
             pluck_count += string.plucks().count();
             finger_numbers.extend(string.fingers().map(|finger| finger.number));
         }
@@ -104,11 +119,23 @@ impl Plan {
         let lift = has_body.then(|| array("u_bridge".into(), Kind::Real, &[rows]));
         let output = array("output".into(), Kind::Real, &[rows]);
         let iterations = array("iterations".into(), Kind::Count, &[rows]);
-        let ledger = iterations + 1;
-        for (name, _) in LEDGER.iter().chain(&WORK) {
-            array((*name).into(), Kind::Real, &[rows]);
+        let ledger = LEDGER.map(|(name, _)| array(name.into(), Kind::Real, &[rows]));
+        let work = WORK.map(|(name, _)| array(name.into(), Kind::Real, &[rows]));
+        Plan {
+            arrays,
+            time,
+            origin,
+            strings,
+            plucks,
+            fingers,
+            lift,
+            output,
+            iterations,
+            ledger,
+            work,
+            rows,
+            every,
         }
-        Plan { arrays, strings, plucks, fingers, lift, output, iterations, ledger, rows, every }
     }
 
     /// How many samples apart rows must be for all numbers to take at most so many bytes.
@@ -139,9 +166,36 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
+    use clap::Args;
     use low_action_dsp::Scene;
 
     use super::*;
+    use crate::cli::SceneArgs;
+
+    /// The help lists all arrays and no others: those of the scene that it shows, which has all there can be.
+    #[test]
+    fn the_help_has_the_names_of_all_arrays() {
+        let command = SceneArgs::augment_args(clap::Command::new("scene"));
+        let help = command.get_after_help().expect("there is more to say").to_string();
+        let between = |from, to| help.split_once(from).unwrap().1.split_once(to).unwrap().0;
+        let scene = between("(docs/formats.md has all that may stand in one):\n", "\n\nThe trace");
+        let simulation = Simulation::new(&Scene::from_toml(scene).unwrap()).unwrap();
+        let plan = Plan::new(scene, &simulation, 1);
+        // Of many frets the first will do.
+        let is_another = |name: &str| name.starts_with("force_fret_1_") && name != "force_fret_1_1";
+        let arrays: BTreeSet<_> =
+            plan.arrays.into_iter().map(|array| array.name).filter(|name| !is_another(name)).collect();
+        let first = |name: &str| {
+            ["_S", "_F", "_N"].into_iter().fold(name.to_owned(), |name, of| name.replace(of, "_1"))
+        };
+        // Two spaces, names, more spaces, what they are.
+        let lines = between("half a sample later.\n", "\n\n").lines().filter(|line| !line.starts_with("   "));
+        let names = lines.flat_map(|line| line.trim().split("  ").next().unwrap().split(", "));
+        let listed: BTreeSet<_> = names.map(|name| first(name.trim_matches(','))).collect();
+        assert_eq!(listed, arrays);
+    }
 
     #[test]
     fn the_least_that_is_named_for_every_is_enough_and_no_less_is() {
