@@ -1,11 +1,9 @@
 //! Many trials on several threads, in chunks whose tallies are kept, so that a run that was stopped goes on
 //! where it was.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::hash::Hasher;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::{Context, Result};
@@ -15,6 +13,7 @@ use super::shrink::shrink;
 use super::tally::Tally;
 use super::trial::{Outcome, Trial};
 use crate::files;
+use crate::measure::threads;
 
 /// Trials whose tally is kept as one.
 const CHUNK: u64 = 250;
@@ -51,50 +50,38 @@ impl Campaign {
             .as_ref()
             .map(|kept| this_programs(kept, self.name, self.seed, self.fresh))
             .transpose()?;
-        let chunks = self.trials.div_ceil(CHUNK);
+        let chunk = |number: u64| number * CHUNK..((number + 1) * CHUNK).min(self.trials);
+        let chunks: Vec<_> = (0..self.trials.div_ceil(CHUNK)).map(chunk).collect();
         let look = "{wide_bar} {pos}/{len} trials, {elapsed} of {duration}, {msg}";
         let progress = Progress::new(self.trials, "trials", look)?;
         progress.set_message("no fault".into());
-        let (next, faults) = (AtomicU64::new(0), AtomicU64::new(0));
-        let tallies = Mutex::new(BTreeMap::new());
-        let work = || -> Result<()> {
-            loop {
-                let chunk = next.fetch_add(1, Ordering::Relaxed);
-                if chunk >= chunks {
-                    return Ok(());
+        let faults = AtomicU64::new(0);
+        let tallies = threads::try_each(self.threads, &chunks, |_, numbers| -> Result<Tally> {
+            let name = format!("{:07}-{:07}.toml", numbers.start, numbers.end);
+            let file = folder.as_ref().map(|folder| folder.join(name));
+            let mut tally = Tally::default();
+            if let Some(known) = file.as_deref().and_then(read) {
+                tally = known;
+                progress.inc(tally.trials);
+            } else {
+                for number in numbers.clone() {
+                    tally.count(number, &self.one(number)?);
+                    progress.inc(1);
                 }
-                let numbers = chunk * CHUNK..((chunk + 1) * CHUNK).min(self.trials);
-                let name = format!("{:07}-{:07}.toml", numbers.start, numbers.end);
-                let file = folder.as_ref().map(|folder| folder.join(name));
-                let mut tally = Tally::default();
-                if let Some(known) = file.as_deref().and_then(read) {
-                    tally = known;
-                    progress.inc(tally.trials);
-                } else {
-                    for number in numbers {
-                        tally.count(number, &self.one(number)?);
-                        progress.inc(1);
-                    }
-                    if let Some(file) = &file {
-                        files::write(file, toml::to_string(&tally)?)?;
-                    }
+                if let Some(file) = &file {
+                    files::write(file, toml::to_string(&tally)?)?;
                 }
-                let count = tally.faults.len() as u64;
-                if faults.fetch_add(count, Ordering::Relaxed) + count > 0 {
-                    progress.set_message(format!("{} faults", faults.load(Ordering::Relaxed)));
-                }
-                tallies.lock().expect("no thread panics with it").insert(chunk, tally);
             }
-        };
-        std::thread::scope(|scope| {
-            let threads: Vec<_> = (0..self.threads.max(1)).map(|_| scope.spawn(work)).collect();
-            threads.into_iter().try_for_each(|thread| thread.join().expect("trials catch their panics"))
+            let count = tally.faults.len() as u64;
+            if faults.fetch_add(count, Ordering::Relaxed) + count > 0 {
+                progress.set_message(format!("{} faults", faults.load(Ordering::Relaxed)));
+            }
+            Ok(tally)
         })?;
         progress.finish();
         // In order, so that sums are the same whatever the threads did.
-        let tallies = tallies.into_inner().expect("no thread panics with it");
         let mut sum = Tally::default();
-        tallies.values().for_each(|tally| sum.add(tally));
+        tallies.iter().for_each(|tally| sum.add(tally));
         Ok(sum)
     }
 
