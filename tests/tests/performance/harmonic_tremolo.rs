@@ -6,21 +6,12 @@ use low_action_tests::numbers::{largest, root_mean_square};
 use low_action_tests::pitch::{cents, frequency_near};
 use low_action_tests::stage::{Stage, amplitude, at, cc, decibels, hertz, level, on};
 
+use crate::harmonics_after_notes::STRINGS;
+
 const SECONDS: f64 = 1.6;
 /// From when to when after a stroke it is listened to, s, if no other comes first.
 const HEARD: [f64; 2] = [0.02, 0.15];
 
-/// Set-up, string, its open key.
-const STRINGS: [(&str, usize, u8); 8] = [
-    ("electric", 1, 59),
-    ("electric", 3, 50),
-    ("electric", 5, 40),
-    ("classical", 4, 45),
-    ("steel", 2, 55),
-    ("ukulele", 1, 64),
-    ("bass", 1, 38),
-    ("lap-steel", 2, 55),
-];
 /// Natural harmonics, and one of a stopped note, semitones over the open string.
 const OVER: [u8; 3] = [12, 19, 21];
 /// What CC 25 asks for: 4.2, 11.5 and 20 strokes a second.

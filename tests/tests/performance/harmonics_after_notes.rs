@@ -18,7 +18,7 @@ const BEFORE: [(u8, u8); 7] = [(0, 0), (0, 3), (0, 5), (0, 7), (0, 9), (0, 12), 
 /// The second and the third partial, semitones over the open string.
 const NATURAL: [u8; 2] = [12, 19];
 /// Set-up, string, its open key.
-const STRINGS: [(&str, usize, u8); 8] = [
+pub const STRINGS: [(&str, usize, u8); 8] = [
     ("electric", 1, 59),
     ("electric", 3, 50),
     ("electric", 5, 40),
