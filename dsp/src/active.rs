@@ -51,7 +51,7 @@ pub(crate) struct Active {
 impl Active {
     /// A contact of which nothing is known yet.
     pub const NOTHING: Active = Active {
-        slot: 0,
+        slot: usize::MAX,
         reading: Reading::NOTHING,
         sign: 1.0,
         law: ContactLaw::known(1.0, 1.0),

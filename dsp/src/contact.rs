@@ -161,7 +161,13 @@ impl ContactLaw {
     /// [gives way](ContactLaw::giving_way) beyond it.
     #[inline(always)]
     pub fn own_force(&self, penetration: f64) -> f64 {
-        if penetration > self.knee { self.at_knee.force } else { self.curved(penetration).0 }
+        self.own_part(penetration, self.force(penetration))
+    }
+
+    /// The same where φ(η) is known.
+    #[inline(always)]
+    pub(crate) fn own_part(&self, penetration: f64, force: f64) -> f64 {
+        if penetration > self.knee { self.at_knee.force } else { force }
     }
 
     /// φ(η) and Φ(η).

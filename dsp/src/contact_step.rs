@@ -109,11 +109,10 @@ impl State {
     /// Starts from no forces again, with the contacts that were missed.
     #[cold]
     fn begin_again(&mut self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
-        for index in 0..scratch.active.len() {
-            let free = self.free(&scratch.active[index].reading, free_pull, scratch);
-            scratch.active[index].base = 0.0;
-            scratch.active[index].meet(free);
+        for active in scratch.active.iter_mut() {
+            active.base = 0.0;
         }
+        self.show(free_pull, scratch);
         self.add_missed(model, free_pull, scratch);
     }
 

@@ -28,6 +28,8 @@ pub struct Finger {
     pub reading: Reading,
     /// Reading of the string under it at n − 1.
     pub reading_before: Reading,
+    /// Whether those may differ.
+    pub(crate) has_slid: bool,
 }
 
 /// What a finger reads of the string under it at n.
@@ -57,7 +59,17 @@ impl Finger {
         let reading = model.grid.reading(position);
         let motion = velocity * model.grid.time_step;
         let inertia = Inertia::new(&touch, model.grid.time_step);
-        Finger { touch, law, inertia, height, motion, position, reading, reading_before: reading }
+        Finger {
+            touch,
+            law,
+            inertia,
+            height,
+            motion,
+            position,
+            reading,
+            reading_before: reading,
+            has_slid: false,
+        }
     }
 
     /// Moves it by a step as if it were free, and makes it an active contact with a string of this displacement and motion at
@@ -72,7 +84,7 @@ impl Finger {
         slot: usize,
         active: &mut Active,
     ) -> bool {
-        let (height, motion_before, reading_before) = (self.height, self.motion, self.reading_before);
+        let (height, motion_before) = (self.height, self.motion);
         let Inertia { mobility: own_mobility, persistence, .. } = self.inertia;
         let free = persistence * motion_before - own_mobility * hand.force;
         // What a hand brakes would move by ever smaller numbers otherwise.
@@ -83,32 +95,36 @@ impl Finger {
         };
         // A finger that stays where it is reads the string once.
         let now = under(&self.reading);
-        let stayed = reading_before.same_place(&self.reading);
-        let past = if stayed { now } else { under(&reading_before) };
-        self.reading_before = self.reading;
+        let past = if self.has_slid { under(&self.reading_before) } else { now };
+        let slides = hand.position != self.position;
+        if self.has_slid || slides {
+            self.reading_before = self.reading;
+        }
         let mut here = now;
-        if hand.position != self.position {
+        if slides {
             self.position = hand.position;
             self.reading = model.grid.reading(hand.position);
             here = under(&self.reading);
         }
         self.motion = free;
         self.height = height + free;
-        let slid = if self.reading.same_place(&reading_before) { 0.0 } else { here.before() - past.before() };
+        let slid = if self.has_slid || slides { here.before() - past.before() } else { 0.0 };
+        self.has_slid = slides;
         let penetration_before = past.before() - (height - motion_before);
         let penetration = now.place - height;
-        *active = Active {
-            slot: model.contacts.len() + slot,
-            reading: self.reading,
-            sign: -1.0,
-            law: self.law,
-            lossy: model.lossy(|depth| self.law.force(depth), self.touch.damping, penetration, own_mobility),
-            before: Before::new(&self.law, penetration_before),
-            rest: (free + motion_before) - slid - here.motion,
-            own_mobility,
-            mobility,
-            ..Active::NOTHING
-        };
+        let slot = model.contacts.len() + slot;
+        if active.slot != slot {
+            *active = Active { slot, sign: -1.0, ..Active::NOTHING };
+        }
+        active.reading = self.reading;
+        active.law = self.law;
+        active.lossy =
+            model.lossy(|depth| self.law.force(depth), self.touch.damping, penetration, own_mobility);
+        active.before = Before::new(&self.law, penetration_before);
+        active.rest = (free + motion_before) - slid - here.motion;
+        active.base = 0.0;
+        active.own_mobility = own_mobility;
+        active.mobility = mobility;
         active.evaluate(2.0 * (now.motion - motion_before));
         penetration_before > 0.0 || penetration > 0.0
     }
@@ -134,7 +150,8 @@ impl Finger {
     /// The finger before the last step.
     pub(crate) fn back(&self, before: &FingerBefore) -> Finger {
         let FingerBefore { height, motion, reading_before } = *before;
-        Finger { height, motion, reading: self.reading_before, reading_before, ..*self }
+        let has_slid = !reading_before.same_place(&self.reading_before);
+        Finger { height, motion, reading: self.reading_before, reading_before, has_slid, ..*self }
     }
 }
 

@@ -156,6 +156,7 @@ mod active;
 mod band;
 mod body;
 mod choice;
+mod close;
 pub mod contact;
 mod contact_step;
 pub mod curve;

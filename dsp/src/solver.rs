@@ -86,6 +86,20 @@ impl<'a> Room<'a> {
         let (forces, _) = rest.split_at_mut(count);
         Room { residual, step, motion, slopes, unknown, start, forces }
     }
+
+    /// The same, lent as a whole: where the arrays are then need not stand in memory for who keeps it.
+    #[inline(always)]
+    fn lend(&mut self) -> Room<'_> {
+        Room {
+            residual: self.residual,
+            step: self.step,
+            motion: self.motion,
+            slopes: self.slopes,
+            unknown: self.unknown,
+            start: self.start,
+            forces: self.forces,
+        }
+    }
 }
 
 /// What a solution is judged by.
@@ -198,7 +212,7 @@ fn solve(
     // Written so that what is not a number is refused too.
     let usable = gain <= scale.credit && (settled || bounded(contacts, room.forces, settings.tolerance));
     if !(settled && usable) {
-        gain = stop_early(contacts, answer, &mut room, usable, scale, convergence);
+        gain = stop_early(contacts, answer, room.lend(), usable, scale, convergence);
     }
     for (contact, force) in contacts.iter_mut().zip(&*room.forces) {
         contact.force = contact.base + *force;

@@ -8,6 +8,8 @@
 //! - `contact_step`: the part of a step that solves for them;
 //! - `handover`: what it takes over from a string on another model.
 
+use crate::close::Close;
+use crate::contact::Before;
 use crate::curve::Curve;
 use crate::error::{Error, within};
 use crate::field::{Ends, Field};
@@ -17,16 +19,6 @@ use crate::grid::Reading;
 use crate::model::Model;
 use crate::roomy::Roomy;
 use crate::skyline::draw;
-
-/// A fixed contact that the string may touch soon.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Close {
-    /// Its index.
-    pub index: u32,
-    /// The displacement of the string there, now and a step ago, m.
-    pub displacement: f64,
-    pub before: f64,
-}
 
 /// How high or low a finger may be put, m: anywhere over a string that swings far, and not so far in it that the energy that pressing
 /// it there takes is none that numbers have.
@@ -187,10 +179,14 @@ impl State {
     pub(crate) fn look_at_all(&mut self, model: &Model) {
         draw(&model.grid, &model.contacts, &self.heights_next, &mut self.skyline);
         self.close.clear();
-        self.close.extend((0..).zip(&model.contacts).map(|(index, contact)| {
-            let displacement = contact.reading.of(&self.displacement);
-            Close { index, displacement, before: displacement - contact.reading.of(&self.motion) }
-        }));
+        let heights = self.heights.iter().zip(&self.heights_before);
+        self.close.extend(model.contacts.iter().enumerate().zip(heights).map(
+            |((index, contact), heights)| {
+                let [displacement, motion] = contact.reading.of_each([&self.displacement, &self.motion]);
+                let before = Before::new(&contact.law, heights.1 - (displacement - motion));
+                Close { before, ..Close::new(index, contact, displacement, *heights.0, 0.0) }
+            },
+        ));
         (self.sure, self.nearer) = (0.0, f64::INFINITY);
     }
 

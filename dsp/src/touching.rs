@@ -1,13 +1,14 @@
 //! Which contacts act in a step: those the string touches at n − 1 or n, or would at n + 1.
 
 use crate::active::Active;
+use crate::close::{AHEAD, Pressed};
 use crate::contact::Before;
 use crate::drive::Drive;
-use crate::grid::{READING_NORM, Reading};
-use crate::instructions::Vectors;
+use crate::field::Field;
+use crate::grid::Reading;
 use crate::model::{Contact, Model};
 use crate::skyline::draw;
-use crate::state::{Close, State};
+use crate::state::State;
 use crate::string::Scratch;
 
 /// What a contact reads of a step without contact forces.
@@ -18,30 +19,6 @@ pub(crate) struct Free {
     /// Undivided second difference of uⁿ, m.
     pub curvature: f64,
 }
-
-/// Penetrations of a fixed contact at n − 1 and n, m.
-#[derive(Clone, Copy)]
-struct Overlap {
-    before: f64,
-    now: f64,
-}
-
-impl Scratch {
-    /// Shows the last contact added how the string would move.
-    #[inline(always)]
-    fn show_last(&mut self, free: Free) {
-        if let Some(last) = self.active.last_mut() {
-            last.meet(free);
-        }
-    }
-}
-
-/// How far ahead contacts are predicted, in steps of the size of the last one: all that touch the string at n − 1 or n
-/// are within one, and most that will at n + 1 within two. What is driven farther is found when it has been.
-const AHEAD: f64 = 2.0;
-
-/// How far ahead they are looked for, likewise: the farther, the less often, and the more are to be watched.
-const WATCHED: f64 = 12.0;
 
 impl State {
     /// Takes up what is known to act before the string is predicted: the fixed contacts that touched the string at n − 1, lossy
@@ -55,19 +32,20 @@ impl State {
         }
         scratch.active.clear();
         scratch.near.clear();
-        let near = AHEAD * self.nearer;
-        for position in 0..self.close.len() {
-            let close = &self.close[position];
+        let (near, ahead) = (AHEAD * self.nearer, self.ahead());
+        for (position, close) in self.close.iter().enumerate() {
+            if close.is_left_alone(ahead) {
+                continue;
+            }
             let index = close.index as usize;
-            let overlap = self.overlap(close);
-            if overlap.now > 0.0 && overlap.before <= 0.0 {
+            let (now, before) = (close.now.depth.penetration, close.before.penetration);
+            if now > 0.0 && before <= 0.0 {
                 self.calm[index] = self.steps + Contact::RADIATING;
             }
             // A lossy one resists at n what goes on into it, even if that is out of it before and after.
-            let resists = overlap.now > 0.0 && model.contacts[index].resists();
-            if overlap.before > 0.0 || resists {
-                self.activate(model, index, overlap, scratch);
-            } else if overlap.now >= -near {
+            if before > 0.0 || (now > 0.0 && model.contacts[index].resists()) {
+                self.activate(model, index, (close.before, &close.now), scratch);
+            } else if now >= -near {
                 scratch.near.push(position);
             }
         }
@@ -110,25 +88,20 @@ impl State {
     /// Shows all that is held how the string would move, and adds what that drives the string into.
     #[inline(always)]
     pub(crate) fn touch(&self, model: &Model, free_pull: f64, scratch: &mut Scratch) {
-        for index in 0..scratch.active.len() {
-            let free = self.free(&scratch.active[index].reading, free_pull, scratch);
-            scratch.active[index].meet(free);
-        }
+        self.show(free_pull, scratch);
         for position in 0..scratch.near.len() {
             let close = &self.close[scratch.near[position]];
             let index = close.index as usize;
-            let free = self.free(&model.contacts[index].reading, free_pull, scratch);
+            let free = self.free(&model.contacts[index].reading, free_pull, &scratch.prediction);
             if close.displacement + free.motion < self.heights_next[index] {
-                self.activate(model, index, self.overlap(close), scratch);
-                scratch.show_last(free);
+                self.activate(model, index, (close.before, &close.now), scratch).meet(free);
             }
         }
         // Fingers not yet in contact stay aside, to be looked at again when the string has been moved.
         let mut position = 0;
         while position < scratch.solver.aside.len() {
-            let free = self.free(&scratch.solver.aside[position].reading, free_pull, scratch);
             let finger = &mut scratch.solver.aside[position];
-            finger.meet(free);
+            finger.meet(self.free(&finger.reading, free_pull, &scratch.prediction));
             if finger.before.penetration + finger.centre > 0.0 {
                 *scratch.active.next() = scratch.solver.aside.remove(position);
             } else {
@@ -137,127 +110,52 @@ impl State {
         }
     }
 
+    /// Shows all that is held how the string would move.
+    #[inline(always)]
+    pub(crate) fn show(&self, free_pull: f64, scratch: &mut Scratch) {
+        for active in scratch.active.iter_mut() {
+            active.meet(self.free(&active.reading, free_pull, &scratch.prediction));
+        }
+    }
+
     /// The motion of a point to n + 1 without contact forces, and the second difference there.
     #[inline(always)]
-    pub(crate) fn free(&self, reading: &Reading, free_pull: f64, scratch: &Scratch) -> Free {
-        let [motion, curvature] = reading.of_each([&scratch.prediction, &self.curvature]);
+    fn free(&self, reading: &Reading, free_pull: f64, prediction: &Field) -> Free {
+        let [motion, curvature] = reading.of_each([prediction, &self.curvature]);
         Free { motion: motion - free_pull * curvature, curvature }
     }
 
-    /// How deep the string is in a fixed contact.
+    /// Adds a fixed contact, which the string's prediction has yet to be shown to, by how deep it was at n − 1 and is at n.
     #[inline(always)]
-    fn overlap(&self, close: &Close) -> Overlap {
-        let index = close.index as usize;
-        let before = self.heights_before[index] - close.before;
-        Overlap { before, now: self.heights[index] - close.displacement }
-    }
-
-    /// Adds a fixed contact, which the string's prediction has yet to be shown to.
-    #[inline(always)]
-    fn activate(&self, model: &Model, index: usize, overlap: Overlap, scratch: &mut Scratch) {
+    fn activate<'a>(
+        &self,
+        model: &Model,
+        index: usize,
+        (before, now): (Before, &Pressed),
+        scratch: &'a mut Scratch,
+    ) -> &'a mut Active {
         let contact = &model.contacts[index];
-        let raised = self.heights_next[index] - self.heights_before[index];
+        let moves = self.heights_rest_in > 0;
+        let raised = if moves { self.heights_next[index] - self.heights_before[index] } else { 0.0 };
         let motion = contact.reading.of(&self.motion);
-        let mut lossy = model.lossy(|depth| contact.own_force(depth), contact.damping, overlap.now, 0.0);
-        if overlap.now > 0.0 && self.steps < self.calm[index] {
+        let mut lossy = model.lossy(|_| now.own_force, contact.damping, now.depth.penetration, 0.0);
+        if now.depth.penetration > 0.0 && self.steps < self.calm[index] {
             lossy += contact.radiating(self.calm[index] - self.steps) * model.half_rate;
         }
         scratch.held[index] = self.steps + 1;
         let active = scratch.active.next();
-        *active = Active {
-            slot: index,
-            reading: contact.reading,
-            law: contact.law,
-            lossy,
-            before: Before::new(&contact.law, overlap.before),
-            rest: motion - raised,
-            raised,
-            mobility: scratch.coasting.mobility,
-            ..Active::NOTHING
-        };
+        // What stood here in the last step is mostly the same contact: of that only what changes is written.
+        if active.slot != index {
+            *active = Active { slot: index, reading: contact.reading, law: contact.law, ..Active::NOTHING };
+        }
+        active.lossy = lossy;
+        active.before = before;
+        active.rest = motion - raised;
+        active.base = 0.0;
+        active.raised = raised;
+        active.mobility = scratch.coasting.mobility;
         active.evaluate(raised - 2.0 * motion);
-    }
-
-    /// Whether the string at n + 1 overlaps a contact that the solution did not hold. Fingers of which that is true are
-    /// added to it. Keeps watch of the fixed contacts that may be touched next. No grid point has moved by more than
-    /// `largest`, m. `again` where this step has been taken and looked at before.
-    #[inline(always)]
-    pub(crate) fn find_missed<V: Vectors>(
-        &mut self,
-        simd: V,
-        model: &Model,
-        largest: f64,
-        again: bool,
-        scratch: &mut Scratch,
-    ) -> bool {
-        let mut missed = false;
-        let mut position = 0;
-        while let Some(finger) = scratch.solver.aside.get(position) {
-            let height = self.fingers[finger.slot - model.contacts.len()].map_or(0.0, |f| f.height);
-            if finger.reading.of(&scratch.displacement) - height > 0.0 {
-                *scratch.active.next() = scratch.solver.aside.remove(position);
-                missed = true;
-            } else {
-                position += 1;
-            }
-        }
-        if model.contacts.is_empty() {
-            return missed;
-        }
-        let nearer = READING_NORM * largest + self.lifted();
-        // (What is close may be known for a string that then did not move so.)
-        if again || self.sure - nearer <= AHEAD * nearer {
-            self.look_around(simd, model, nearer, largest, scratch);
-        } else {
-            self.sure -= nearer;
-            for close in &mut self.close {
-                close.before = close.displacement;
-                close.displacement = model.contacts[close.index as usize].reading.of(&scratch.displacement);
-            }
-        }
-        self.nearer = nearer;
-        missed | self.close.iter().any(|close| self.is_missed(close, &scratch.held))
-    }
-
-    /// Whether the string at n + 1 overlaps a contact that was not held in this step.
-    #[inline(always)]
-    fn is_missed(&self, close: &Close, held: &[u64]) -> bool {
-        let index = close.index as usize;
-        close.displacement < self.heights_next[index] && held[index] != self.steps + 1
-    }
-
-    /// Looks through all fixed contacts for those that are close, were the string to go on as in this step.
-    #[inline(always)]
-    fn look_around<V: Vectors>(
-        &mut self,
-        simd: V,
-        model: &Model,
-        nearer: f64,
-        largest: f64,
-        scratch: &mut Scratch,
-    ) {
-        self.sure = WATCHED * nearer;
-        let (near, margin) = (self.sure, scratch.margin(model, self.sure, largest));
-        let Scratch { kernel, displacement, clearances, .. } = scratch;
-        kernel.clear(simd, displacement, &self.skyline, clearances);
-        self.close.clear();
-        model.blocks.look(margin, clearances, &self.heights_next, |index| {
-            let reading = &model.contacts[index].reading;
-            let displacement = reading.of(displacement);
-            if displacement - self.heights_next[index] <= near {
-                let before = reading.of(&self.displacement);
-                self.close.push(Close { index: index as u32, displacement, before });
-            }
-        });
-    }
-
-    /// How far any fixed contact itself moves in this step, m.
-    fn lifted(&self) -> f64 {
-        if self.heights_rest_in == 0 {
-            return 0.0;
-        }
-        let lifts = self.heights_next.iter().zip(&self.heights).map(|(next, now)| (next - now).abs());
-        lifts.fold(0.0, f64::max)
+        active
     }
 
     /// Adds the contacts that the string at n + 1 overlaps but the solution did not hold.
@@ -265,16 +163,13 @@ impl State {
         for close in &self.close {
             let index = close.index as usize;
             if self.is_missed(close, &scratch.held) {
-                let reading = &model.contacts[index].reading;
-                let displacement = reading.of(&self.displacement);
-                let past = displacement - reading.of(&self.motion);
-                let overlap = Overlap {
-                    before: self.heights_before[index] - past,
-                    now: self.heights[index] - displacement,
-                };
-                let free = self.free(reading, free_pull, scratch);
-                self.activate(model, index, overlap, scratch);
-                scratch.show_last(free);
+                let contact = &model.contacts[index];
+                let reading = &contact.reading;
+                let [displacement, motion] = reading.of_each([&self.displacement, &self.motion]);
+                let before = Before::new(&contact.law, self.heights_before[index] - (displacement - motion));
+                let now = contact.pressed(self.heights[index] - displacement);
+                let free = self.free(reading, free_pull, &scratch.prediction);
+                self.activate(model, index, (before, &now), scratch).meet(free);
             }
         }
     }

@@ -8,19 +8,18 @@ impl ContactLaw {
     #[inline(always)]
     pub fn gradient(&self, before: &Before, r: f64) -> (f64, f64) {
         let after = before.penetration + r;
-        if after <= NOTHING && before.penetration <= NOTHING {
-            return (0.0, 0.0);
-        }
-        if before.penetration > 0.0 && after > 0.0 {
-            let (low, high) = (before.penetration.min(after), before.penetration.max(after));
-            if high <= self.knee {
+        if before.penetration > NOTHING && after > NOTHING {
+            if before.penetration <= self.knee && after <= self.knee {
                 return self.pressed_gradient(before, r);
             }
-            if low >= self.knee {
+            if before.penetration >= self.knee && after >= self.knee {
                 // On the straight part λ is the force half way, whatever the change.
-                return (self.straight(0.5 * (low + high)).0, 0.5 * self.at_knee.slope);
+                return (self.straight(0.5 * (before.penetration + after)).0, 0.5 * self.at_knee.slope);
             }
             return self.gradient_across(before, r);
+        }
+        if before.penetration <= NOTHING && after <= NOTHING {
+            return (0.0, 0.0);
         }
         // Out of contact at one end: nothing is subtracted from what is stored at the other.
         let (force, energy) = self.stored(after);
@@ -130,8 +129,21 @@ impl Before {
     /// The past of a contact of the given law.
     #[inline(always)]
     pub fn new(law: &ContactLaw, penetration: f64) -> Self {
+        Self::with_force(law, penetration).0
+    }
+
+    /// The same with the static force φ(ηⁿ⁻¹), N.
+    #[inline(always)]
+    pub(crate) fn with_force(law: &ContactLaw, penetration: f64) -> (Self, f64) {
         let root = law.root(penetration);
-        Before { penetration, energy: law.stored_from(penetration, root).1, root }
+        let (force, energy) = law.stored_from(penetration, root);
+        (Before { penetration, energy, root }, force)
+    }
+
+    /// Out of contact by so much less than nothing, m.
+    #[inline(always)]
+    pub(crate) fn apart(penetration: f64) -> Self {
+        Before { penetration, ..Self::NOTHING }
     }
 }
 

@@ -1,7 +1,8 @@
 //! Places where the string can touch something fixed.
 
 use super::StringParameters;
-use crate::contact::ContactLaw;
+use crate::close::Pressed;
+use crate::contact::{Before, ContactLaw};
 use crate::flexibility::Flexibility;
 use crate::grid::{Grid, Reading};
 
@@ -42,7 +43,20 @@ impl Contact {
     /// gives way round a kinked fret, no more than that of the knee.
     #[inline(always)]
     pub fn own_force(&self, penetration: f64) -> f64 {
-        if self.radiation > 0.0 { self.law.own_force(penetration) } else { self.law.force(penetration) }
+        self.pressed(penetration).own_force
+    }
+
+    /// How deep it is in the string at a penetration, m.
+    #[inline(always)]
+    pub(crate) fn pressed(&self, penetration: f64) -> Pressed {
+        if penetration <= 0.0 {
+            return Pressed { depth: Before::apart(penetration), own_force: 0.0 };
+        }
+        let (depth, force) = Before::with_force(&self.law, penetration);
+        Pressed {
+            depth,
+            own_force: if self.radiation > 0.0 { self.law.own_part(penetration, force) } else { force },
+        }
     }
 
     /// For how many steps a contact that has just been made sends off waves that are too short for the grid, less and less:

@@ -46,7 +46,7 @@ pub(super) fn bounded(contacts: &[Active], forces: &[f64], tolerance: f64) -> bo
 pub(super) fn stop_early(
     contacts: &mut [Active],
     answer: &mut impl Answer,
-    room: &mut Room,
+    mut room: Room,
     usable: bool,
     scale: EnergyScale,
     convergence: &mut Convergence,
@@ -54,11 +54,11 @@ pub(super) fn stop_early(
     let gain = if usable {
         0.5 * created(contacts, room.forces)
     } else {
-        fall_back(contacts, answer, room, convergence)
+        fall_back(contacts, answer, &mut room, convergence)
     };
     let given = 0.5 * demanded(contacts, room.forces);
     if gain <= scale.credit && given.abs() > NOTHING * scale.present {
-        return approach(contacts, answer, room, given, scale.credit);
+        return approach(contacts, answer, &mut room, given, scale.credit);
     }
     gain
 }
