@@ -240,9 +240,10 @@ impl State {
             self.advance(simd, self.would_stretch(&predicted), scratch);
             Convergence::default()
         } else {
-            // What is known of contacts without the prediction need not wait for it.
-            self.hold(model, drive, resting, scratch);
             let predicted = self.predict(simd, drive, scratch);
+            // (None of this waits for the prediction, nor the prediction for it. So much of it that is at hand fills the time
+            // in which the prediction's sums are waited for.)
+            self.hold(model, drive, resting, scratch);
             self.contact_step(simd, model, drive, predicted, scratch)
         };
         std::mem::swap(&mut self.displacement, &mut scratch.displacement);
