@@ -29,6 +29,7 @@ use super::right_hand::{Field, RightHand};
 use super::technique::*;
 use super::{GestureSink, Moment, PlayedString};
 use held::Grip;
+pub(super) use landing::Ahead;
 use landing::Awaited;
 use leaving::hurried;
 pub(super) use leaving::{QUIET_LIFT, lift_force, lifting};

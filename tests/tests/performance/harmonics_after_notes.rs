@@ -1,5 +1,6 @@
-//! The promise: a natural harmonic is as loud on a string that sounds, or is being damped, as on one at rest, without a click, and at its
-//! pitch. A hand stills such a string before it, and the light finger comes to the node when whatever stopped the string has let it up.
+//! The promise: a harmonic is as loud on a string that sounds, or is being damped, as on one at rest, a natural one without a click, and at
+//! its pitch. A hand stills such a string before it, and the light finger comes to the node when whatever stopped the string has let it up.
+//! The finger that stops the string for one is down before that is struck, under the same hand, on a string at rest, too.
 
 use low_action::performance::PlayerEvent;
 use low_action_dsp::Gesture;
@@ -27,6 +28,22 @@ pub const STRINGS: [(&str, usize, u8); 8] = [
     ("ukulele", 1, 64),
     ("bass", 1, 38),
     ("lap-steel", 2, 55),
+];
+
+/// On frets 3 and 9, semitones over the open string.
+const STOPPED: [u8; 2] = [15, 21];
+/// Where fingers stop strings.
+const STOPPING: [(&str, usize, u8); 10] = [
+    ("electric", 0, 64),
+    ("electric", 1, 59),
+    ("electric", 3, 50),
+    ("electric", 5, 40),
+    ("classical", 1, 59),
+    ("classical", 4, 45),
+    ("steel", 2, 55),
+    ("ukulele", 1, 64),
+    ("bass", 1, 38),
+    ("bass", 3, 28),
 ];
 
 /// A harmonic of a key at a velocity that begins so many seconds after the end of another note.
@@ -100,28 +117,75 @@ fn a_harmonic_is_as_loud_after_another_note_as_from_rest() {
     assert!(page.contains(&rows), "docs/gestures.md has other numbers than\n{rows}");
 }
 
-/// One of a stopped note is as loud after one note as after another. (From rest it is softer, by up to 10 dB: its finger is down only
-/// when the string has been plucked.)
-#[test]
-fn a_stopped_harmonic_is_as_loud_after_any_note() {
-    for (velocity, usual, most) in [(40, 1.2, 4.2), (64, 1.2, 4.2), (100, 1.2, 4.2)] {
-        let mut found = Vec::new();
-        for (setup, string, open) in STRINGS.into_iter().filter(|(setup, ..)| *setup != "lap-steel") {
-            let mut stage = Stage::alone(setup, string);
-            for key in [15, 21].map(|over| open + over) {
-                let each = BEFORE.into_iter().flat_map(|before| RESTS.map(|rest| (before, rest)));
-                let levels = each.map(|((stop, over), rest)| {
-                    heard(&mut stage, &after((stop, open + over), rest, key, velocity), END + rest)[0]
-                });
-                let levels: Vec<f64> = levels.collect();
-                let mean = levels.iter().sum::<f64>() / levels.len() as f64;
-                println!("{setup} {string}, key {key}, velocity {velocity}: {levels:.1?}");
-                found.extend(levels.iter().map(|level| level - mean));
-            }
+/// By how much harmonics of stopped notes on one string at a velocity differ in level from the same on a string at rest, dB.
+fn differences_of_stopped((setup, string, open): (&str, usize, u8), velocity: u8) -> Vec<f64> {
+    let mut stage = Stage::alone(setup, string);
+    let mut found = Vec::new();
+    for key in STOPPED.map(|over| open + over) {
+        let [usual, _] = heard(&mut stage, &alone(key, velocity), 0.0);
+        for (stop, over) in BEFORE {
+            let levels = RESTS.map(|rest| {
+                heard(&mut stage, &after((stop, open + over), rest, key, velocity), END + rest)[0] - usual
+            });
+            println!("{setup} {string}, key {key} after {over} ({stop}), velocity {velocity}: {levels:.1?}");
+            found.extend(levels);
         }
+    }
+    found
+}
+
+/// One of a stopped note is as loud after any note as on a string at rest: its finger has the string down before that is struck. What the
+/// hand leaves of the finger's landing, which is as loud as a soft pluck at worst, is 13.7 dB below that: 2.0 dB. What it leaves of the
+/// note before adds to that what natural ones differ by.
+#[test]
+fn a_stopped_harmonic_is_as_loud_after_any_note_as_from_rest() {
+    let mut rows = String::new();
+    for velocity in [40, 64, 100] {
+        let found: Vec<f64> = std::thread::scope(|scope| {
+            let strings =
+                STOPPING.map(|string| scope.spawn(move || differences_of_stopped(string, velocity)));
+            strings.into_iter().flat_map(|string| string.join().expect("it plays")).collect()
+        });
         let (spread, farthest) = (root_mean_square(&found), largest(found.iter().map(|apart| apart.abs())));
         println!("velocity {velocity}: {spread} dB, {farthest} at most");
-        assert!(spread < usual && farthest < most, "velocity {velocity}: {spread} dB, {farthest} at most");
+        assert!(spread < 1.0 && farthest < 3.0, "velocity {velocity}: {spread} dB, {farthest} at most");
+        rows += &format!("| {velocity} | {spread:.1} dB | {farthest:.1} dB |\n");
+    }
+    let page = include_str!("../../../docs/gestures.md");
+    assert!(page.contains(&rows), "docs/gestures.md has other numbers than\n{rows}");
+}
+
+/// The string is on its fret when the plectrum lets go, and that comes no more than 10 ms later than it would on a string at rest that
+/// is not stopped; on guitars no more than 7.
+#[test]
+fn the_finger_of_a_stopped_harmonic_is_down_before_the_stroke() {
+    for (setup, string, open) in STOPPING {
+        let mut stage = Stage::alone(setup, string);
+        let most = if setup == "bass" { 0.01 } else { 0.007 } + 0.5 / RATE;
+        for over in STOPPED {
+            for velocity in [40, 100] {
+                let mut depths = Vec::new();
+                let played = stage.watch(&alone(open + over, velocity), 0.1, |time, instrument| {
+                    let crown = instrument.geometry(0).frets[usize::from(over) - 13];
+                    let reading = instrument.model(0).grid.reading(crown);
+                    depths.push((time, -instrument.state(0).displacement_at(&reading)));
+                });
+                let (stroke, push) = played
+                    .gestures
+                    .iter()
+                    .find_map(|timed| match timed.gesture {
+                        Gesture::Pluck { duration, .. } => Some((timed.time as f64 / RATE, duration)),
+                        _ => None,
+                    })
+                    .expect("it is struck");
+                let stays = depths[depths.len() - 1].1;
+                let let_go = depths.iter().find(|(time, _)| *time >= stroke + push).expect("it lets go").1;
+                let what = format!("{setup} {string}, {over}, velocity {velocity}");
+                println!("{what}: {stroke} s, {:.3} of the way", let_go / stays);
+                assert!((0.0..=most).contains(&stroke), "{what}: {stroke} s");
+                assert!(let_go > 0.98 * stays, "{what}: {} of the way", let_go / stays);
+            }
+        }
     }
 }
 

@@ -8,6 +8,9 @@
 //! Those that are to be heard would be soft at just these speeds. So one that takes so long gathers speed on its way: little is heard
 //! of the string's beginning to move, and the fret stops it at nearly twice its mean speed, which is nearly as loud as both strokes
 //! are together where they help each other most.
+//!
+//! For a harmonic that is not enough: soft ones are up to 10 dB softer or louder where they are struck while the finger is on its way. So
+//! the one that stops the string for it comes ahead of the stroke, under a hand that stills the string.
 
 use low_action_dsp::setup::Fretting;
 use low_action_dsp::{Gesture, Touch};
@@ -24,6 +27,15 @@ pub(super) struct SetDown {
     pub rise: f64,
     /// How long it waits for a hand that stills the string, if it does, s.
     pub waits: Option<f64>,
+}
+
+/// A finger that has the string down before that is struck, under a hand that stills it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ahead {
+    /// How long it takes, s.
+    pub time: f64,
+    /// Period of what it has sound then, s.
+    pub period: f64,
 }
 
 /// A finger that comes only when a hand that stills the string for it is about to go.
@@ -90,9 +102,13 @@ impl Fingers {
         &self,
         place: f64,
         stopped: Down,
-        Coming { strength, haste, stilled }: Coming,
+        Coming { strength, haste, stilled, ahead }: Coming,
         force: f64,
     ) -> SetDown {
+        if let Some([comes, _]) = stilled.filter(|_| ahead) {
+            let (touch, rise) = (self.in_haste(place, stopped, force), HAMMER_LANDING);
+            return SetDown { touch, rise, waits: (comes > 0.0).then_some(comes) };
+        }
         let Fretting { mut touch, landing, .. } = self.hands.fretting;
         let SoftLanding { from, most, drowned, slowest } = SOFT_LANDING;
         let softness = (from / strength.max(f64::MIN_POSITIVE)).max(1.0);
@@ -113,6 +129,30 @@ impl Fingers {
         let before = self.moves_after(force / touch.hand_damping, touch).min(MET_BEFORE * period);
         let waits = stilled.map(|[_, gone]| (gone - before - begins).max(0.0));
         SetDown { touch, rise, waits }
+    }
+
+    /// The finger that sets the string down at a place with a force, N, as fast as a hand in haste does, however soft the note: under a
+    /// hand that stills the string all the while whole periods take up nothing, and nothing has to be taken up.
+    fn in_haste(&self, place: f64, stopped: Down, force: f64) -> Touch {
+        let touch = self.hands.fretting.touch;
+        let speed = force * (1.0 + HASTE) / touch.hand_damping;
+        let (_, pull) = self.way_down(place, stopped);
+        Touch { hand_damping: (driving(force, pull) / speed).min(MOST_DAMPING), ..touch }
+    }
+
+    /// How a finger lands that is to have the string down at a fret before it is struck; `None` where it has not to come down there.
+    pub(crate) fn lands_ahead(&self, fret: usize, at: &Moment<impl GestureSink>) -> Option<Ahead> {
+        let (place, stopped) = (self.comes_to(fret), self.down(self.fretting.as_ref(), at));
+        if fret <= self.capo[0] || self.string.barred || !self.is_over(place, stopped) {
+            return None;
+        }
+        let force = self.force();
+        let touch = self.in_haste(place, stopped, force);
+        let (way, pull) = self.way_down(place, stopped);
+        // Its force grows and it gathers speed first.
+        let begins = 0.5 * HAMMER_LANDING + touch.mass / touch.hand_damping;
+        let goes = (self.hands.fretting.hover + way) * touch.hand_damping / driving(force, pull);
+        Some(Ahead { time: begins + goes + SET_DOWN, period: self.stopped_period(place) })
     }
 
     /// How long a finger that comes at a speed, m/s, takes until the string goes with it, s: over the height from which it

@@ -27,37 +27,55 @@ impl StringPlayer {
         }
         let strength = start.force();
         let stroke = start.stroke();
-        let touched = stop == Stop::Harmonic;
-        let stilling = (stills && !taps).then(|| self.stilling(stroke, start.fret, touched));
-        start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
         self.call_off(&mut self.moment(time, out));
         self.begin(time, &start, strength);
-        let gone = stilling.map_or(start.wait + STILLED_AT_LEAST, |stilling| stilling.stays(start.wait)[1]);
-        self.bend.begin_struck(time, if silent { Some(0.0) } else { damped.then_some(gone) });
         let mut at = self.moment(time, out);
         at.tells(self.new_note(&start));
         self.fingers.press(start.manner.firm(), &mut at);
+        let fret = self.comes_down_at(&start);
+        let touched = stop == Stop::Harmonic;
+        // What stops the string for a harmonic does so before that is struck, on one at rest, too.
+        let ahead = if touched { self.fingers.lands_ahead(fret, &at) } else { None };
+        let stilling =
+            ((stills || ahead.is_some()) && !taps).then(|| self.stilling(stroke, start.fret, touched, ahead));
+        start.wait = start.wait.max(stilling.map_or(0.0, |stilling| stilling.lead));
+        let since = time + self.samples(start.wait);
+        self.note = self.note.map(|note| Note { since, ..note });
+        let gone = stilling.map_or(start.wait + STILLED_AT_LEAST, |stilling| stilling.stays(start.wait)[1]);
+        self.bend.begin_struck(time, if silent { Some(0.0) } else { damped.then_some(gone) });
         self.parting = if taps { TAPPING } else { RESTING };
         if taps {
-            self.begin_tap(&start, strength, &mut at);
+            self.begin_tap(fret, strength, &mut at);
         } else {
-            self.begin_stroke(&start, strength, stilling, &mut at);
+            self.begin_stroke(&start, fret, strength, stilling, &mut at);
         }
         self.follow(time, &start.manner);
     }
 
-    /// A finger comes down on the fret, how hard, 0 to 1.
-    fn begin_tap(&mut self, start: &Start, strength: f64, at: &mut Moment<impl GestureSink>) {
+    /// The fret at which what stops the string for a note comes down: where wheel and tuning have it slide.
+    fn comes_down_at(&mut self, start: &Start) -> usize {
+        let stop = start.articulation.stop;
         let asked = start.wheel + start.manner.tuning;
-        let fret = self.bend.begin_slid(start.fret, asked, false, &mut self.fingers);
+        match stop {
+            Stop::Press | Stop::Bar | Stop::Harmonic => {
+                let bar = self.fingers.lays_bar(stop);
+                self.bend.begin_slid(start.fret, asked, bar, &mut self.fingers)
+            }
+            Stop::Mute => start.fret,
+        }
+    }
+
+    /// A finger comes down on the fret, how hard, 0 to 1.
+    fn begin_tap(&mut self, fret: usize, strength: f64, at: &mut Moment<impl GestureSink>) {
         let rising = self.tap_when_up(fret, strength, Technique::Tap, at);
         self.tremble_after(rising, at);
     }
 
-    /// The left hand stops the string, and the right hand strikes it, how hard, 0 to 1, if need be after it has stilled it.
+    /// The left hand stops the string at a fret, and the right hand strikes it, how hard, 0 to 1, if need be after it has stilled it.
     fn begin_stroke(
         &mut self,
         start: &Start,
+        fret: usize,
         strength: f64,
         stilling: Option<Stilling>,
         at: &mut Moment<impl GestureSink>,
@@ -65,16 +83,9 @@ impl StringPlayer {
         let stop = start.articulation.stop;
         let haste = start.haste();
         let stilled = stilling.map(|stilling| stilling.stays(start.wait));
-        let coming = Coming { strength: strength * haste, haste, stilled };
+        let ahead = stilling.is_some_and(|stilling| stilling.ahead);
+        let coming = Coming { strength: strength * haste, haste, stilled, ahead };
         // The little by which a string comes up to a lower fret is not heard under the hand that stills it; more is.
-        let asked = start.wheel + start.manner.tuning;
-        let fret = match stop {
-            Stop::Press | Stop::Bar | Stop::Harmonic => {
-                let bar = self.fingers.lays_bar(stop);
-                self.bend.begin_slid(start.fret, asked, bar, &mut self.fingers)
-            }
-            Stop::Mute => start.fret,
-        };
         let by_little = fret > self.fingers.capo();
         // A finger that still touches the string takes up what a light one lets through.
         let hinders = stop == Stop::Harmonic && !self.fingers.palm_rests();
@@ -109,7 +120,7 @@ impl StringPlayer {
     /// A tremolo goes on with the note if it has one: a stroke follows upon its first sound, so many seconds from now.
     fn tremble_after(&mut self, wait: f64, at: &Moment<impl GestureSink>) {
         if let Some(note) = self.note.filter(|_| self.tremolo > 0.0) {
-            let lead = self.stilling(note.struck.stroke, note.fret, false).lead;
+            let lead = self.stilling(note.struck.stroke, note.fret, false, None).lead;
             self.deeds.plan(at.after(wait + 1.0 / self.tremolo - lead), Deed::Tremolo);
         }
     }

@@ -180,7 +180,7 @@ impl StringPlayer {
         // Under the pedal it waits: a key below may come back.
         if note.key_down() {
             // A light finger that is at its node already lets no finger up: nothing asks the hand to stay longer for it.
-            let stilling = self.stilling(note.struck.stroke, note.fret, false);
+            let stilling = self.stilling(note.struck.stroke, note.fret, false, None);
             self.touch_node(stilling.lead, at);
             self.still(stilling, at);
             self.deeds.plan(at.after(stilling.lead), Deed::Strike(note.struck));

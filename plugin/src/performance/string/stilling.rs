@@ -1,5 +1,6 @@
 //! How the hand stills a string that still sounds before it plucks it. A pluck only adds to what a string does: on one that
-//! swings as it left it, every stroke would be louder or softer than the first by how the two fall together.
+//! swings as it left it, every stroke would be louder or softer than the first by how the two fall together. Under it a finger sets the
+//! string down for a harmonic, on one that is at rest, too.
 
 use low_action_dsp::Gesture;
 
@@ -7,6 +8,7 @@ use super::StringPlayer;
 use super::deeds::Deed;
 use super::ending::Ending;
 use crate::performance::articulation::Stroke;
+use crate::performance::fingers::Ahead;
 use crate::performance::technique::*;
 use crate::performance::{GestureSink, Moment};
 
@@ -19,6 +21,8 @@ pub(super) struct Stilling {
     duration: f64,
     /// What it adds to the loss of the string, 1/s.
     loss: f64,
+    /// Whether a finger sets the string down under it, ahead of the stroke.
+    pub ahead: bool,
 }
 
 impl Stilling {
@@ -64,16 +68,28 @@ impl StringPlayer {
     }
 
     /// How the hand stills the string for a stroke on a fret, 0 for the open string, or for a harmonic there. Where a finger lets the
-    /// string up to that, what counts is how long the hand is still there when the string has come up: letting go is a pluck, too.
-    pub(super) fn stilling(&self, stroke: Stroke, fret: usize, harmonic: bool) -> Stilling {
-        let period = self.fingers.period(fret);
+    /// string up to that, what counts is how long the hand is still there when the string has come up: letting go is a pluck, too. So it
+    /// is where a finger sets the string down ahead of the stroke.
+    pub(super) fn stilling(
+        &self,
+        stroke: Stroke,
+        fret: usize,
+        harmonic: bool,
+        ahead: Option<Ahead>,
+    ) -> Stilling {
+        let period = ahead.map_or_else(|| self.fingers.period(fret), |ahead| ahead.period);
         // A thumb takes some time to come.
         let within = |stroke| STILLED_PUSH * self.fingers.push_time(stroke).unwrap_or(0.0);
         let rising = if self.fingers.lets_up_to(fret as f64) { RISING } else { 0.0 };
         let longer = if harmonic { STILLED_LONGER } else { 0.0 };
-        let time = (rising + STILLING.0 * period).max(STILLED_AT_LEAST) + longer;
+        let still = STILLING.0 * period;
+        let time = match ahead {
+            Some(ahead) => ahead.time + still,
+            None => (rising + still).max(STILLED_AT_LEAST) + longer,
+        };
         let lead = (time - within(Stroke::Down)).clamp(0.0, LONGEST_LEAD);
-        Stilling { lead, duration: time.min(lead + within(stroke)), loss: STILLING.1 / period }
+        let (duration, loss) = (time.min(lead + within(stroke)), STILLING.1 / period);
+        Stilling { lead, duration, loss, ahead: ahead.is_some() }
     }
 
     /// Has the hand still the string for a stroke so many seconds from now, no less than it comes before it.

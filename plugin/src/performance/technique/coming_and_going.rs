@@ -44,16 +44,21 @@ pub(crate) struct Coming {
     pub haste: f64,
     /// From when to when a hand stills the string, s from now.
     pub stilled: Option<[f64; 2]>,
+    /// Whether it is to have the string down under that hand, ahead of the stroke.
+    pub ahead: bool,
 }
 
 /// As fast as it can.
-pub(crate) const AT_ONCE: Coming = Coming { strength: 1.0, haste: 1.0, stilled: None };
+pub(crate) const AT_ONCE: Coming = Coming { strength: 1.0, haste: 1.0, stilled: None, ahead: false };
 /// By how much a finger is to be slower than the way to the fret asks for: the string hardly moves before the finger's pad has been
 /// pressed in. Fitted: from 1.08 to 1.17 would be best on frets 3 to 12 of seven strings of four instruments.
 pub(crate) const LANDING_LAG: f64 = 1.13;
 /// How long before a hand that stills the string goes a finger comes at most, as a part of the period, however long it then takes to move
 /// the string: on high frets of short strings soft notes lose level if it comes sooner.
 pub(crate) const MET_BEFORE: f64 = 0.2;
+/// How much later than by what its hand asks for a finger in haste has a string down that another hand stills, s: both that hand and the
+/// waves which it sends hold it back, by 0.4 to 1.8 ms on frets 1 to 9 of four strings of three instruments.
+pub(crate) const SET_DOWN: f64 = 0.0015;
 /// Longest time in which the force of a finger that lands rises, as a part of the period: speed is to be constant.
 pub(crate) const LANDING_RISE: f64 = 0.25;
 /// Least way down to a fret that is reckoned with, m.
