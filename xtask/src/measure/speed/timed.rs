@@ -19,8 +19,8 @@ pub struct Timed {
 /// What was found of a benchmark.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Found {
-    /// Median time of an iteration, ns: neighbours on the machine move it less than the mean.
-    median: f64,
+    /// Time of an iteration in the fastest of criterion's samples, ns: whatever else the machine does can only make one longer.
+    fastest: f64,
     /// How much of what it is measured by there is in one, where it says so.
     elements: Option<f64>,
 }
@@ -33,8 +33,8 @@ pub fn folder() -> PathBuf {
 }
 
 impl Timed {
-    /// Takes up a round that criterion has left in a folder. Of several rounds the shortest time of a benchmark counts: a neighbour
-    /// that is busy for a while then falls on none of them. What was written before `since` is of another run and does not count.
+    /// Takes up a round that criterion has left in a folder. Of several rounds the shortest time of a benchmark counts, too: a
+    /// neighbour that is busy for a while then falls on none of them. What was written before `since` is of another run and does not count.
     pub fn add_round(&mut self, folder: &Path, since: Option<SystemTime>) -> Result<()> {
         for group in folders(folder)? {
             for name in folders(&folder.join(&group))? {
@@ -43,15 +43,15 @@ impl Timed {
                     continue;
                 };
                 let known = self.found.entry((group.clone(), name)).or_insert(found);
-                known.median = known.median.min(found.median);
+                known.fastest = known.fastest.min(found.fastest);
             }
         }
         Ok(())
     }
 
-    /// Median time of a benchmark's iterations in its best round, ns.
-    pub fn median(&self, group: &str, name: &str) -> Result<f64> {
-        Ok(self.of(group, name)?.median)
+    /// Time of a benchmark's iterations in the fastest sample of its best round, ns.
+    pub fn fastest(&self, group: &str, name: &str) -> Result<f64> {
+        Ok(self.of(group, name)?.fastest)
     }
 
     /// How much of what it is measured by there is in one iteration.
@@ -93,11 +93,15 @@ fn read(folder: &Path, since: Option<SystemTime>) -> Result<Option<Found>> {
         let text = std::fs::read_to_string(&file).with_context(|| format!("{}", file.display()))?;
         Ok(Some(serde_json::from_str(&text).with_context(|| format!("{}", file.display()))?))
     };
-    let (Some(estimates), Some(benchmark)) = (json("estimates.json")?, json("benchmark.json")?) else {
+    let (Some(sample), Some(benchmark)) = (json("sample.json")?, json("benchmark.json")?) else {
         return Ok(None);
     };
-    let median = estimates["median"]["point_estimate"].as_f64().context("it has no median")?;
-    Ok(Some(Found { median, elements: benchmark["throughput"]["Elements"].as_f64() }))
+    let numbers =
+        |name: &str| sample[name].as_array().map_or(&[][..], Vec::as_slice).iter().map(Value::as_f64);
+    let each = numbers("times").zip(numbers("iters")).map(|(time, count)| Some(time? / count?));
+    let fastest = each.collect::<Option<Vec<f64>>>().context("it has times that are none")?;
+    let fastest = fastest.into_iter().reduce(f64::min).context("it has no times")?;
+    Ok(Some(Found { fastest, elements: benchmark["throughput"]["Elements"].as_f64() }))
 }
 
 #[cfg(test)]
@@ -115,26 +119,27 @@ mod tests {
         fs::create_dir_all(folder.join("points/report")).expect("it can be made");
         fs::create_dir_all(folder.join("frets/100/base")).expect("it can be made");
         let write = |file: &str, text: &str| fs::write(inner.join(file), text).expect("it can be written");
-        let median = |found: f64| {
-            write("estimates.json", &format!(r#"{{ "median": {{ "point_estimate": {found} }} }}"#));
+        let sample = |found: f64| {
+            let times = [3.0 * found, 2.0 * found, 4.5 * found];
+            write("sample.json", &format!(r#"{{ "iters": [1.0, 2.0, 3.0], "times": {times:?} }}"#));
             write("benchmark.json", r#"{ "throughput": { "Elements": 724800 } }"#);
         };
         let (now, minute) = (SystemTime::now(), Duration::from_secs(60));
         let mut timed = Timed::default();
         for (found, best) in [(7.0, 7.0), (5.0, 5.0), (6.0, 5.0)] {
-            median(found);
+            sample(found);
             timed.add_round(&folder, Some(now - minute)).expect("it can be read");
-            assert_eq!(timed.median("points", "48 kHz").expect("it is there"), best);
+            assert_eq!(timed.fastest("points", "48 kHz").expect("it is there"), best);
             assert_eq!(timed.elements("points", "48 kHz").expect("it is there"), 724_800.0);
         }
         let mut later = Timed::default();
         later.add_round(&folder, Some(now + minute)).expect("it can be read");
-        let refused = later.median("points", "48 kHz").expect_err("it is of another run").to_string();
+        let refused = later.fastest("points", "48 kHz").expect_err("it is of another run").to_string();
         assert!(refused.contains("points/48 kHz"), "{refused}");
         let mut last = Timed::default();
         last.add_round(&folder, None).expect("it can be read");
-        assert_eq!(last.median("points", "48 kHz").expect("it is there"), 6.0);
-        assert!(last.median("points", "96 kHz").is_err());
+        assert_eq!(last.fastest("points", "48 kHz").expect("it is there"), 6.0);
+        assert!(last.fastest("points", "96 kHz").is_err());
         fs::remove_dir_all(&folder).expect("it is there");
         assert!(last.add_round(&folder, None).is_err());
     }
