@@ -4,7 +4,8 @@
 //! - here: how it begins, in a shape or thrown; what is seen of it; fingers put and taken away;
 //! - `release`: how it begins to move when it is let go of;
 //! - `string`: a step of it, and what of that needs no contacts;
-//! - `touching`: which contacts act in a step, and which were missed;
+//! - `close`: which fixed contacts it may touch soon, which of them are left alone, and which were missed;
+//! - `touching`: which contacts act in a step;
 //! - `contact_step`: the part of a step that solves for them;
 //! - `handover`: what it takes over from a string on another model.
 
