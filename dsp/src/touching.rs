@@ -21,7 +21,7 @@ pub(crate) struct Free {
 }
 
 impl State {
-    /// Takes up what is known to act before the string is predicted: the fixed contacts that touched the string at n − 1, lossy
+    /// Takes up what is known to act without the prediction: the fixed contacts that touched the string at n − 1, lossy
     /// ones also if they touch it at n, and the fingers that did at either. The other fingers are kept aside.
     #[inline(always)]
     pub(crate) fn hold(&mut self, model: &Model, drive: &Drive, resting: bool, scratch: &mut Scratch) {
