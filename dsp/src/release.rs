@@ -20,6 +20,7 @@ impl State {
         let thrown = self.motion.iter().any(|&motion| motion != 0.0);
         if thrown {
             self.come_from_outside(model);
+            // How deep each contact was goes by where it was.
             self.look_at_all(model);
         }
         let mut after = self.clone();
