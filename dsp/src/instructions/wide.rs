@@ -66,7 +66,10 @@ impl<S: Simd> Vectors for Wide<S> {
 
     #[inline(always)]
     fn clear_below(self, value: S::f64s, size: S::f64s, least: S::f64s) -> S::f64s {
+        // Numbers that are not negative are in order as integers, too. (Chosen by what compares numbers, they would be by its signs,
+        // found first.)
+        let [size, least] = [size, least].map(|number| self.0.transmute_i64s_f64s(number));
         let none = self.0.splat_f64s(0.0);
-        self.0.select_f64s(self.0.less_than_f64s(size, least), none, value)
+        self.0.select_f64s(self.0.less_than_i64s(size, least), none, value)
     }
 }

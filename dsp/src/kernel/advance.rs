@@ -52,10 +52,14 @@ impl<const STRETCH: bool> Pass for LastPass<'_, '_, STRETCH> {
             sizes: [0.0; LANES],
             squares: [0.0; LANES],
         };
-        moving.advance(simd, 0..BESIDE_NUT, (d_next, u_next));
-        moving.advance(simd, last..count, (d_next, u_next));
-        u_next.close_ends(ends);
-        moving.advance(simd, BESIDE_NUT..last, (d_next, u_next));
+        // (In a loop, so that the code of the pass is there once: what a fretted step is made of hardly fits where a processor keeps
+        // the instructions that it has read.)
+        for (range, closes) in [(0..BESIDE_NUT, false), (last..count, true), (BESIDE_NUT..last, false)] {
+            moving.advance(simd, range, (d_next, u_next));
+            if closes {
+                u_next.close_ends(ends);
+            }
+        }
         let largest = moving.sizes.iter().fold(0.0, |most, &size| if size > most { size } else { most });
         Moved { largest, squares: total(&moving.squares) }
     }
@@ -86,10 +90,8 @@ impl<const STRETCH: bool> Moving<'_, STRETCH> {
         let (v, u) = (&v[..count], &u[..count]);
         let [d_next, u_next] = [d_next, u_next].map(|field| &mut rows_mut(field)[range.clone()][..count]);
         let (pull, still) = (simd.splat(self.pull), simd.splat(STILL));
-        for part in 0..V::PARTS {
-            let mut largest = simd.part(&self.sizes, part);
-            let mut squares = simd.part(&self.squares, part);
-            for at in 0..count {
+        for at in 0..count {
+            for part in 0..V::PARTS {
                 let d = simd.part(&w[at], part);
                 let v = simd.part(&v[at], part);
                 let d = if STRETCH { simd.sub(d, simd.mul(pull, v)) } else { d };
@@ -97,11 +99,11 @@ impl<const STRETCH: bool> Moving<'_, STRETCH> {
                 let d = simd.clear_below(d, size, still);
                 simd.put(&mut d_next[at], part, d);
                 simd.put(&mut u_next[at], part, simd.add(simd.part(&u[at], part), d));
-                largest = simd.max(size, largest);
-                squares = simd.add_product(squares, d, d);
+                let largest = simd.max(size, simd.part(&self.sizes, part));
+                simd.put(&mut self.sizes, part, largest);
+                let squares = simd.add_product(simd.part(&self.squares, part), d, d);
+                simd.put(&mut self.squares, part, squares);
             }
-            simd.put(&mut self.sizes, part, largest);
-            simd.put(&mut self.squares, part, squares);
         }
     }
 }

@@ -131,14 +131,27 @@ struct Lanes<'a, V: Vectors> {
     simd: V,
     part: usize,
     weights: &'a Splat<V>,
-    keep: &'a [Row],
-    /// u and d.
-    from: [&'a [Row]; 2],
     around: Around<V>,
     sums: Sums<V>,
-    /// Where the sweep has not yet been, v a step ago.
-    v: &'a mut [Row],
-    w: &'a mut [Row],
+}
+
+/// A row as it is predicted.
+struct At<'a> {
+    u: &'a Row,
+    d: &'a Row,
+    keep: &'a Row,
+    /// v a step ago, then in this one.
+    v: &'a mut Row,
+    w: &'a mut Row,
+}
+
+/// Rows one after another.
+#[inline(always)]
+fn at_each<'a>(
+    (u, d, keep): (&'a [Row], &'a [Row], &'a [Row]),
+    (v, w): (&'a mut [Row], &'a mut [Row]),
+) -> impl Iterator<Item = At<'a>> {
+    u.iter().zip(d).zip(keep).zip(v).zip(w).map(|((((u, d), keep), v), w)| At { u, d, keep, v, w })
 }
 
 impl<V: Vectors> Lanes<'_, V> {
@@ -146,23 +159,23 @@ impl<V: Vectors> Lanes<'_, V> {
     #[inline(always)]
     fn predict<const REACH: usize, const STRETCH: bool, const LOSS: bool>(
         &mut self,
-        at: usize,
+        At { u, d, keep, v, w }: At,
         (ahead, moving): (&Row, Option<&Row>),
     ) {
         let (simd, part) = (self.simd, self.part);
         let moving = moving.map(|moving| simd.part(moving, part));
         let ahead = simd.part(ahead, part);
         let here = Here {
-            u: simd.part(&self.from[0][at], part),
-            d: simd.part(&self.from[1][at], part),
-            v_before: simd.part(&self.v[at], part),
-            keep: simd.part(&self.keep[at], part),
+            u: simd.part(u, part),
+            d: simd.part(d, part),
+            v_before: simd.part(v, part),
+            keep: simd.part(keep, part),
         };
         let sums = &mut self.sums;
-        let [v, w] =
+        let [curvature, motion] =
             self.around.step::<REACH, STRETCH, LOSS>(simd, self.weights, (ahead, moving), here, sums);
-        simd.put(&mut self.v[at], part, v);
-        simd.put(&mut self.w[at], part, w);
+        simd.put(v, part, curvature);
+        simd.put(w, part, motion);
     }
 }
 
@@ -195,30 +208,40 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> Pass for Predict
         };
         let (before, after) = (rows_before::<3>(u), rows_after::<3>(u));
         let (u, d, keep, v, w) = (rows(u), rows(d), rows(keep), rows_mut(v), rows_mut(w));
-        let count = u.len();
-        let (d, keep, v, w) = (&d[..count], &keep[..count], &mut v[..count], &mut w[..count]);
+        // The last three rows are followed by the first ones of the pieces beside.
+        let inner = u.len() - 3;
+        let (u_inner, u_last) = u.split_at(inner);
+        let (d_inner, d_last) = d.split_at(inner);
+        let (keep_inner, keep_last) = keep.split_at(inner);
+        let (v_inner, v_last) = v.split_at_mut(inner);
+        let (w_inner, w_last) = w.split_at_mut(inner);
         let mut totals = [[0.0; LANES]; 3];
         for part in 0..V::PARTS {
             let zero = simd.splat(0.0);
             let mut sums = Sums { steepness: zero, along: zero, curvature: zero };
             let first = [
-                simd.part(&before[0], part),
-                simd.part(&before[1], part),
-                simd.part(&before[2], part),
+                simd.part(before[0], part),
+                simd.part(before[1], part),
+                simd.part(before[2], part),
                 simd.part(&u[0], part),
                 simd.part(&u[1], part),
                 simd.part(&u[2], part),
             ];
             let moving = [simd.part(&keep[0], part), simd.part(&keep[1], part), simd.part(&keep[2], part)];
             let around = Around::first::<STRETCH>(simd, first, moving, &mut sums);
-            let from = [u, d];
-            let mut lanes = Lanes { simd, part, weights: &splat, keep, from, around, sums, v, w };
-            for at in 0..count - 3 {
-                lanes.predict::<REACH, STRETCH, LOSS>(at, (&u[at + 3], Some(&keep[at + 3])));
+            let mut lanes = Lanes { simd, part, weights: &splat, around, sums };
+            let mut inner = at_each((u_inner, d_inner, keep_inner), (v_inner, w_inner))
+                .zip(u[3..].iter().zip(&keep[3..]));
+            // Two in each round, so that less of what is handed on has to change registers.
+            while let Some((at, (ahead, moving))) = inner.next() {
+                lanes.predict::<REACH, STRETCH, LOSS>(at, (ahead, Some(moving)));
+                let Some((at, (ahead, moving))) = inner.next() else { break };
+                lanes.predict::<REACH, STRETCH, LOSS>(at, (ahead, Some(moving)));
             }
-            lanes.predict::<REACH, STRETCH, LOSS>(count - 3, (&after[0], None));
-            lanes.predict::<REACH, STRETCH, LOSS>(count - 2, (&after[1], None));
-            lanes.predict::<REACH, STRETCH, LOSS>(count - 1, (&after[2], None));
+            let last = at_each((u_last, d_last, keep_last), (v_last, w_last));
+            for (at, ahead) in last.zip(after) {
+                lanes.predict::<REACH, STRETCH, LOSS>(at, (ahead, None));
+            }
             let Sums { steepness, along, curvature } = lanes.sums;
             for (total, sum) in totals.iter_mut().zip([steepness, along, curvature]) {
                 simd.put(total, part, sum);
