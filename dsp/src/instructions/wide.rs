@@ -1,6 +1,13 @@
 //! Vectors as a library has them.
 
-use pulp::Simd;
+#[cfg(target_arch = "x86_64")]
+use std::arch::x86_64::_CMP_LT_OQ;
+
+#[cfg(target_arch = "x86_64")]
+use pulp::f64x4;
+#[cfg(target_arch = "x86_64")]
+use pulp::x86::{V3, V4};
+use pulp::{Scalar128b, Simd};
 
 use super::{By, Pass, Vectors};
 use crate::field::{LANES, Row};
@@ -9,7 +16,7 @@ use crate::field::{LANES, Row};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wide<S>(pub S);
 
-impl<S: Simd> Vectors for Wide<S> {
+impl<S: Clear> Vectors for Wide<S> {
     type Vector = S::f64s;
 
     const PARTS: usize = LANES / S::F64_LANES;
@@ -66,10 +73,30 @@ impl<S: Simd> Vectors for Wide<S> {
 
     #[inline(always)]
     fn clear_below(self, value: S::f64s, size: S::f64s, least: S::f64s) -> S::f64s {
-        // Numbers that are not negative are in order as integers, too. (Chosen by what compares numbers, they would be by its signs,
-        // found first.)
-        let [size, least] = [size, least].map(|number| self.0.transmute_i64s_f64s(number));
-        let none = self.0.splat_f64s(0.0);
-        self.0.select_f64s(self.0.less_than_i64s(size, least), none, value)
+        self.0.clear_below(value, size, least)
+    }
+}
+
+/// What not every set does best in the same way.
+pub(super) trait Clear: Simd {
+    /// `value`, but 0 where `size` is less than `least`.
+    #[inline(always)]
+    fn clear_below(self, value: Self::f64s, size: Self::f64s, least: Self::f64s) -> Self::f64s {
+        self.select_f64s(self.less_than_f64s(size, least), self.splat_f64s(0.0), value)
+    }
+}
+
+impl Clear for Scalar128b {}
+
+#[cfg(target_arch = "x86_64")]
+impl Clear for V4 {}
+
+/// A mask is as wide as the numbers and covers them as it is: chosen by it, they would be by its signs, found first.
+#[cfg(target_arch = "x86_64")]
+impl Clear for V3 {
+    #[inline(always)]
+    fn clear_below(self, value: f64x4, size: f64x4, least: f64x4) -> f64x4 {
+        let below = self.avx._mm256_cmp_pd::<_CMP_LT_OQ>(pulp::cast(size), pulp::cast(least));
+        pulp::cast(self.avx._mm256_andnot_pd(below, pulp::cast(value)))
     }
 }
