@@ -16,7 +16,7 @@ use crate::field::{LANES, Row};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wide<S>(pub S);
 
-impl<S: Clear> Vectors for Wide<S> {
+impl<S: ClearBelow> Vectors for Wide<S> {
     type Vector = S::f64s;
 
     const PARTS: usize = LANES / S::F64_LANES;
@@ -78,7 +78,7 @@ impl<S: Clear> Vectors for Wide<S> {
 }
 
 /// What not every set does best in the same way.
-pub(super) trait Clear: Simd {
+pub(super) trait ClearBelow: Simd {
     /// `value`, but 0 where `size` is less than `least`.
     #[inline(always)]
     fn clear_below(self, value: Self::f64s, size: Self::f64s, least: Self::f64s) -> Self::f64s {
@@ -86,14 +86,14 @@ pub(super) trait Clear: Simd {
     }
 }
 
-impl Clear for Scalar128b {}
+impl ClearBelow for Scalar128b {}
 
 #[cfg(target_arch = "x86_64")]
-impl Clear for V4 {}
+impl ClearBelow for V4 {}
 
 /// A mask is as wide as the numbers and covers them as it is: chosen by it, they would be by its signs, found first.
 #[cfg(target_arch = "x86_64")]
-impl Clear for V3 {
+impl ClearBelow for V3 {
     #[inline(always)]
     fn clear_below(self, value: f64x4, size: f64x4, least: f64x4) -> f64x4 {
         let below = self.avx._mm256_cmp_pd::<_CMP_LT_OQ>(pulp::cast(size), pulp::cast(least));
