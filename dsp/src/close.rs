@@ -1,22 +1,20 @@
-//! Fixed contacts that are close to the string, and how long each is left alone.
+//! Fixed contacts that are close to the string; all others are asleep.
 //!
-//! In a step the string comes nearer to no contact by more than its fastest point moves. So one that is some way off need not be
-//! read before the string may be within [`AHEAD`] steps of it; and those that are not even close are looked through only when
-//! the string may have come so near to one of them.
+//! Those that are close are read in every step. Of the others the string knows a skyline, and in each step how far its lowest point
+//! is over it: when one has come near, what is beside it wakes up, and what is farther off again falls asleep.
 
 use crate::contact::Before;
-use crate::grid::READING_NORM;
-use crate::instructions::Vectors;
+use crate::field::LANES;
+use crate::kernel::Moved;
 use crate::model::{Contact, Model};
 use crate::state::State;
 use crate::string::Scratch;
 
-/// How far ahead contacts are predicted, in steps of the size of the last one: all that touch the string at n − 1 or n
-/// are within one, and most that will at n + 1 within two. What is driven farther is found when it has been.
-pub(crate) const AHEAD: f64 = 2.0;
-
-/// How far ahead they are looked for, likewise: the farther, the less often, and the more are to be watched.
-pub(crate) const WATCHED: f64 = 16.0;
+/// How near a contact wakes up, in steps as points take them on the mean (the root of the mean square), and how far off it falls
+/// asleep. What is not awake when the string is driven into it is found when it has been, and its step is taken twice, so that a small
+/// number costs time only, and so does a large one.
+pub(crate) const WAKING: f64 = 2.0;
+const DOZING: f64 = 3.0;
 
 /// How deep a fixed contact is in the string at one sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,38 +35,32 @@ pub(crate) struct Close {
     /// How deep it is in the string, now and a step ago.
     pub now: Pressed,
     pub before: Before,
-    /// What is left of what is sure when the string may have come to it, m. (It is less than that by the distance at which it
-    /// was read.)
-    pub reach: f64,
 }
 
 impl Close {
-    /// One at a height over which the string is displaced so much, m, when so much is sure; where it was a step ago is not known.
+    /// One at a height now over which the string is displaced so much, and at one a step ago, m each.
     #[inline(always)]
-    pub fn new(index: usize, contact: &Contact, displacement: f64, height: f64, sure: f64) -> Self {
-        let now = contact.pressed(height - displacement);
-        let reach = sure + now.depth.penetration;
-        Close { index: index as u32, displacement, now, before: Before::NOTHING, reach }
-    }
-
-    /// Whether it is too far off to be read, where the string is known to come no nearer to any until so much is left of what is
-    /// sure, m.
-    #[inline(always)]
-    pub fn is_left_alone(&self, ahead: f64) -> bool {
-        self.reach < ahead
+    pub fn new(index: usize, contact: &Contact, now: [f64; 2], before: [f64; 2]) -> Self {
+        let [penetration, penetration_before] =
+            [now, before].map(|[displacement, height]| height - displacement);
+        Close {
+            index: index as u32,
+            displacement: now[0],
+            now: contact.pressed(penetration),
+            before: Before::new(&contact.law, penetration_before),
+        }
     }
 }
 
 impl State {
-    /// Whether the string at n + 1 overlaps a contact that the solution did not hold. Fingers of which that is true are
-    /// added to it. Keeps watch of the fixed contacts that may be touched next. No grid point has moved by more than
-    /// `largest`, m. `again` where this step has been taken and looked at before.
+    /// Whether the string at n + 1, which has moved so, overlaps a contact that the solution did not hold. Fingers of which that
+    /// is true are added to it. Wakes up the fixed contacts that may be touched next. `again` where this step has been taken and
+    /// looked at before.
     #[inline(always)]
-    pub(crate) fn find_missed<V: Vectors>(
+    pub(crate) fn find_missed(
         &mut self,
-        simd: V,
         model: &Model,
-        largest: f64,
+        moved: &Moved,
         again: bool,
         scratch: &mut Scratch,
     ) -> bool {
@@ -86,84 +78,97 @@ impl State {
         if model.contacts.is_empty() {
             return missed;
         }
-        let nearer = READING_NORM * largest + self.lifted();
-        // (What is close may be known for a string that then did not move so.)
-        if again || self.sure - nearer <= AHEAD * nearer {
-            self.look_around(simd, model, nearer, largest, scratch);
-            return missed | self.close.iter().any(|close| self.is_missed(close, &scratch.held));
+        let step = (moved.squares * model.point_share).sqrt() + self.lifted();
+        let sag = scratch.sag(model);
+        missed |= self.watch(model, DOZING * step + sag, again, scratch);
+        let near = WAKING * step + sag;
+        if moved.least_over() <= near {
+            missed |= self.wake(model, moved, near, scratch);
         }
-        missed | self.watch(model, nearer, scratch)
+        missed
     }
 
-    /// What of what is sure will be left when the string has gone on for so many steps as are looked ahead.
+    /// Reads the close contacts, and has those fall asleep that are farther off than `far`, m. Returns whether one of them was
+    /// missed.
     #[inline(always)]
-    pub(crate) fn ahead(&self) -> f64 {
-        self.sure - AHEAD * self.nearer
-    }
-
-    /// Reads the close contacts that are not left alone, in a step in which the string has come nearer to any by no more than
-    /// `nearer`, m. Returns whether one of them was missed.
-    #[inline(always)]
-    fn watch(&mut self, model: &Model, nearer: f64, scratch: &Scratch) -> bool {
-        let ahead_before = self.ahead();
-        self.sure -= nearer;
-        self.nearer = nearer;
-        let ahead = self.ahead();
-        let mut missed = false;
+    fn watch(&mut self, model: &Model, far: f64, again: bool, scratch: &Scratch) -> bool {
+        let (mut missed, mut tired) = (false, false);
         for close in &mut self.close {
-            if close.is_left_alone(ahead) {
-                continue;
-            }
             let index = close.index as usize;
             let (contact, height) = (&model.contacts[index], self.heights_next[index]);
-            close.before = if close.is_left_alone(ahead_before) {
-                Before::new(&contact.law, self.heights[index] - contact.reading.of(&self.displacement))
-            } else {
-                close.now.depth
-            };
+            // (Of a step that is taken again it has been told.)
+            if !again {
+                close.before = close.now.depth;
+            }
             close.displacement = contact.reading.of(&scratch.displacement);
             close.now = contact.pressed(height - close.displacement);
-            close.reach = self.sure + close.now.depth.penetration;
             missed |= close.displacement < height && scratch.held[index] != self.steps + 1;
+            tired |= close.displacement - height > far;
+        }
+        if tired {
+            self.doze(model, far, scratch);
         }
         missed
     }
 
     /// Whether the string at n + 1 overlaps a contact that was not held in this step.
-    #[inline(always)]
     pub(crate) fn is_missed(&self, close: &Close, held: &[u64]) -> bool {
         let index = close.index as usize;
         close.displacement < self.heights_next[index] && held[index] != self.steps + 1
     }
 
-    /// Looks through all fixed contacts for those that are close, were the string to go on as in this step.
-    #[inline(always)]
-    fn look_around<V: Vectors>(
-        &mut self,
-        simd: V,
-        model: &Model,
-        nearer: f64,
-        largest: f64,
-        scratch: &mut Scratch,
-    ) {
-        (self.sure, self.nearer) = (WATCHED * nearer, nearer);
-        let (near, margin, ahead) = (self.sure, scratch.margin(model, self.sure, largest), self.ahead());
-        let Scratch { kernel, displacement, clearances, .. } = scratch;
-        kernel.clear(simd, displacement, &self.skyline, clearances);
-        self.close.clear();
-        model.blocks.look(margin, clearances, &self.heights_next, |index| {
-            let contact = &model.contacts[index];
-            let reading = &contact.reading;
-            let (displacement, height) = (reading.of(displacement), self.heights_next[index]);
-            if displacement - height <= near {
-                let mut close = Close::new(index, contact, displacement, height, near);
-                if !close.is_left_alone(ahead) {
-                    let before = self.heights[index] - reading.of(&self.displacement);
-                    close.before = Before::new(&contact.law, before);
+    /// Has close contacts fall asleep that do not touch the string and are farther off than `far`, m.
+    #[inline(never)]
+    fn doze(&mut self, model: &Model, far: f64, scratch: &Scratch) {
+        let State { close, asleep, heights_next, skyline, .. } = self;
+        let (beside, u) = (&model.beside, &scratch.displacement);
+        close.retain(|close| {
+            let index = close.index as usize;
+            let touched = close.now.depth.penetration.max(close.before.penetration) > 0.0;
+            let bed = beside.bed(index, u);
+            if touched || !beside.may_sleep(index) || bed.displacement - heights_next[index] <= far {
+                return true;
+            }
+            asleep[index] = Some(bed.rise);
+            for cell in beside.cells(index) {
+                beside.draw(cell, heights_next, asleep, skyline);
+            }
+            false
+        });
+    }
+
+    /// Wakes up what is beside points that are no more than `near`, m, over the skyline. Returns whether one of these contacts was
+    /// missed.
+    #[inline(never)]
+    fn wake(&mut self, model: &Model, moved: &Moved, near: f64, scratch: &Scratch) -> bool {
+        let (beside, u) = (&model.beside, &scratch.displacement);
+        let woken_from = self.close.len();
+        let mut missed = false;
+        let rows = u.len() / LANES;
+        let lanes = (0..LANES).filter(|&lane| moved.over[lane] <= near);
+        for cell in lanes.flat_map(|lane| (0..rows).map(move |row| LANES * row + lane)) {
+            if u[cell] - self.skyline[cell] > near {
+                continue;
+            }
+            for index in beside.contacts(cell) {
+                if self.asleep[index].take().is_none() {
+                    continue;
                 }
+                let contact = &model.contacts[index];
+                let now = [contact.reading.of(u), self.heights_next[index]];
+                let before = [contact.reading.of(&self.displacement), self.heights[index]];
+                let close = Close::new(index, contact, now, before);
+                missed |= self.is_missed(&close, &scratch.held);
                 self.close.push(close);
             }
-        });
+        }
+        for position in woken_from..self.close.len() {
+            for cell in beside.cells(self.close[position].index as usize) {
+                beside.draw(cell, &self.heights_next, &self.asleep, &mut self.skyline);
+            }
+        }
+        self.close.sort_unstable_by_key(|close| close.index);
+        missed
     }
 
     /// How far any fixed contact itself moves in this step, m.

@@ -5,7 +5,7 @@ use crate::active::Active;
 use crate::drive::Drive;
 use crate::field::Field;
 use crate::instructions::Vectors;
-use crate::kernel::Stretching;
+use crate::kernel::{Moved, Stretching};
 use crate::model::{Coasting, Model};
 use crate::solver::{Convergence, EnergyScale};
 use crate::state::State;
@@ -38,10 +38,10 @@ impl State {
         self.touch(model, free_pull, scratch);
         let mut created = 0.0;
         for attempt in 0.. {
-            let mut largest = 0.0;
+            let mut moved = Moved::default();
             scratch.tried = 0.0;
             if scratch.active.is_empty() {
-                largest = self.advance(simd, free, scratch);
+                moved = self.advance::<V, true>(simd, free, scratch);
             } else {
                 // M's rank-one term: mobility·G/(1 + G vᵀv) z zᵀ.
                 let Coasting { mobility, stretch, .. } = scratch.coasting;
@@ -63,7 +63,7 @@ impl State {
                     scratch.tried += spread.sum;
                     let more = self.would_stretch(&predicted);
                     stretching += more;
-                    largest = self.advance(simd, more, scratch);
+                    moved = self.advance::<V, true>(simd, more, scratch);
                     // (It knows of what is added in this round.)
                     scratch.stretching = stretching;
                     let rounding = f64::EPSILON * mobility * spread.sum * spread.sum;
@@ -75,7 +75,7 @@ impl State {
                     predicted.along = self.recentre(scratch) + 2.0 * stretching;
                 }
             }
-            if !self.find_missed(simd, model, largest, attempt > 0, scratch) {
+            if !self.find_missed(model, &moved, attempt > 0, scratch) {
                 break;
             }
             // Something was driven into a contact that was not in the solution: take the forces back

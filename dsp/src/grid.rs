@@ -86,10 +86,6 @@ pub struct Reading {
     own_overlap: f64,
 }
 
-/// The largest Σ|hg| of any reading: cubic interpolation half way between nodes weighs
-/// (−1, 9, 9, −1)/16.
-pub const READING_NORM: f64 = 1.25;
-
 /// Closer to a node than this fraction of the spacing is at the node.
 pub(crate) const AT_NODE: f64 = 1e-9;
 
@@ -219,6 +215,11 @@ impl Reading {
         for (cell, weight) in self.cells.iter().zip(self.weights) {
             v[*cell as usize] += weight * amount;
         }
+    }
+
+    /// Whether it is a curve that is read, neither a point nor a straight line between two.
+    pub(crate) fn is_curved(&self) -> bool {
+        self.weights.iter().filter(|weight| **weight != 0.0).count() > 2
     }
 
     /// Σ over nodes of the squares of the weights: the [`overlap`](Reading::overlap) with itself.

@@ -1,9 +1,8 @@
-//! The two passes over the grid in every sample, and the look at a skyline now and then. They take rows of a [`Field`] one
-//! after another, as many lanes at once as the instruction set has; sums run down each lane and are added up in a
-//! fixed order, so that every instruction set gives the same bits. There is no fused multiply-add.
+//! The two passes over the grid in every sample. They take rows of a [`Field`] one after another, as many lanes at once as the
+//! instruction set has; sums run down each lane and are added up in a fixed order, so that every instruction set gives the same
+//! bits. There is no fused multiply-add.
 
 mod advance;
-mod clear;
 mod rows;
 mod sweep;
 mod weights;
@@ -13,10 +12,8 @@ use crate::grid::Grid;
 use crate::instructions::{Pass, Vectors};
 use crate::model::Model;
 use crate::scene::Stencil;
-use crate::skyline::Clearance;
 use advance::LastPass;
 pub(crate) use advance::{Advance, Moved, STILL};
-use clear::Clear;
 use sweep::Predict;
 pub(crate) use weights::Weights;
 
@@ -120,26 +117,14 @@ impl Kernel {
         stretching
     }
 
-    /// The next motion and displacement.
+    /// The next motion and displacement; `OVER` a skyline, if anything may be touched.
     #[inline(always)]
-    pub fn advance<V: Vectors>(&self, simd: V, pass: Advance) -> Moved {
+    pub fn advance<V: Vectors, const OVER: bool>(&self, simd: V, pass: Advance) -> Moved {
         if self.stretch {
-            LastPass::<true> { pass, ends: &self.ends }.by(simd)
+            LastPass::<true, OVER> { pass, ends: &self.ends }.by(simd)
         } else {
-            LastPass::<false> { pass, ends: &self.ends }.by(simd)
+            LastPass::<false, OVER> { pass, ends: &self.ends }.by(simd)
         }
-    }
-
-    /// How far groups of points are over a skyline.
-    #[inline(always)]
-    pub fn clear<V: Vectors>(
-        &self,
-        simd: V,
-        displacement: &Field,
-        skyline: &Field,
-        clearances: &mut [Clearance],
-    ) {
-        simd.run(Clear { displacement, skyline, clearances });
     }
 }
 
@@ -156,33 +141,38 @@ fn moving(grid: &Grid) -> Field {
 mod tests {
     use super::*;
     use crate::instructions::Instructions;
-    use crate::skyline::groups;
 
     /// G.
     const STRETCH: f64 = 0.5;
 
-    /// Both passes, and the look at a skyline, by one instruction set.
+    /// Both passes by one instruction set, the last one held against a skyline and not.
     struct Passes<'a> {
         kernel: &'a Kernel,
         weights: &'a Weights,
         from: (&'a Field, &'a Field),
         to: [&'a mut Field; 4],
-        clearances: &'a mut [Clearance],
+        skyline: &'a Field,
     }
 
     impl Pass for Passes<'_> {
-        type Output = (Stretching, Shape, Moved);
+        type Output = (Stretching, Shape, [Moved; 2]);
 
         #[inline(always)]
         fn by<V: Vectors>(self, simd: V) -> Self::Output {
-            let Passes { kernel, weights, from: (u, d), to: [v, w, d_next, u_next], clearances } = self;
+            let Passes { kernel, weights, from: (u, d), to: [v, w, d_next, u_next], skyline } = self;
             let mut shape = Shape::default();
             let prediction =
                 Prediction { weights, stretch: STRETCH, from: (u, d), to: (v, w), shape: &mut shape };
             let stretching = kernel.predict(simd, prediction);
-            let pass = Advance { pull: 1e-3, from: (w, v, u), to: (d_next, u_next) };
-            let moved = kernel.advance(simd, pass);
-            kernel.clear(simd, u_next, d, clearances);
+            let mut pass = |over: bool| {
+                let pass = Advance { pull: 1e-3, from: (w, v, u), to: (d_next, u_next), skyline };
+                if over {
+                    kernel.advance::<V, true>(simd, pass)
+                } else {
+                    kernel.advance::<V, false>(simd, pass)
+                }
+            };
+            let moved = [pass(false), pass(true)];
             (stretching, shape, moved)
         }
     }
@@ -223,13 +213,12 @@ mod tests {
             let kernel = Kernel { reach, stretch, loss, ends, keep };
             let empty = || Field::new(&grid);
             let (mut v, mut w, mut d_next, mut u_next) = (before.clone(), empty(), empty(), empty());
-            let mut clearances = vec![Clearance::default(); groups(&grid)];
             let products = instructions.run(Passes {
                 kernel: &kernel,
                 weights: &weights,
                 from: (&u, &d),
                 to: [&mut v, &mut w, &mut d_next, &mut u_next],
-                clearances: &mut clearances,
+                skyline: &before,
             });
             for (node, value) in u_next.from_nut().enumerate() {
                 let mirrored = node > intervals && node <= intervals + 2;
@@ -237,7 +226,7 @@ mod tests {
                 assert!(value == 0.0 || mirrored || moves, "node {node} of {intervals} moves");
             }
             let bits: Vec<u64> = w.iter().chain(&*d_next).chain(&*u_next).map(|x| x.to_bits()).collect();
-            (format!("{products:?} {clearances:?}"), bits)
+            (format!("{products:?}"), bits)
         };
         let expected = run(Instructions::Any);
         for instructions in Instructions::all() {
@@ -273,6 +262,8 @@ mod tests {
             }
             u.close_ends(&ends);
             let weights = Weights { motion: 0.75, near: [0.5, -0.25, 0.125], before: 0.25, energy: [0.0; 2] };
+            let mut skyline = Field::filled(&grid, f64::NEG_INFINITY);
+            (1..intervals).for_each(|node| skyline[grid.cell(node)] = 0.25 * at(node as i64));
             let keep = moving(&grid);
             let kernel = Kernel { reach: 2, stretch, loss: true, ends, keep };
             let (found, shape, moved) = Instructions::best().run(Passes {
@@ -280,7 +271,7 @@ mod tests {
                 weights: &weights,
                 from: (&u, &d),
                 to: [&mut v, &mut w, &mut d_next, &mut u_next],
-                clearances: &mut vec![Clearance::default(); groups(&grid)],
+                skyline: &skyline,
             });
             let bend = |node: i64| at(node + 1) - 2.0 * at(node) + at(node - 1);
             let last = at(intervals as i64 - 1);
@@ -306,7 +297,19 @@ mod tests {
             };
             assert_eq!((found.along, found.yielding, shape), expected, "{intervals} intervals");
             // (Motions by a pull of 1e-3 round, and their squares.)
-            assert!((moved.squares / squares - 1.0).abs() < 1e-14, "{intervals} intervals");
+            let [free, held] = moved;
+            assert!((free.squares / squares - 1.0).abs() < 1e-14, "{intervals} intervals");
+            // Whether or not it is held against a skyline makes no other motion; and its lowest point is told.
+            assert_eq!(
+                (free.squares, free.least_over()),
+                (held.squares, f64::INFINITY),
+                "{intervals} intervals"
+            );
+            let over = (1..intervals).map(|node| {
+                let cell = grid.cell(node);
+                u_next[cell] - skyline[cell]
+            });
+            assert_eq!(held.least_over(), over.fold(f64::INFINITY, f64::min), "{intervals} intervals");
         }
     }
 }

@@ -18,7 +18,7 @@ use crate::gesture::Touch;
 use crate::grid::{Grid, Reading};
 use crate::response::Needs;
 use crate::scene::{FretPlacement, MOST_FINGERS, SolverSettings, Stencil};
-use crate::skyline::Blocks;
+use crate::skyline::Beside;
 pub use barrier::Barrier;
 pub(crate) use barrier::equal_place;
 pub(crate) use coasting::Coasting;
@@ -47,8 +47,10 @@ pub struct Model {
     pub(crate) coasting: Coasting,
     /// 1/(2k), 1/s.
     pub(crate) half_rate: f64,
-    /// The contacts beside each group of grid points.
-    pub(crate) blocks: Blocks,
+    /// 1/(N − 1): a sum over all points times that is their mean.
+    pub(crate) point_share: f64,
+    /// The contacts beside each grid point.
+    pub(crate) beside: Beside,
 }
 
 impl Model {
@@ -115,7 +117,7 @@ impl Model {
             contacts.iter_mut().for_each(|contact| contact.bend_round(&string, &grid, &flexibility));
         }
         let string = StringParameters { loss_0, ..string };
-        let blocks = Blocks::new(&grid, &contacts);
+        let beside = Beside::new(&grid, &contacts);
         Ok(Model {
             grid,
             string,
@@ -124,7 +126,8 @@ impl Model {
             finger_slots,
             coasting,
             half_rate: 0.5 / time_step,
-            blocks,
+            point_share: 1.0 / grid.unknowns() as f64,
+            beside,
         })
     }
 

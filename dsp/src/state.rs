@@ -4,13 +4,12 @@
 //! - here: how it begins, in a shape or thrown; what is seen of it; fingers put and taken away;
 //! - `release`: how it begins to move when it is let go of;
 //! - `string`: a step of it, and what of that needs no contacts;
-//! - `close`: which fixed contacts it may touch soon, which of them are left alone, and which were missed;
+//! - `close`: which fixed contacts it may touch soon, which are asleep, and which were missed;
 //! - `touching`: which contacts act in a step;
 //! - `contact_step`: the part of a step that solves for them;
 //! - `handover`: what it takes over from a string on another model.
 
 use crate::close::Close;
-use crate::contact::Before;
 use crate::curve::Curve;
 use crate::error::{Error, within};
 use crate::field::{Ends, Field};
@@ -19,7 +18,6 @@ use crate::gesture::{FASTEST, Touch};
 use crate::grid::Reading;
 use crate::model::Model;
 use crate::roomy::Roomy;
-use crate::skyline::draw;
 
 /// How high or low a finger may be put, m: anywhere over a string that swings far, and not so far in it that the energy that pressing
 /// it there takes is none that numbers have.
@@ -51,16 +49,14 @@ pub struct State {
     pub(crate) heights_rest_in: u8,
     /// How often a finger has been placed or removed.
     pub(crate) finger_changes: u64,
-    /// The highest of the fixed contacts beside each grid point, m, by `heights_next`.
-    pub(crate) skyline: Field,
     /// Fixed contacts that are touched or near, in order.
     pub(crate) close: Roomy<Close>,
+    /// Of each of the others, how much its piece of the skyline rises from the point before it to the one after it, m.
+    pub(crate) asleep: Vec<Option<f64>>,
+    /// The skyline of those at each grid point, m, by `heights_next`.
+    pub(crate) skyline: Field,
     /// The first step in which nothing is left of the waves that each contact sent off when it was made.
     pub(crate) calm: Vec<u64>,
-    /// By how much the string may still come nearer to a contact before those that are close are looked for anew, m.
-    pub(crate) sure: f64,
-    /// By how much it may have come nearer to any in the last step, m.
-    pub(crate) nearer: f64,
     /// Number of steps taken.
     pub(crate) steps: u64,
     /// Energy that inexact solutions have put in and not yet taken out again, J; kept tiny.
@@ -88,11 +84,10 @@ impl State {
             heights,
             heights_rest_in: 0,
             finger_changes: 0,
-            skyline: Field::new(&model.grid),
             close: Roomy::with_capacity(contacts),
+            asleep: vec![None; contacts],
+            skyline: Field::new(&model.grid),
             calm: vec![0; contacts],
-            sure: 0.0,
-            nearer: 0.0,
             steps: 0,
             solver_balance: 0.0,
             energy_scale: 0.0,
@@ -176,19 +171,19 @@ impl State {
         }
     }
 
-    /// Has every fixed contact looked at in the next step, at its present height.
+    /// Wakes up every fixed contact, at its present height.
     pub(crate) fn look_at_all(&mut self, model: &Model) {
-        draw(&model.grid, &model.contacts, &self.heights_next, &mut self.skyline);
+        self.asleep.fill(None);
+        self.skyline.fill(f64::NEG_INFINITY);
         self.close.clear();
         let heights = self.heights.iter().zip(&self.heights_before);
         self.close.extend(model.contacts.iter().enumerate().zip(heights).map(
             |((index, contact), heights)| {
                 let [displacement, motion] = contact.reading.of_each([&self.displacement, &self.motion]);
-                let before = Before::new(&contact.law, heights.1 - (displacement - motion));
-                Close { before, ..Close::new(index, contact, displacement, *heights.0, 0.0) }
+                let before = [displacement - motion, *heights.1];
+                Close::new(index, contact, [displacement, *heights.0], before)
             },
         ));
-        (self.sure, self.nearer) = (0.0, f64::INFINITY);
     }
 
     /// Displacement of the interior points u₁ … u_{N−1}, m.

@@ -8,7 +8,6 @@ use crate::instructions::{Instructions, Pass, Vectors};
 use crate::kernel::{Advance, Kernel, Moved, Prediction, Shape, Stretching, Weights};
 use crate::model::{Coasting, Model, Stiffness};
 use crate::roomy::Roomy;
-use crate::skyline::{Clearance, SAG, groups};
 use crate::solver::{Convergence, Solver};
 use crate::state::State;
 
@@ -41,8 +40,6 @@ pub struct Scratch {
     pub(crate) near: Roomy<usize>,
     /// The step in which each contact was last solved for, one more than its index.
     pub(crate) held: Vec<u64>,
-    /// How far groups of grid points were over the skyline when contacts were last looked for.
-    pub(crate) clearances: Vec<Clearance>,
     /// Sum of the sizes of all forces that led to those found, N.
     pub(crate) tried: f64,
     /// What the last step has overwritten of the fingers.
@@ -75,7 +72,6 @@ impl Scratch {
             active: ActiveSet::with_capacity(contacts),
             near: Roomy::with_capacity(model.contacts.len()),
             held: vec![0; model.contacts.len()],
-            clearances: vec![Clearance::default(); groups(&model.grid)],
             tried: 0.0,
             fingers: vec![None; model.finger_slots],
             finger_energy: 0.0,
@@ -114,7 +110,6 @@ impl Scratch {
             // A step that may touch something finds anew what it reads of these, and no other reads them.
             near: _,
             held,
-            clearances: _,
             tried: _,
             fingers,
             finger_energy: _,
@@ -129,14 +124,17 @@ impl Scratch {
         displacement.fill(0.0);
     }
 
-    /// How near to the skyline, m, a grid point must have come where the string can have come within `near` of a contact.
-    /// None has moved by more than `largest`, m.
+    /// How much lower than the points beside it the string may lie at a contact after a step, m.
     #[inline(always)]
-    pub(crate) fn margin(&self, model: &Model, near: f64, largest: f64) -> f64 {
-        // Second differences of u are those of uⁿ, none larger than the root of the sum of their squares, and of d.
+    pub(crate) fn sag(&self, model: &Model) -> f64 {
+        if model.beside.sag == 0.0 {
+            return 0.0;
+        }
+        // Second differences of u⁺ are those of uⁿ, none larger than the root of the sum of their squares, and of d⁺, none larger
+        // than √(1 + 4 + 1) times the root of the sum of its squares.
         let squares =
             if model.coasting.stretch > 0.0 { self.shape.curvature } else { 2.0 * self.shape.steepness };
-        near + SAG * (squares.sqrt() + 4.0 * largest)
+        model.beside.sag * (squares.sqrt() + (6.0 * self.squares).sqrt())
     }
 
     /// ψ, by which dⁿ⁺¹ = w − ψ v, w with the forces of contacts in it: the tension that stretching adds, in the units of the step.
@@ -237,7 +235,7 @@ impl State {
             scratch.fingers.fill(None);
             scratch.tried = 0.0;
             let predicted = self.predict(simd, drive, scratch);
-            self.advance(simd, self.would_stretch(&predicted), scratch);
+            self.advance::<V, false>(simd, self.would_stretch(&predicted), scratch);
             Convergence::default()
         } else {
             let predicted = self.predict(simd, drive, scratch);
@@ -298,17 +296,21 @@ impl State {
         0.5 * predicted.yielding * (self.stretched - predicted.along)
     }
 
-    /// The motion to n + 1 from the prediction; returns the largest of a point, m.
+    /// The motion to n + 1 from the prediction; `OVER` the skyline if anything may be touched.
     #[inline(always)]
-    pub(crate) fn advance<V: Vectors>(&self, simd: V, stretching: f64, scratch: &mut Scratch) -> f64 {
+    pub(crate) fn advance<V: Vectors, const OVER: bool>(
+        &self,
+        simd: V,
+        stretching: f64,
+        scratch: &mut Scratch,
+    ) -> Moved {
         scratch.stretching = stretching;
         let pull = scratch.pull(stretching);
         let Scratch { kernel, prediction, motion, displacement, .. } = scratch;
-        let from = (&*prediction, &self.curvature, &self.displacement);
-        let Moved { largest, squares } =
-            kernel.advance(simd, Advance { pull, from, to: (motion, displacement) });
-        scratch.squares = squares;
-        largest
+        let (from, to) = ((&*prediction, &self.curvature, &self.displacement), (motion, displacement));
+        let moved = kernel.advance::<V, OVER>(simd, Advance { pull, from, to, skyline: &self.skyline });
+        scratch.squares = moved.squares;
+        moved
     }
 }
 

@@ -1,13 +1,12 @@
 //! Which contacts act in a step: those the string touches at n − 1 or n, or would at n + 1.
 
 use crate::active::Active;
-use crate::close::{AHEAD, Pressed};
+use crate::close::Pressed;
 use crate::contact::Before;
 use crate::drive::Drive;
 use crate::field::Field;
 use crate::grid::Reading;
 use crate::model::{Contact, Model};
-use crate::skyline::draw;
 use crate::state::State;
 use crate::string::Scratch;
 
@@ -27,16 +26,12 @@ impl State {
     pub(crate) fn hold(&mut self, model: &Model, drive: &Drive, resting: bool, scratch: &mut Scratch) {
         if !drive.heights.is_empty() && !resting {
             self.heights_next.copy_from_slice(&drive.heights);
-            draw(&model.grid, &model.contacts, &self.heights_next, &mut self.skyline);
+            model.beside.draw_all(&self.heights_next, &self.asleep, &mut self.skyline);
             self.heights_rest_in = 2;
         }
         scratch.active.clear();
         scratch.near.clear();
-        let (near, ahead) = (AHEAD * self.nearer, self.ahead());
         for (position, close) in self.close.iter().enumerate() {
-            if close.is_left_alone(ahead) {
-                continue;
-            }
             let index = close.index as usize;
             let (now, before) = (close.now.depth.penetration, close.before.penetration);
             if now > 0.0 && before <= 0.0 {
@@ -45,7 +40,7 @@ impl State {
             // A lossy one resists at n what goes on into it, even if that is out of it before and after.
             if before > 0.0 || (now > 0.0 && model.contacts[index].resists()) {
                 self.activate(model, index, (close.before, &close.now), scratch);
-            } else if now >= -near {
+            } else {
                 scratch.near.push(position);
             }
         }

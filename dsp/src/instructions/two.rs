@@ -79,14 +79,6 @@ impl Vectors for Two {
     }
 
     #[inline(always)]
-    fn max(self, a: Register, b: Register) -> Register {
-        #[cfg(target_arch = "x86_64")]
-        return self.0.sse2._mm_max_pd(a, b);
-        #[cfg(target_arch = "aarch64")]
-        return self.0.neon.vbslq_f64(self.0.neon.vcgtq_f64(a, b), a, b);
-    }
-
-    #[inline(always)]
     fn min(self, a: Register, b: Register) -> Register {
         #[cfg(target_arch = "x86_64")]
         return self.0.sse2._mm_min_pd(a, b);

@@ -31,9 +31,6 @@ pub(crate) trait Vectors: Copy {
 
     fn abs(self, a: Self::Vector) -> Self::Vector;
 
-    /// The larger one, or `b` where there is none.
-    fn max(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
-
     /// The smaller one, or `b` where there is none.
     fn min(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
 

@@ -62,11 +62,6 @@ impl<S: ClearBelow> Vectors for Wide<S> {
     }
 
     #[inline(always)]
-    fn max(self, a: S::f64s, b: S::f64s) -> S::f64s {
-        self.0.max_f64s(a, b)
-    }
-
-    #[inline(always)]
     fn min(self, a: S::f64s, b: S::f64s) -> S::f64s {
         self.0.min_f64s(a, b)
     }

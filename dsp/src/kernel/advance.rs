@@ -19,37 +19,47 @@ pub(crate) struct Advance<'a> {
     pub from: (&'a Field, &'a Field, &'a Field),
     /// d⁺ and u⁺.
     pub to: (&'a mut Field, &'a mut Field),
+    /// What u⁺ is held against, of a string that may touch something.
+    pub skyline: &'a Field,
 }
 
 /// What the last pass has moved.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Moved {
-    /// The largest |d⁺|, m.
-    pub largest: f64,
     /// d⁺ᵀd⁺, m².
     pub squares: f64,
+    /// How far the lowest point of each lane is over the skyline, if the string is held against one, m.
+    pub over: Row,
 }
 
-/// The last pass: d⁺ = w − ψv and u⁺ = u + d⁺, oddly continued beyond both ends.
+impl Moved {
+    /// How far the lowest point of all is over the skyline, m.
+    #[inline(always)]
+    pub fn least_over(&self) -> f64 {
+        self.over.iter().fold(f64::INFINITY, |least, &over| if over < least { over } else { least })
+    }
+}
+
+/// The last pass: d⁺ = w − ψv and u⁺ = u + d⁺, oddly continued beyond both ends; `OVER` a skyline if anything may be touched.
 ///
 /// What the next sweep reads first, rows at both ends of the pieces and what lies beyond the ends of the string, is written first:
 /// a vector that is read soon after parts of it were written waits until all of them are in memory.
-pub(super) struct LastPass<'a, 'b, const STRETCH: bool> {
+pub(super) struct LastPass<'a, 'b, const STRETCH: bool, const OVER: bool> {
     pub pass: Advance<'b>,
     pub ends: &'a Ends,
 }
 
-impl<const STRETCH: bool> Pass for LastPass<'_, '_, STRETCH> {
+impl<const STRETCH: bool, const OVER: bool> Pass for LastPass<'_, '_, STRETCH, OVER> {
     type Output = Moved;
 
     #[inline(always)]
     fn by<V: Vectors>(self, simd: V) -> Moved {
-        let LastPass { pass: Advance { pull, from: (w, v, u), to: (d_next, u_next) }, ends } = self;
+        let LastPass { pass: Advance { pull, from: (w, v, u), to: (d_next, u_next), skyline }, ends } = self;
         let (count, last) = (rows(w).len(), ends.beside_bridge);
-        let mut moving = Moving::<STRETCH> {
+        let mut moving = Moving::<STRETCH, OVER> {
             pull,
-            from: [w, v, u].map(|field| rows(field)),
-            sizes: [0.0; LANES],
+            from: [w, v, u, skyline].map(|field| rows(field)),
+            over: [f64::INFINITY; LANES],
             squares: [0.0; LANES],
         };
         // (In a loop, so that the code of the pass is there once: what a fretted step is made of hardly fits where a processor keeps
@@ -60,23 +70,22 @@ impl<const STRETCH: bool> Pass for LastPass<'_, '_, STRETCH> {
                 u_next.close_ends(ends);
             }
         }
-        let largest = moving.sizes.iter().fold(0.0, |most, &size| if size > most { size } else { most });
-        Moved { largest, squares: total(&moving.squares) }
+        Moved { squares: total(&moving.squares), over: moving.over }
     }
 }
 
 /// Rows on their way through a last pass.
-struct Moving<'a, const STRETCH: bool> {
+struct Moving<'a, const STRETCH: bool, const OVER: bool> {
     pull: f64,
-    /// w, v and u.
-    from: [&'a [Row]; 3],
-    /// The largest |d⁺| so far in each lane.
-    sizes: Row,
+    /// w, v and u, and the skyline.
+    from: [&'a [Row]; 4],
+    /// The least of u⁺ over the skyline so far in each lane.
+    over: Row,
     /// Σ(d⁺)² so far in each lane.
     squares: Row,
 }
 
-impl<const STRETCH: bool> Moving<'_, STRETCH> {
+impl<const STRETCH: bool, const OVER: bool> Moving<'_, STRETCH, OVER> {
     /// Moves some of them.
     #[inline(always)]
     fn advance<V: Vectors>(
@@ -85,9 +94,9 @@ impl<const STRETCH: bool> Moving<'_, STRETCH> {
         range: Range<usize>,
         (d_next, u_next): (&mut Field, &mut Field),
     ) {
-        let [w, v, u] = self.from.map(|rows| &rows[range.clone()]);
+        let [w, v, u, top] = self.from.map(|rows| &rows[range.clone()]);
         let count = w.len();
-        let (v, u) = (&v[..count], &u[..count]);
+        let (v, u, top) = (&v[..count], &u[..count], &top[..count]);
         let [d_next, u_next] = [d_next, u_next].map(|field| &mut rows_mut(field)[range.clone()][..count]);
         let (pull, still) = (simd.splat(self.pull), simd.splat(STILL));
         for at in 0..count {
@@ -97,10 +106,14 @@ impl<const STRETCH: bool> Moving<'_, STRETCH> {
                 let d = if STRETCH { simd.sub(d, simd.mul(pull, v)) } else { d };
                 let size = simd.abs(d);
                 let d = simd.clear_below(d, size, still);
+                let u = simd.add(simd.part(&u[at], part), d);
                 simd.put(&mut d_next[at], part, d);
-                simd.put(&mut u_next[at], part, simd.add(simd.part(&u[at], part), d));
-                let largest = simd.max(size, simd.part(&self.sizes, part));
-                simd.put(&mut self.sizes, part, largest);
+                simd.put(&mut u_next[at], part, u);
+                if OVER {
+                    let over = simd.sub(u, simd.part(&top[at], part));
+                    let over = simd.min(over, simd.part(&self.over, part));
+                    simd.put(&mut self.over, part, over);
+                }
                 let squares = simd.add_product(simd.part(&self.squares, part), d, d);
                 simd.put(&mut self.squares, part, squares);
             }
