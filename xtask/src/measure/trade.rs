@@ -32,7 +32,7 @@ use crate::repository::root;
 use errors::{Errors, Reference};
 use filter::LowPass;
 use scenes::{Kind, Playing, SCENES};
-use settings::{Axis, Law, Setting};
+use settings::{Axis, Setting};
 
 /// Where the tables stand.
 const PAGE: &str = "docs/trade.md";
@@ -221,23 +221,22 @@ fn observe(index: usize, playing: &Playing, settings: &[Setting]) -> Result<Vec<
     Ok(outcomes)
 }
 
-/// Rounds in which everything is timed; the fastest counts. In rounds, so that whatever else the machine does
-/// for a while does not fall on one setting alone.
-const ROUNDS: usize = 2;
+/// Rounds in which everything is timed; of each hundredth of a second the fastest counts. In rounds, so that whatever else the machine
+/// does for a while does not fall on one setting alone.
+const ROUNDS: usize = 3;
 
 /// Of the chord, which is over in a moment.
 const CHORD_ROUNDS: usize = 20;
 
 /// Takes the times, one after another.
 fn time(outcomes: &mut [Outcome]) -> Result<()> {
+    let mut times: Vec<_> = outcomes.iter().map(|_| record::Times::default()).collect();
     for round in 1..=ROUNDS {
         eprintln!("times: {round} of {ROUNDS}");
-        for outcome in outcomes.iter_mut().filter(|outcome| outcome.kind().is_main()) {
-            if outcome.setting.law == Law::Quadratised && round > 1 {
-                continue;
+        for (outcome, times) in outcomes.iter_mut().zip(&mut times) {
+            if outcome.kind().is_main() {
+                outcome.load = Some(record::load(&SCENES[outcome.scene], &outcome.setting, times)?);
             }
-            let load = record::load(&SCENES[outcome.scene], &outcome.setting)?;
-            outcome.load = Some(outcome.load.map_or(load, |best| best.min(load)));
         }
     }
     Ok(())

@@ -182,50 +182,80 @@ impl Record {
     }
 }
 
-/// How often what is subtracted is timed.
-const TRIES: usize = 3;
+/// A piece of a scene that is timed by itself, s.
+const PIECE: f64 = 0.01;
 
-/// Part of a core that a string of a scene takes in real time.
-pub fn load(playing: &Playing, setting: &Setting) -> Result<f64> {
-    let (mut taken, mut played) = (0.0, 0.0);
+/// The times that the pieces of some scenes have taken, s, each the fastest so far: so whatever else a machine does for a while
+/// counts only where it did that whenever the piece was timed.
+#[derive(Debug, Default)]
+pub struct Times {
+    scenes: Vec<f64>,
+    /// Of the rival's string with nothing to touch, which is subtracted, and of ours, which is put in its place.
+    bare: [Vec<f64>; 2],
+}
+
+/// Part of a core that a string of a scene takes in real time, by times that are taken once more.
+pub fn load(playing: &Playing, setting: &Setting, times: &mut Times) -> Result<f64> {
+    let mut taken = Times::default();
+    let mut played = 0.0;
     for scene in playing.scenes(setting)? {
-        taken += match setting.law {
-            Law::Newton => seconds_by_newton(&scene)?,
+        match setting.law {
+            Law::Newton => time_newton(&scene, &mut taken.scenes)?,
             // Its string is stepped by plain loops: what is compared is what contacts cost over the same string.
             Law::Quadratised => {
                 let bare = Scene { fretboard: None, finger: Vec::new(), ..scene.clone() };
-                // A difference of times wants each at its best.
-                let best = |seconds: fn(&Scene) -> Result<f64>, scene: &Scene| {
-                    let tries = (0..TRIES).map(|_| seconds(scene)).collect::<Result<Vec<f64>>>()?;
-                    Ok::<f64, anyhow::Error>(tries.into_iter().fold(f64::INFINITY, f64::min))
-                };
-                best(seconds_by_rival, &scene)? - best(seconds_by_rival, &bare)?
-                    + best(seconds_by_newton, &bare)?
+                time_rival(&scene, &mut taken.scenes)?;
+                time_rival(&bare, &mut taken.bare[0])?;
+                time_newton(&bare, &mut taken.bare[1])?;
             }
-        };
+        }
         played += scene.duration;
     }
-    Ok(taken / played)
+    let [theirs, ours] = &mut times.bare;
+    let [new_theirs, new_ours] = taken.bare;
+    let seconds =
+        fastest(&mut times.scenes, taken.scenes) - fastest(theirs, new_theirs) + fastest(ours, new_ours);
+    Ok(seconds / played)
 }
 
-fn seconds_by_newton(scene: &Scene) -> Result<f64> {
+/// Keeps the faster time of each piece; returns what all take, s.
+fn fastest(known: &mut Vec<f64>, taken: Vec<f64>) -> f64 {
+    if known.is_empty() {
+        *known = taken;
+    } else {
+        known.iter_mut().zip(taken).for_each(|(known, taken)| *known = known.min(taken));
+    }
+    known.iter().sum()
+}
+
+fn time_newton(scene: &Scene, times: &mut Vec<f64>) -> Result<()> {
     let mut simulation = Simulation::new(scene)?;
-    let (mut heard, started) = (0.0, Instant::now());
-    for _ in 0..simulation.samples() {
+    time_pieces(simulation.samples(), scene.duration, times, || {
         simulation.step();
-        heard += simulation.output();
-    }
-    std::hint::black_box(heard);
-    Ok(started.elapsed().as_secs_f64())
+        simulation.output()
+    });
+    Ok(())
 }
 
-fn seconds_by_rival(scene: &Scene) -> Result<f64> {
+fn time_rival(scene: &Scene, times: &mut Vec<f64>) -> Result<()> {
     let mut rival = Rival::new(scene)?;
-    let (mut heard, started) = (0.0, Instant::now());
-    for _ in 0..rival.samples() {
+    time_pieces(rival.samples(), scene.duration, times, || {
         rival.step();
-        heard += rival.output();
+        rival.output()
+    });
+    Ok(())
+}
+
+/// Times so many samples, which last so long, piece by piece.
+fn time_pieces(samples: u64, duration: f64, times: &mut Vec<f64>, mut sample: impl FnMut() -> f64) {
+    let piece = ((PIECE / duration * samples as f64) as u64).max(1);
+    let mut left = samples;
+    while left > 0 {
+        let count = left.min(piece);
+        let started = Instant::now();
+        let heard: f64 = (0..count).map(|_| sample()).sum();
+        std::hint::black_box(heard);
+        times.push(started.elapsed().as_secs_f64());
+        left -= count;
     }
-    std::hint::black_box(heard);
-    Ok(started.elapsed().as_secs_f64())
 }
