@@ -92,20 +92,20 @@ impl State {
     /// missed.
     #[inline(always)]
     fn watch(&mut self, model: &Model, far: f64, again: bool, scratch: &Scratch) -> bool {
-        let (mut missed, mut tired) = (false, false);
+        let (mut missed, mut some_far) = (false, false);
         for close in &mut self.close {
             let index = close.index as usize;
             let (contact, height) = (&model.contacts[index], self.heights_next[index]);
-            // (Of a step that is taken again it has been told.)
+            // (Where the step is taken again this has been done.)
             if !again {
                 close.before = close.now.depth;
             }
             close.displacement = contact.reading.of(&scratch.displacement);
             close.now = contact.pressed(height - close.displacement);
             missed |= close.displacement < height && scratch.held[index] != self.steps + 1;
-            tired |= close.displacement - height > far;
+            some_far |= close.displacement - height > far;
         }
-        if tired {
+        if some_far {
             self.doze(model, far, scratch);
         }
         missed
@@ -125,11 +125,11 @@ impl State {
         close.retain(|close| {
             let index = close.index as usize;
             let touched = close.now.depth.penetration.max(close.before.penetration) > 0.0;
-            let bed = beside.bed(index, u);
-            if touched || !beside.may_sleep(index) || bed.displacement - heights_next[index] <= far {
+            let line = beside.line(index, u);
+            if touched || !beside.may_sleep(index) || line.displacement - heights_next[index] <= far {
                 return true;
             }
-            asleep[index] = Some(bed.rise);
+            asleep[index] = Some(line.rise);
             for cell in beside.cells(index) {
                 beside.draw(cell, heights_next, asleep, skyline);
             }

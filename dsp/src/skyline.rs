@@ -35,11 +35,11 @@ struct Place {
     at_end: bool,
 }
 
-/// The string at a contact.
-pub(crate) struct Bed {
-    /// By the straight line between the points beside it, m.
+/// The straight line of a string between the points beside a contact.
+pub(crate) struct Line {
+    /// Its height over the contact's place, m.
     pub displacement: f64,
-    /// How much higher the second of them is than the first, m.
+    /// How much higher the second point is than the first, m.
     pub rise: f64,
 }
 
@@ -80,11 +80,11 @@ impl Beside {
         !self.places[index].at_end
     }
 
-    /// A string at a contact.
-    pub fn bed(&self, index: usize, u: &Field) -> Bed {
+    /// The straight line of a string at a contact.
+    pub fn line(&self, index: usize, u: &Field) -> Line {
         let [first, second] = self.cells(index).map(|cell| u[cell]);
         let rise = second - first;
-        Bed { displacement: first + self.places[index].part * rise, rise }
+        Line { displacement: first + self.places[index].part * rise, rise }
     }
 
     /// Puts the highest piece at a point into a skyline, of contacts at these heights; `asleep` says how much the piece of each that

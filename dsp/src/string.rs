@@ -85,7 +85,7 @@ impl Scratch {
     }
 
     /// Back to the state of new room, without allocating. What is not set here a step writes before it reads it: the prediction,
-    /// the clearances, `squares`, `tried` and `finger_energy` whenever they are asked for, stiffness, loss and what follows from
+    /// `squares`, `tried` and `finger_energy` whenever they are asked for, stiffness, loss and what follows from
     /// them where the drive has others than the step before.
     pub fn reset(&mut self) {
         let Self {

@@ -58,7 +58,7 @@ fn what_is_over_the_skyline_is_over_what_sleeps_under_it() {
         let asleep: Vec<_> = (0..contacts.len())
             .map(|index| {
                 let sleeps = beside.may_sleep(index) && random(&mut seed) > 0.0;
-                sleeps.then(|| beside.bed(index, &fell_asleep).rise)
+                sleeps.then(|| beside.line(index, &fell_asleep).rise)
             })
             .collect();
         let mut skyline = Field::new(&grid);
@@ -99,13 +99,13 @@ fn a_string_at_a_slant_is_as_far_over_the_skyline_as_over_the_contact() {
         let beside = Beside::new(&grid, &contacts);
         let u = string(&grid, &mut seed);
         for index in (0..contacts.len()).filter(|&index| beside.may_sleep(index)) {
-            let bed = beside.bed(index, &u);
+            let line = beside.line(index, &u);
             let mut asleep = vec![None; contacts.len()];
-            asleep[index] = Some(bed.rise);
+            asleep[index] = Some(line.rise);
             let mut skyline = Field::new(&grid);
             for cell in beside.cells(index) {
                 beside.draw(cell, &heights, &asleep, &mut skyline);
-                let off = (u[cell] - skyline[cell]) - (bed.displacement - heights[index]);
+                let off = (u[cell] - skyline[cell]) - (line.displacement - heights[index]);
                 assert!(off.abs() < 1e-14, "run {run}, {index}: {off:e}");
             }
         }
