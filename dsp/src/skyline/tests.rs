@@ -32,6 +32,15 @@ fn contacts(grid: &Grid, seed: &mut u64) -> Vec<Contact> {
     contacts
 }
 
+/// A grid of few points or more, contacts over it and their heights.
+fn neck(run: usize, seed: &mut u64) -> (Grid, Vec<Contact>, Vec<f64>, Beside) {
+    let grid = Grid::new(1.0, 4 + run % 40, 1e-5);
+    let contacts = contacts(&grid, seed);
+    let heights = contacts.iter().map(|contact| contact.height).collect();
+    let beside = Beside::new(&grid, &contacts);
+    (grid, contacts, heights, beside)
+}
+
 /// From smooth to as rough as can be.
 fn string(grid: &Grid, seed: &mut u64) -> Field {
     let roughness = 0.5 * (1.0 + random(seed));
@@ -50,10 +59,7 @@ fn what_is_over_the_skyline_is_over_what_sleeps_under_it() {
     let mut seed = 1;
     let mut over = 0;
     for run in 0..3000 {
-        let grid = Grid::new(1.0, 4 + run % 40, 1e-5);
-        let contacts = contacts(&grid, &mut seed);
-        let heights: Vec<f64> = contacts.iter().map(|contact| contact.height).collect();
-        let beside = Beside::new(&grid, &contacts);
+        let (grid, contacts, heights, beside) = neck(run, &mut seed);
         let fell_asleep = string(&grid, &mut seed);
         let asleep: Vec<_> = (0..contacts.len())
             .map(|index| {
@@ -93,10 +99,7 @@ fn what_is_over_the_skyline_is_over_what_sleeps_under_it() {
 fn a_string_at_a_slant_is_as_far_over_the_skyline_as_over_the_contact() {
     let mut seed = 2;
     for run in 0..300 {
-        let grid = Grid::new(1.0, 4 + run % 40, 1e-5);
-        let contacts = contacts(&grid, &mut seed);
-        let heights: Vec<f64> = contacts.iter().map(|contact| contact.height).collect();
-        let beside = Beside::new(&grid, &contacts);
+        let (grid, contacts, heights, beside) = neck(run, &mut seed);
         let u = string(&grid, &mut seed);
         for index in (0..contacts.len()).filter(|&index| beside.may_sleep(index)) {
             let line = beside.line(index, &u);
