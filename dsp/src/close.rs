@@ -151,9 +151,11 @@ impl State {
                 continue;
             }
             for index in beside.contacts(cell) {
-                if self.asleep[index].take().is_none() {
+                let Some(rise) = self.asleep[index] else { continue };
+                if u[cell] - beside.piece(index, cell, self.heights_next[index], rise) > near {
                     continue;
                 }
+                self.asleep[index] = None;
                 let contact = &model.contacts[index];
                 let now = [contact.reading.of(u), self.heights_next[index]];
                 let before = [contact.reading.of(&self.displacement), self.heights[index]];

@@ -2,8 +2,7 @@
 //!
 //! A contact that is asleep stands under a piece of the skyline: a line between the two grid points beside it that passes
 //! through its top. As long as both points are over that line, so is the straight line between them over the contact, and
-//! the string is no lower than that but for what it sags: cubic interpolation at a fraction p is the straight line less
-//! p(1 − p)/6·((2 − p)vⱼ + (1 + p)vⱼ₊₁), v the second differences, which is at most p(1 − p)/2 of the largest of them.
+//! the string is no lower than that but for what it [sags](Sag).
 //!
 //! Each piece is as steep as the string was when its contact fell asleep, so that a string that is bent there, or runs at a slant
 //! over it, is as far over the piece as over the contact.
@@ -20,8 +19,21 @@ pub(crate) struct Beside {
     /// The contacts beside each point, by its cell of a field.
     contacts: Vec<Range<u32>>,
     places: Vec<Place>,
-    /// How much lower than the straight line the string may lie at any contact, as a part of its largest second difference.
-    pub sag: f64,
+    /// How much lower than the straight line the string may lie at any contact that may sleep.
+    pub sag: Sag,
+}
+
+/// How much lower than the straight line between two points the string may lie: cubic interpolation at a fraction p is that line less
+/// p(1 − p)/6·((2 − p)vⱼ + (1 + p)vⱼ₊₁), v the second differences. Each sum of products is no larger than the product of the roots of
+/// both sums of squares.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Sag {
+    /// As a part of √(vᵀv) of the string.
+    pub bend: f64,
+    /// As a part of √|δu|², of its differences.
+    pub slope: f64,
+    /// As a part of √(dᵀd), of how far its points move.
+    pub motion: f64,
 }
 
 /// Where a contact is on the grid.
@@ -49,7 +61,7 @@ impl Beside {
         let mut beside = Beside {
             contacts: vec![0..0; LANES * row_count(grid.intervals)],
             places: contacts.iter().map(|contact| Place::new(contact, grid)).collect(),
-            sag: 0.0,
+            sag: Sag::default(),
         };
         for (index, (place, contact)) in (0..).zip(beside.places.iter().zip(contacts)) {
             for cell in place.cells {
@@ -57,8 +69,8 @@ impl Beside {
                 let start = if range.start == range.end { index } else { range.start };
                 *range = start..index + 1;
             }
-            if contact.reading.is_curved() {
-                beside.sag = beside.sag.max(0.5 * place.part * (1.0 - place.part));
+            if contact.reading.is_curved() && !place.at_end {
+                beside.sag = beside.sag.max(&Sag::at(place.part));
             }
         }
         beside
@@ -87,14 +99,19 @@ impl Beside {
         Line { displacement: first + self.places[index].part * rise, rise }
     }
 
+    /// How high the piece of a contact of a height is at a point beside it, m, if it rises so much.
+    pub fn piece(&self, index: usize, cell: usize, height: f64, rise: f64) -> f64 {
+        let Place { cells, part, .. } = self.places[index];
+        let away = if cell == cells[0] as usize { -part } else { 1.0 - part };
+        height + away * rise
+    }
+
     /// Puts the highest piece at a point into a skyline, of contacts at these heights; `asleep` says how much the piece of each that
     /// is asleep rises.
     pub fn draw(&self, cell: usize, heights: &[f64], asleep: &[Option<f64>], skyline: &mut Field) {
-        let tops = self.contacts(cell).filter_map(|index| {
-            let Place { cells, part, .. } = self.places[index];
-            let away = if cell == cells[0] as usize { -part } else { 1.0 - part };
-            asleep[index].map(|rise| heights[index] + away * rise)
-        });
+        let tops = self
+            .contacts(cell)
+            .filter_map(|index| asleep[index].map(|rise| self.piece(index, cell, heights[index], rise)));
         skyline[cell] = tops.fold(f64::NEG_INFINITY, f64::max);
     }
 
@@ -102,6 +119,29 @@ impl Beside {
     pub fn draw_all(&self, heights: &[f64], asleep: &[Option<f64>], skyline: &mut Field) {
         for cell in 0..self.contacts.len() {
             self.draw(cell, heights, asleep, skyline);
+        }
+    }
+}
+
+impl Sag {
+    /// At a fraction of a spacing.
+    pub fn at(part: f64) -> Self {
+        let (a, b) = (2.0 - part, 1.0 + part);
+        let norm = |weights: &[f64]| weights.iter().map(|weight| weight * weight).sum::<f64>().sqrt();
+        let share = part * (1.0 - part) / 6.0;
+        Sag {
+            bend: share * norm(&[a, b]),
+            slope: share * norm(&[a, b - a, b]),
+            motion: share * norm(&[a, b - 2.0 * a, a - 2.0 * b, b]),
+        }
+    }
+
+    /// The most of each.
+    fn max(&self, other: &Self) -> Self {
+        Sag {
+            bend: self.bend.max(other.bend),
+            slope: self.slope.max(other.slope),
+            motion: self.motion.max(other.motion),
         }
     }
 }

@@ -124,17 +124,20 @@ impl Scratch {
         displacement.fill(0.0);
     }
 
-    /// How much lower than the points beside it the string may lie at a contact after a step, m.
+    /// How much lower than the straight line between the points beside it the string may lie at a contact after a step, m: bent as it
+    /// was at n, and by its motion from there.
     #[inline(always)]
     pub(crate) fn sag(&self, model: &Model) -> f64 {
-        if model.beside.sag == 0.0 {
+        let sag = &model.beside.sag;
+        if sag.bend == 0.0 {
             return 0.0;
         }
-        // Second differences of u⁺ are those of uⁿ, none larger than the root of the sum of their squares, and of d⁺, none larger
-        // than √(1 + 4 + 1) times the root of the sum of its squares.
-        let squares =
-            if model.coasting.stretch > 0.0 { self.shape.curvature } else { 2.0 * self.shape.steepness };
-        model.beside.sag * (squares.sqrt() + (6.0 * self.squares).sqrt())
+        let shape = if model.coasting.stretch > 0.0 {
+            sag.bend * self.shape.curvature.sqrt()
+        } else {
+            sag.slope * self.shape.steepness.sqrt()
+        };
+        shape + sag.motion * self.squares.sqrt()
     }
 
     /// ψ, by which dⁿ⁺¹ = w − ψ v, w with the forces of contacts in it: the tension that stretching adds, in the units of the step.

@@ -4,3 +4,4 @@ pub mod files;
 pub mod measure;
 pub mod numbers;
 pub mod repository;
+pub mod stencils;

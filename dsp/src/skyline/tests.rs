@@ -74,9 +74,13 @@ fn what_is_over_the_skyline_is_over_what_sleeps_under_it() {
         let part = 0.5 * (1.0 + random(&mut seed));
         u.iter_mut().zip(&*fell_asleep).for_each(|(u, other)| *u = part * *u + (1.0 - part) * other);
         let point = |node: usize| u[grid.cell(node)];
-        let bends = (1..grid.intervals)
-            .map(|node| ((point(node + 1) - point(node)) - (point(node) - point(node - 1))).abs());
-        let sag = beside.sag * bends.fold(0.0, f64::max);
+        let slope = |node: usize| point(node + 1) - point(node);
+        let slopes: f64 = (0..grid.intervals).map(|node| slope(node).powi(2)).sum();
+        let bends: f64 = (1..grid.intervals).map(|node| (slope(node) - slope(node - 1)).powi(2)).sum();
+        // (As a motion from a straight line, too.)
+        let points: f64 = (1..grid.intervals).map(|node| point(node).powi(2)).sum();
+        let Sag { bend, slope, motion } = beside.sag;
+        let sag = (bend * bends.sqrt()).min(slope * slopes.sqrt()).min(motion * points.sqrt());
         for (index, contact) in contacts.iter().enumerate().filter(|(index, _)| asleep[*index].is_some()) {
             let clear = beside.cells(index).map(|cell| u[cell] - skyline[cell]);
             let sags = if contact.reading.is_curved() { sag } else { 0.0 };

@@ -7,8 +7,8 @@ use low_action_dsp::curve::Curve;
 use low_action_dsp::scene::ListeningPoint;
 use low_action_dsp::{Scene, Simulation, Stencil, StringParameters};
 use low_action_figures::describe::significant;
-use low_action_figures::style::colour;
-use low_action_figures::{Axis, Layer, Panel, Sheet, Stroke};
+use low_action_figures::{Axis, Layer, Panel, Sheet};
+use xtask::stencils::STENCILS;
 
 use super::Made;
 use super::modes::partials;
@@ -17,13 +17,6 @@ use super::running::{Repository, listen};
 
 const STRING: &str = "scenes/paper/figure_2.toml";
 const BARRIER: &str = "scenes/paper/barrier.toml";
-
-/// The stencils, in the colours that they have in the picture of the trade, too.
-const STENCILS: [(Stencil, Stroke); 3] = [
-    (Stencil::Paper, Stroke::new(colour::ORANGE)),
-    (Stencil::Corrected, Stroke::new(colour::GREEN)),
-    (Stencil::Wide, Stroke::new(colour::BLUE)),
-];
 
 /// Orders in the grid spacing that the analysis promises for partials, of an ideal string and of a stiff one.
 /// Stiffness leaves an error of κ²h²γ⁶/6 that only the wide stencil takes out, and then one of h⁴.

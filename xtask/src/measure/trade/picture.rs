@@ -9,13 +9,7 @@ use super::scenes::Kind;
 use super::settings::{Axis, BASE, Setting, quality, settings};
 use super::table::{self, mean_load, of};
 use super::{Outcome, percent};
-
-/// The stencils with their lines.
-const STENCILS: [(Stencil, Stroke); 3] = [
-    (Stencil::Paper, Stroke::new(colour::ORANGE)),
-    (Stencil::Corrected, Stroke::new(colour::GREEN)),
-    (Stencil::Wide, Stroke::new(colour::BLUE)),
-];
+use crate::stencils::STENCILS;
 
 /// Something that can go wrong, for the vertical axis.
 struct Wrong {
