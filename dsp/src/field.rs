@@ -84,14 +84,6 @@ impl Field {
         out.drain(..BEFORE);
         out.truncate(intervals + 1);
     }
-
-    /// Has the displacements beyond both ends continue those of the string oddly.
-    #[inline(always)]
-    pub(crate) fn close_ends(&mut self, ends: &Ends) {
-        for (ghost, point) in ends.ghosts {
-            self[ghost] = -self[point];
-        }
-    }
 }
 
 impl Deref for Field {
@@ -130,6 +122,14 @@ impl Ends {
         Ends {
             ghosts: [(near.1, near.0), (far.1, far.0), mirror(nut, 1), mirror(nut, 2)],
             beside_bridge: row.max(BESIDE_NUT),
+        }
+    }
+
+    /// Has the displacements beyond both ends continue those of the string oddly.
+    #[inline(always)]
+    pub fn close(&self, displacement: &mut [f64]) {
+        for (ghost, point) in self.ghosts {
+            displacement[ghost] = -displacement[point];
         }
     }
 

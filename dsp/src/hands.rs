@@ -268,12 +268,13 @@ impl Hands {
             // Half a step of the next sample's push may still be its.
             (pluck.done as f64 - 0.5) / rate < pluck.duration + pluck.release
         });
-        for slot in 0..FINGERS_PER_STRING {
+        // (Where the string has no finger there is none to drive.)
+        for slot in 0..state.no_finger_from {
             let Some(held) = &mut self.fingers[slot] else { continue };
-            let force = held.force.value();
+            let hand = &mut drive.hands[slot];
+            hand.force = held.force.value();
             held.force.step();
-            drive.hands[slot].force = force;
-            drive.hands[slot].position = held.position.step();
+            hand.position = held.position.step();
             if held.leaving
                 && let Some(finger) = &state.fingers()[slot]
                 && finger.height - state.displacement_at(&finger.reading) > CLEAR

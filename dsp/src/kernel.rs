@@ -206,7 +206,7 @@ mod tests {
             values
         };
         let (mut u, d, before) = (field(), field(), field());
-        u.close_ends(&ends);
+        ends.close(&mut u);
         let weights = Weights { motion: 0.97, near: [0.7, -0.03, 0.001], before: 0.01, energy: [0.0; 2] };
         let run = |instructions: Instructions| {
             let keep = moving(&grid);
@@ -260,7 +260,7 @@ mod tests {
                 d[grid.cell(node)] = 0.5 * at(node as i64);
                 v[grid.cell(node)] = 3.0 * at(node as i64) - 8.0;
             }
-            u.close_ends(&ends);
+            ends.close(&mut u);
             let weights = Weights { motion: 0.75, near: [0.5, -0.25, 0.125], before: 0.25, energy: [0.0; 2] };
             let mut skyline = Field::filled(&grid, f64::NEG_INFINITY);
             (1..intervals).for_each(|node| skyline[grid.cell(node)] = 0.25 * at(node as i64));

@@ -148,7 +148,7 @@ impl State {
     /// Finds all that follows from a displacement and a motion that no step has led to.
     pub(crate) fn close_shape(&mut self, model: &Model) {
         let grid = &model.grid;
-        self.displacement.close_ends(&Ends::new(grid));
+        Ends::new(grid).close(&mut self.displacement);
         self.look_back(model);
         self.stretched = if model.coasting.stretch > 0.0 { self.stretch(model) } else { 0.0 };
         self.squares = self.motion.iter().map(|motion| motion * motion).sum();

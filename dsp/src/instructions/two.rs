@@ -71,14 +71,6 @@ impl Vectors for Two {
     }
 
     #[inline(always)]
-    fn abs(self, a: Register) -> Register {
-        #[cfg(target_arch = "x86_64")]
-        return self.0.sse2._mm_andnot_pd(self.splat(-0.0), a);
-        #[cfg(target_arch = "aarch64")]
-        return self.0.neon.vabsq_f64(a);
-    }
-
-    #[inline(always)]
     fn min(self, a: Register, b: Register) -> Register {
         #[cfg(target_arch = "x86_64")]
         return self.0.sse2._mm_min_pd(a, b);
@@ -87,10 +79,18 @@ impl Vectors for Two {
     }
 
     #[inline(always)]
-    fn clear_below(self, value: Register, size: Register, least: Register) -> Register {
+    fn add_squares(self, sum: Register, value: Register, least: Register) -> [Register; 2] {
+        let square = self.mul(value, value);
         #[cfg(target_arch = "x86_64")]
-        return self.0.sse2._mm_andnot_pd(self.0.sse2._mm_cmplt_pd(size, least), value);
+        let [value, square] = {
+            let below = self.0.sse2._mm_cmplt_pd(square, least);
+            [value, square].map(|number| self.0.sse2._mm_andnot_pd(below, number))
+        };
         #[cfg(target_arch = "aarch64")]
-        return self.0.neon.vbslq_f64(self.0.neon.vcltq_f64(size, least), self.splat(0.0), value);
+        let [value, square] = {
+            let below = self.0.neon.vcltq_f64(square, least);
+            [value, square].map(|number| self.0.neon.vbslq_f64(below, self.splat(0.0), number))
+        };
+        [value, self.add(sum, square)]
     }
 }

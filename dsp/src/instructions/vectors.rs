@@ -29,13 +29,11 @@ pub(crate) trait Vectors: Copy {
 
     fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
 
-    fn abs(self, a: Self::Vector) -> Self::Vector;
-
     /// The smaller one, or `b` where there is none.
     fn min(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
 
-    /// `value`, but 0 where `size` is less than `least`.
-    fn clear_below(self, value: Self::Vector, size: Self::Vector, least: Self::Vector) -> Self::Vector;
+    /// `value`, but 0 where its square is less than `least`; and the sum with the squares of the others.
+    fn add_squares(self, sum: Self::Vector, value: Self::Vector, least: Self::Vector) -> [Self::Vector; 2];
 
     /// The sum with a product, rounded twice.
     #[inline(always)]

@@ -1,13 +1,13 @@
 //! Vectors as a library has them.
 
 #[cfg(target_arch = "x86_64")]
-use std::arch::x86_64::_CMP_LT_OQ;
+use std::arch::x86_64::{_CMP_LT_OQ, _CMP_NLT_UQ};
 
-#[cfg(target_arch = "x86_64")]
-use pulp::f64x4;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
 use pulp::{Scalar128b, Simd};
+#[cfg(target_arch = "x86_64")]
+use pulp::{f64x4, f64x8};
 
 use super::{By, Pass, Vectors};
 use crate::field::{LANES, Row};
@@ -16,7 +16,7 @@ use crate::field::{LANES, Row};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wide<S>(pub S);
 
-impl<S: ClearBelow> Vectors for Wide<S> {
+impl<S: AddSquares> Vectors for Wide<S> {
     type Vector = S::f64s;
 
     const PARTS: usize = LANES / S::F64_LANES;
@@ -57,41 +57,54 @@ impl<S: ClearBelow> Vectors for Wide<S> {
     }
 
     #[inline(always)]
-    fn abs(self, a: S::f64s) -> S::f64s {
-        self.0.abs_f64s(a)
-    }
-
-    #[inline(always)]
     fn min(self, a: S::f64s, b: S::f64s) -> S::f64s {
         self.0.min_f64s(a, b)
     }
 
     #[inline(always)]
-    fn clear_below(self, value: S::f64s, size: S::f64s, least: S::f64s) -> S::f64s {
-        self.0.clear_below(value, size, least)
+    fn add_squares(self, sum: S::f64s, value: S::f64s, least: S::f64s) -> [S::f64s; 2] {
+        AddSquares::add_squares(self.0, sum, value, least)
     }
 }
 
 /// What not every set does best in the same way.
-pub(super) trait ClearBelow: Simd {
-    /// `value`, but 0 where `size` is less than `least`.
+pub(super) trait AddSquares: Simd {
+    /// [`Vectors::add_squares`].
     #[inline(always)]
-    fn clear_below(self, value: Self::f64s, size: Self::f64s, least: Self::f64s) -> Self::f64s {
-        self.select_f64s(self.less_than_f64s(size, least), self.splat_f64s(0.0), value)
+    fn add_squares(self, sum: Self::f64s, value: Self::f64s, least: Self::f64s) -> [Self::f64s; 2] {
+        let (zero, square) = (self.splat_f64s(0.0), self.mul_f64s(value, value));
+        let below = self.less_than_f64s(square, least);
+        let [value, square] = [value, square].map(|number| self.select_f64s(below, zero, number));
+        [value, self.add_f64s(sum, square)]
     }
 }
 
-impl ClearBelow for Scalar128b {}
+impl AddSquares for Scalar128b {}
 
+/// What is masked takes no instruction of its own.
 #[cfg(target_arch = "x86_64")]
-impl ClearBelow for V4 {}
+impl AddSquares for V4 {
+    #[inline(always)]
+    fn add_squares(self, sum: f64x8, value: f64x8, least: f64x8) -> [f64x8; 2] {
+        let set = self.avx512f;
+        let [sum, value, least] = [sum, value, least].map(pulp::cast);
+        let square = set._mm512_mul_pd(value, value);
+        let moves = set._mm512_cmp_pd_mask::<_CMP_NLT_UQ>(square, least);
+        let moving = set._mm512_maskz_mov_pd(moves, value);
+        [moving, set._mm512_mask_add_pd(sum, moves, sum, square)].map(pulp::cast)
+    }
+}
 
 /// A mask is as wide as the numbers and covers them as it is: chosen by it, they would be by its signs, found first.
 #[cfg(target_arch = "x86_64")]
-impl ClearBelow for V3 {
+impl AddSquares for V3 {
     #[inline(always)]
-    fn clear_below(self, value: f64x4, size: f64x4, least: f64x4) -> f64x4 {
-        let below = self.avx._mm256_cmp_pd::<_CMP_LT_OQ>(pulp::cast(size), pulp::cast(least));
-        pulp::cast(self.avx._mm256_andnot_pd(below, pulp::cast(value)))
+    fn add_squares(self, sum: f64x4, value: f64x4, least: f64x4) -> [f64x4; 2] {
+        let set = self.avx;
+        let square = pulp::cast(self.mul_f64s(value, value));
+        let below = set._mm256_cmp_pd::<_CMP_LT_OQ>(square, pulp::cast(least));
+        let square = set._mm256_andnot_pd(below, square);
+        let value = set._mm256_andnot_pd(below, pulp::cast(value));
+        [pulp::cast(value), self.add_f64s(sum, pulp::cast(square))]
     }
 }

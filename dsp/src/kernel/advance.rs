@@ -1,14 +1,12 @@
 //! The last pass of a step.
 
-use std::ops::Range;
-
 use super::rows::{rows, rows_mut};
 use crate::field::{BESIDE_NUT, Ends, Field, LANES, Row, total};
 use crate::instructions::{Pass, Vectors};
 
 /// Motion below this, m, is none: what runs ahead of a wave on a silent string would otherwise become a
 /// subnormal number, slow on most machines and flushed to zero on some, and the bits would depend on the
-/// host. The square of such a motion's last digit is still a normal number.
+/// host. The square of such a motion's last digit is still a normal number. (A string is asked by squares, which are summed anyway.)
 pub(crate) const STILL: f64 = 1e-120;
 
 /// What the last pass goes from, and where it writes.
@@ -55,67 +53,75 @@ impl<const STRETCH: bool, const OVER: bool> Pass for LastPass<'_, '_, STRETCH, O
     #[inline(always)]
     fn by<V: Vectors>(self, simd: V) -> Moved {
         let LastPass { pass: Advance { pull, from: (w, v, u), to: (d_next, u_next), skyline }, ends } = self;
-        let (count, last) = (rows(w).len(), ends.beside_bridge);
-        let mut moving = Moving::<STRETCH, OVER> {
-            pull,
-            from: [w, v, u, skyline].map(|field| rows(field)),
-            over: [f64::INFINITY; LANES],
-            squares: [0.0; LANES],
-        };
+        let w = rows(w);
+        // (As many of each: their lengths are compared once, and not where rows are taken.)
+        let count = w.len();
+        let [v, u, skyline] = [v, u, skyline].map(|field| &rows(field)[..count]);
+        let [d_next, u_next] = [d_next, u_next].map(|field| &mut rows_mut(field)[..count]);
+        let (pull, least_square) = (simd.splat(pull), simd.splat(STILL * STILL));
+        let mut least_over = [f64::INFINITY; LANES];
+        let mut squares = [0.0; LANES];
         // (In a loop, so that the code of the pass is there once: what a fretted step is made of hardly fits where a processor keeps
         // the instructions that it has read.)
+        let last = ends.beside_bridge;
         for (range, closes) in [(0..BESIDE_NUT, false), (last..count, true), (BESIDE_NUT..last, false)] {
-            moving.advance(simd, range, (d_next, u_next));
+            for at in range.start..range.end.min(count) {
+                for part in 0..V::PARTS {
+                    let d = simd.part(&w[at], part);
+                    let v = simd.part(&v[at], part);
+                    let d = if STRETCH { simd.sub(d, simd.mul(pull, v)) } else { d };
+                    let sum = simd.part(&squares, part);
+                    let [d, sum] = simd.add_squares(sum, d, least_square);
+                    let u = simd.add(simd.part(&u[at], part), d);
+                    simd.put(&mut squares, part, sum);
+                    simd.put(&mut d_next[at], part, d);
+                    simd.put(&mut u_next[at], part, u);
+                    if OVER {
+                        let over = simd.sub(u, simd.part(&skyline[at], part));
+                        let least = simd.min(over, simd.part(&least_over, part));
+                        simd.put(&mut least_over, part, least);
+                    }
+                }
+            }
             if closes {
-                u_next.close_ends(ends);
+                ends.close(u_next.as_flattened_mut());
             }
         }
-        Moved { squares: total(&moving.squares), over: moving.over }
+        Moved { squares: total(&squares), over: least_over }
     }
 }
 
-/// Rows on their way through a last pass.
-struct Moving<'a, const STRETCH: bool, const OVER: bool> {
-    pull: f64,
-    /// w, v and u, and the skyline.
-    from: [&'a [Row]; 4],
-    /// The least of u⁺ over the skyline so far in each lane.
-    over: Row,
-    /// Σ(d⁺)² so far in each lane.
-    squares: Row,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Grid;
+    use crate::instructions::Instructions;
 
-impl<const STRETCH: bool, const OVER: bool> Moving<'_, STRETCH, OVER> {
-    /// Moves some of them.
-    #[inline(always)]
-    fn advance<V: Vectors>(
-        &mut self,
-        simd: V,
-        range: Range<usize>,
-        (d_next, u_next): (&mut Field, &mut Field),
-    ) {
-        let [w, v, u, top] = self.from.map(|rows| &rows[range.clone()]);
-        let count = w.len();
-        let (v, u, top) = (&v[..count], &u[..count], &top[..count]);
-        let [d_next, u_next] = [d_next, u_next].map(|field| &mut rows_mut(field)[range.clone()][..count]);
-        let (pull, still) = (simd.splat(self.pull), simd.splat(STILL));
-        for at in 0..count {
-            for part in 0..V::PARTS {
-                let d = simd.part(&w[at], part);
-                let v = simd.part(&v[at], part);
-                let d = if STRETCH { simd.sub(d, simd.mul(pull, v)) } else { d };
-                let size = simd.abs(d);
-                let d = simd.clear_below(d, size, still);
-                let u = simd.add(simd.part(&u[at], part), d);
-                simd.put(&mut d_next[at], part, d);
-                simd.put(&mut u_next[at], part, u);
-                if OVER {
-                    let over = simd.sub(u, simd.part(&top[at], part));
-                    let over = simd.min(over, simd.part(&self.over, part));
-                    simd.put(&mut self.over, part, over);
+    /// What moves less than [`STILL`] comes to rest, by every instruction set; what moves as much goes on, and what is no number
+    /// stays none.
+    #[test]
+    fn what_hardly_moves_comes_to_rest() {
+        let grid = Grid::new(0.65, 40, 1e-5);
+        let ends = Ends::new(&grid);
+        let moved = [0.0, 1e-150, 0.999 * STILL, STILL, -0.999 * STILL, -STILL, 1e-3, f64::NAN];
+        for instructions in Instructions::all() {
+            for (node, motion) in (1..).zip(moved) {
+                let [mut w, v, u, mut d_next, mut u_next, skyline] = [(); 6].map(|()| Field::new(&grid));
+                let cell = grid.cell(node);
+                w[cell] = motion;
+                let pass = Advance {
+                    pull: 0.0,
+                    from: (&w, &v, &u),
+                    to: (&mut d_next, &mut u_next),
+                    skyline: &skyline,
+                };
+                let Moved { squares, .. } = instructions.run(LastPass::<true, true> { pass, ends: &ends });
+                let expected = if motion.abs() < STILL { 0.0 } else { motion };
+                let found = [d_next[cell], u_next[cell], squares];
+                for (found, expected) in found.into_iter().zip([expected, expected, expected * expected]) {
+                    let same = found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan());
+                    assert!(same, "{found:e} and not {expected:e} of {motion:e} by {instructions:?}");
                 }
-                let squares = simd.add_product(simd.part(&self.squares, part), d, d);
-                simd.put(&mut self.squares, part, squares);
             }
         }
     }

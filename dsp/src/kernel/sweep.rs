@@ -207,9 +207,13 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> Pass for Predict
             before: simd.splat(weights.before),
         };
         let (before, after) = (rows_before::<3>(u), rows_after::<3>(u));
-        let (u, d, keep, v, w) = (rows(u), rows(d), rows(keep), rows_mut(v), rows_mut(w));
+        let (u, v, w) = (rows(u), rows_mut(v), rows_mut(w));
+        // (As many of each: their lengths are compared once, and not where rows are taken together.)
+        let count = u.len();
+        let [d, keep] = [d, keep].map(|field| &rows(field)[..count]);
+        let (v, w) = (&mut v[..count], &mut w[..count]);
         // The last three rows are followed by the first ones of the pieces beside.
-        let inner = u.len() - 3;
+        let inner = count - 3;
         let (u_inner, u_last) = u.split_at(inner);
         let (d_inner, d_last) = d.split_at(inner);
         let (keep_inner, keep_last) = keep.split_at(inner);
