@@ -118,3 +118,39 @@ fn a_string_at_a_slant_is_as_far_over_the_skyline_as_over_the_contact() {
         }
     }
 }
+
+/// No part of the sag is more than there may be: a string that is bent, runs or has moved just so sags as much.
+#[test]
+fn some_string_sags_as_much_as_it_is_taken_to() {
+    const NODES: usize = 40;
+    const FIRST: usize = 17;
+    let grid = Grid::new(1.0, NODES, 1e-5);
+    // A string fixed at its ends with a second difference of 1 at one point.
+    let bent_at = |kink: usize, node: usize| {
+        let (near, far) = (node.min(kink) as f64, node.max(kink) as f64);
+        -near * (NODES as f64 - far) / NODES as f64
+    };
+    let points = |heights: [f64; 4]| {
+        let mut u = vec![0.0; NODES + 1];
+        u[FIRST - 1..][..4].copy_from_slice(&heights);
+        u
+    };
+    for part in [0.1, 0.37, 0.5, 0.8] {
+        let Sag { bend, slope, motion } = Sag::at(part);
+        let (a, b) = (2.0 - part, 1.0 + part);
+        let bent = (0..=NODES).map(|node| a * bent_at(FIRST, node) + b * bent_at(FIRST + 1, node));
+        let moved = [a, b - 2.0 * a, a - 2.0 * b, b];
+        let size = |numbers: &[f64]| numbers.iter().map(|number| number * number).sum::<f64>().sqrt();
+        for (name, shape, most) in [
+            ("bend", bent.collect(), bend * size(&[a, b])),
+            ("slope", points([0.0, -a, -b, 0.0]), slope * size(&[a, a - b, b])),
+            ("motion", points(moved), motion * size(&moved)),
+        ] {
+            let mut u = Field::new(&grid);
+            (1..NODES).for_each(|node| u[grid.cell(node)] = shape[node]);
+            let straight = shape[FIRST] + part * (shape[FIRST + 1] - shape[FIRST]);
+            let sags = straight - grid.reading((FIRST as f64 + part) * grid.spacing).of(&u);
+            assert!((sags / most - 1.0).abs() < 1e-12, "{name} at {part}: {sags} m and not {most}");
+        }
+    }
+}
