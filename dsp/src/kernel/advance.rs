@@ -6,7 +6,8 @@ use crate::instructions::{Pass, Vectors};
 
 /// Motion below this, m, is none: what runs ahead of a wave on a silent string would otherwise become a
 /// subnormal number, slow on most machines and flushed to zero on some, and the bits would depend on the
-/// host. The square of such a motion's last digit is still a normal number. (A string is asked by squares, which are summed anyway.)
+/// host. The square of such a motion's last digit is still a normal number. (Points of a string are asked by their squares, which are
+/// summed anyway: that of a smaller motion may be subnormal or flushed to zero, and is too small either way.)
 pub(crate) const STILL: f64 = 1e-120;
 
 /// What the last pass goes from, and where it writes.
@@ -65,6 +66,7 @@ impl<const STRETCH: bool, const OVER: bool> Pass for LastPass<'_, '_, STRETCH, O
         // the instructions that it has read.)
         let last = ends.beside_bridge;
         for (range, closes) in [(0..BESIDE_NUT, false), (last..count, true), (BESIDE_NUT..last, false)] {
+            // (No range goes beyond the rows; told so, the compiler asks after none of them.)
             for at in range.start..range.end.min(count) {
                 for part in 0..V::PARTS {
                     let d = simd.part(&w[at], part);
