@@ -5,6 +5,7 @@
 
 use crate::contact::Before;
 use crate::field::LANES;
+use crate::instructions::Vectors;
 use crate::kernel::Moved;
 use crate::model::{Contact, Model};
 use crate::state::State;
@@ -57,8 +58,9 @@ impl State {
     /// is true are added to it. Wakes up the fixed contacts that may be touched next. `again` where this step has been taken and
     /// looked at before.
     #[inline(always)]
-    pub(crate) fn find_missed(
+    pub(crate) fn find_missed<V: Vectors>(
         &mut self,
+        simd: V,
         model: &Model,
         moved: &Moved,
         again: bool,
@@ -82,7 +84,7 @@ impl State {
         let sag = scratch.sag(model);
         missed |= self.watch(model, DOZING * step + sag, again, scratch);
         let near = WAKING * step + sag;
-        if moved.least_over() <= near {
+        if simd.any_at_most(&moved.over, near) {
             missed |= self.wake(model, moved, near, scratch);
         }
         missed

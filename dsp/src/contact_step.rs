@@ -75,7 +75,7 @@ impl State {
                     predicted.along = self.recentre(scratch) + 2.0 * stretching;
                 }
             }
-            if !self.find_missed(model, &moved, attempt > 0, scratch) {
+            if !self.find_missed(simd, model, &moved, attempt > 0, scratch) {
                 break;
             }
             // Something was driven into a contact that was not in the solution: take the forces back

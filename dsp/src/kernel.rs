@@ -238,6 +238,11 @@ mod tests {
         }
     }
 
+    /// How far the lowest point of all is over the skyline, m.
+    fn least_over(moved: &Moved) -> f64 {
+        moved.over.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
     /// The sweep gives what the formulas say point by point, oddly continued at both ends.
     #[test]
     fn rows_are_the_string_in_order() {
@@ -301,7 +306,7 @@ mod tests {
             assert!((free.squares / squares - 1.0).abs() < 1e-14, "{intervals} intervals");
             // Whether or not it is held against a skyline makes no other motion; and its lowest point is told.
             assert_eq!(
-                (free.squares, free.least_over()),
+                (free.squares, least_over(&free)),
                 (held.squares, f64::INFINITY),
                 "{intervals} intervals"
             );
@@ -309,7 +314,7 @@ mod tests {
                 let cell = grid.cell(node);
                 u_next[cell] - skyline[cell]
             });
-            assert_eq!(held.least_over(), over.fold(f64::INFINITY, f64::min), "{intervals} intervals");
+            assert_eq!(least_over(&held), over.fold(f64::INFINITY, f64::min), "{intervals} intervals");
         }
     }
 }

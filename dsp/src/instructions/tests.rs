@@ -1,6 +1,7 @@
 //! What each set of instructions makes of whole steps.
 
-use super::Instructions;
+use super::{Instructions, Pass, Vectors};
+use crate::field::{LANES, Row};
 use crate::scene::Scene;
 use crate::simulation::Simulation;
 
@@ -25,6 +26,40 @@ fn whole_steps_are_the_same_by_every_instruction_set() {
             let found = (displacement, forces.chain(fingers).collect::<Vec<_>>(), string.convergence);
             let expected = expected.get_or_insert_with(|| found.clone());
             assert_eq!(found, *expected, "step {step} by {set:?}");
+        }
+    }
+}
+
+/// Whether any number of a row is no more than another.
+struct AnyAtMost<'a>(&'a Row, f64);
+
+impl Pass for AnyAtMost<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn by<V: Vectors>(self, simd: V) -> bool {
+        simd.any_at_most(self.0, self.1)
+    }
+}
+
+/// A number counts in whichever lane it is, up to the limit and no farther; what is no number never does, and none is below what is no
+/// number.
+#[test]
+fn any_lane_may_be_low() {
+    for instructions in Instructions::all() {
+        for lane in 0..LANES {
+            for (number, most, expected) in [
+                (1.0, 1.0, true),
+                (-f64::INFINITY, 1.0, true),
+                (1.0_f64.next_up(), 1.0, false),
+                (f64::NAN, 1.0, false),
+                (1.0, f64::NAN, false),
+            ] {
+                let mut row = [f64::INFINITY; LANES];
+                row[lane] = number;
+                let found = instructions.run(AnyAtMost(&row, most));
+                assert_eq!(found, expected, "{number} in lane {lane}, at most {most}, by {instructions:?}");
+            }
         }
     }
 }

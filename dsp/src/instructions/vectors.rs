@@ -32,6 +32,9 @@ pub(crate) trait Vectors: Copy {
     /// The smaller one, or `b` where there is none.
     fn min(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
 
+    /// Whether any number of a row is no more than `most`.
+    fn any_at_most(self, row: &Row, most: f64) -> bool;
+
     /// `value`, but 0 where its square is less than `least`; and the sum with the squares of the others.
     fn add_squares(self, sum: Self::Vector, value: Self::Vector, least: Self::Vector) -> [Self::Vector; 2];
 

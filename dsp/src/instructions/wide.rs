@@ -62,6 +62,14 @@ impl<S: AddSquares> Vectors for Wide<S> {
     }
 
     #[inline(always)]
+    fn any_at_most(self, row: &Row, most: f64) -> bool {
+        let most = self.splat(most);
+        let parts = S::as_simd_f64s(row).0.iter().map(|&part| self.0.less_than_or_equal_f64s(part, most));
+        let found = parts.reduce(|some, others| self.0.or_m64s(some, others));
+        found.is_some_and(|found| self.0.first_true_m64s(found) < S::F64_LANES)
+    }
+
+    #[inline(always)]
     fn add_squares(self, sum: S::f64s, value: S::f64s, least: S::f64s) -> [S::f64s; 2] {
         AddSquares::add_squares(self.0, sum, value, least)
     }

@@ -31,14 +31,6 @@ pub(crate) struct Moved {
     pub over: Row,
 }
 
-impl Moved {
-    /// How far the lowest point of all is over the skyline, m.
-    #[inline(always)]
-    pub fn least_over(&self) -> f64 {
-        self.over.iter().fold(f64::INFINITY, |least, &over| if over < least { over } else { least })
-    }
-}
-
 /// The last pass: d⁺ = w − ψv and u⁺ = u + d⁺, oddly continued beyond both ends; `OVER` a skyline if anything may be touched.
 ///
 /// What the next sweep reads first, rows at both ends of the pieces and what lies beyond the ends of the string, is written first:
