@@ -1,7 +1,7 @@
 //! What the passes ask of an instruction set.
 
 use super::Pass;
-use crate::field::Row;
+use crate::field::{self, Row};
 
 /// Vectors of an instruction set, and what can be done with them, number by number.
 pub(crate) trait Vectors: Copy {
@@ -37,6 +37,12 @@ pub(crate) trait Vectors: Copy {
 
     /// `value`, but 0 where its square is less than `least`; and the sum with the squares of the others.
     fn add_squares(self, sum: Self::Vector, value: Self::Vector, least: Self::Vector) -> [Self::Vector; 2];
+
+    /// The sum over a row's lanes, [in the order of all sets](field::total).
+    #[inline(always)]
+    fn total(self, row: &Row) -> f64 {
+        field::total(row)
+    }
 
     /// The sum with a product, rounded twice.
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Vectors as a library has them.
 
 #[cfg(target_arch = "x86_64")]
-use std::arch::x86_64::{_CMP_LT_OQ, _CMP_NLT_UQ};
+use std::arch::x86_64::{__m256d, _CMP_LT_OQ, _CMP_NLT_UQ};
 
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
@@ -10,13 +10,13 @@ use pulp::{Scalar128b, Simd};
 use pulp::{f64x4, f64x8};
 
 use super::{By, Pass, Vectors};
-use crate::field::{LANES, Row};
+use crate::field::{self, LANES, Row};
 
 /// The instructions of a set that is `S`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wide<S>(pub S);
 
-impl<S: AddSquares> Vectors for Wide<S> {
+impl<S: Special> Vectors for Wide<S> {
     type Vector = S::f64s;
 
     const PARTS: usize = LANES / S::F64_LANES;
@@ -71,12 +71,17 @@ impl<S: AddSquares> Vectors for Wide<S> {
 
     #[inline(always)]
     fn add_squares(self, sum: S::f64s, value: S::f64s, least: S::f64s) -> [S::f64s; 2] {
-        AddSquares::add_squares(self.0, sum, value, least)
+        Special::add_squares(self.0, sum, value, least)
+    }
+
+    #[inline(always)]
+    fn total(self, row: &Row) -> f64 {
+        Special::total(self.0, row)
     }
 }
 
 /// What not every set does best in the same way.
-pub(super) trait AddSquares: Simd {
+pub(super) trait Special: Simd {
     /// [`Vectors::add_squares`].
     #[inline(always)]
     fn add_squares(self, sum: Self::f64s, value: Self::f64s, least: Self::f64s) -> [Self::f64s; 2] {
@@ -85,13 +90,19 @@ pub(super) trait AddSquares: Simd {
         let [value, square] = [value, square].map(|number| self.select_f64s(below, zero, number));
         [value, self.add_f64s(sum, square)]
     }
+
+    /// [`Vectors::total`].
+    #[inline(always)]
+    fn total(self, row: &Row) -> f64 {
+        field::total(row)
+    }
 }
 
-impl AddSquares for Scalar128b {}
+impl Special for Scalar128b {}
 
 /// What is masked takes no instruction of its own.
 #[cfg(target_arch = "x86_64")]
-impl AddSquares for V4 {
+impl Special for V4 {
     #[inline(always)]
     fn add_squares(self, sum: f64x8, value: f64x8, least: f64x8) -> [f64x8; 2] {
         let set = self.avx512f;
@@ -101,11 +112,19 @@ impl AddSquares for V4 {
         let moving = set._mm512_maskz_mov_pd(moves, value);
         [moving, set._mm512_mask_add_pd(sum, moves, sum, square)].map(pulp::cast)
     }
+
+    #[inline(always)]
+    fn total(self, row: &Row) -> f64 {
+        let set = self.avx512f;
+        let row = pulp::cast(Self::as_simd_f64s(row).0[0]);
+        let [first, second] = [set._mm512_castpd512_pd256(row), set._mm512_extractf64x4_pd::<1>(row)];
+        total_of_halves(*self, first, second)
+    }
 }
 
 /// A mask is as wide as the numbers and covers them as it is: chosen by it, they would be by its signs, found first.
 #[cfg(target_arch = "x86_64")]
-impl AddSquares for V3 {
+impl Special for V3 {
     #[inline(always)]
     fn add_squares(self, sum: f64x4, value: f64x4, least: f64x4) -> [f64x4; 2] {
         let set = self.avx;
@@ -115,4 +134,20 @@ impl AddSquares for V3 {
         let value = set._mm256_andnot_pd(below, pulp::cast(value));
         [pulp::cast(value), self.add_f64s(sum, pulp::cast(square))]
     }
+
+    #[inline(always)]
+    fn total(self, row: &Row) -> f64 {
+        let [first, second] = [0, 1].map(|part| pulp::cast(Self::as_simd_f64s(row).0[part]));
+        total_of_halves(self, first, second)
+    }
+}
+
+/// [`field::total`] of a row's two halves: each lane of the one with its own of the other, these in pairs side by side, then both pairs.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn total_of_halves(set: V3, first: __m256d, second: __m256d) -> f64 {
+    let lanes = set.avx._mm256_add_pd(first, second);
+    let pairs = set.avx._mm256_hadd_pd(lanes, lanes);
+    let [one, other] = [set.avx._mm256_castpd256_pd128(pairs), set.avx._mm256_extractf128_pd::<1>(pairs)];
+    set.sse2._mm_cvtsd_f64(set.sse2._mm_add_sd(one, other))
 }

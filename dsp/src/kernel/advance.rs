@@ -1,7 +1,7 @@
 //! The last pass of a step.
 
 use super::rows::{rows, rows_mut};
-use crate::field::{BESIDE_NUT, Ends, Field, LANES, Row, total};
+use crate::field::{BESIDE_NUT, Ends, Field, LANES, Row};
 use crate::instructions::{Pass, Vectors};
 
 /// Motion below this, m, is none: what runs ahead of a wave on a silent string would otherwise become a
@@ -81,7 +81,7 @@ impl<const STRETCH: bool, const OVER: bool> Pass for LastPass<'_, '_, STRETCH, O
                 ends.close(u_next.as_flattened_mut());
             }
         }
-        Moved { squares: total(&squares), over: least_over }
+        Moved { squares: simd.total(&squares), over: least_over }
     }
 }
 

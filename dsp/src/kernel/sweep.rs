@@ -2,7 +2,7 @@
 
 use super::rows::{rows, rows_after, rows_before, rows_mut};
 use super::{Shape, Stretching, Weights};
-use crate::field::{Field, LANES, Row, total};
+use crate::field::{Field, LANES, Row};
 use crate::instructions::{Pass, Vectors};
 
 /// Sums of a sweep in each lane.
@@ -252,12 +252,12 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> Pass for Predict
             }
         }
         if !STRETCH {
-            shape.steepness = total(&totals[0]);
+            shape.steepness = simd.total(&totals[0]);
             return Stretching { along: 0.0, yielding: 1.0 };
         }
         // The sum that is there first is divided by while the other is still added up.
-        shape.curvature = total(&totals[2]);
+        shape.curvature = simd.total(&totals[2]);
         let yielding = 1.0 / (1.0 + stretch * shape.curvature);
-        Stretching { along: total(&totals[1]), yielding }
+        Stretching { along: simd.total(&totals[1]), yielding }
     }
 }
