@@ -39,6 +39,12 @@ pub(crate) fn total([a, b, c, d, e, f, g, h]: &Row) -> f64 {
     ((a + e) + (b + f)) + ((c + g) + (d + h))
 }
 
+/// Whether any number of a row is no more than `most`. (All are asked, so that no branch has to be guessed.)
+#[inline(always)]
+pub(crate) fn any_at_most(row: &Row, most: f64) -> bool {
+    row.iter().fold(false, |found, &number| found | (number <= most))
+}
+
 /// How many rows a field has over a grid of so many intervals.
 #[inline(always)]
 pub(crate) fn row_count(intervals: usize) -> usize {

@@ -79,12 +79,6 @@ impl Vectors for Two {
     }
 
     #[inline(always)]
-    fn any_at_most(self, row: &Row, most: f64) -> bool {
-        // (All are asked, so that nothing is guessed.)
-        row.iter().fold(false, |found, &number| found | (number <= most))
-    }
-
-    #[inline(always)]
     fn add_squares(self, sum: Register, value: Register, least: Register) -> [Register; 2] {
         let square = self.mul(value, value);
         #[cfg(target_arch = "x86_64")]

@@ -33,7 +33,10 @@ pub(crate) trait Vectors: Copy {
     fn min(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
 
     /// Whether any number of a row is no more than `most`.
-    fn any_at_most(self, row: &Row, most: f64) -> bool;
+    #[inline(always)]
+    fn any_at_most(self, row: &Row, most: f64) -> bool {
+        field::any_at_most(row, most)
+    }
 
     /// `value`, but 0 where its square is less than `least`; and the sum with the squares of the others.
     fn add_squares(self, sum: Self::Vector, value: Self::Vector, least: Self::Vector) -> [Self::Vector; 2];

@@ -1,7 +1,7 @@
 //! Vectors as a library has them.
 
 #[cfg(target_arch = "x86_64")]
-use std::arch::x86_64::{__m256d, _CMP_LT_OQ, _CMP_NLT_UQ};
+use std::arch::x86_64::{__m256d, _CMP_LE_OQ, _CMP_LT_OQ, _CMP_NLT_UQ};
 
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
@@ -63,10 +63,7 @@ impl<S: Special> Vectors for Wide<S> {
 
     #[inline(always)]
     fn any_at_most(self, row: &Row, most: f64) -> bool {
-        let most = self.splat(most);
-        let parts = S::as_simd_f64s(row).0.iter().map(|&part| self.0.less_than_or_equal_f64s(part, most));
-        let found = parts.reduce(|some, others| self.0.or_m64s(some, others));
-        found.is_some_and(|found| self.0.first_true_m64s(found) < S::F64_LANES)
+        Special::any_at_most(self.0, row, most)
     }
 
     #[inline(always)]
@@ -89,6 +86,12 @@ pub(super) trait Special: Simd {
         let below = self.less_than_f64s(square, least);
         let [value, square] = [value, square].map(|number| self.select_f64s(below, zero, number));
         [value, self.add_f64s(sum, square)]
+    }
+
+    /// [`Vectors::any_at_most`].
+    #[inline(always)]
+    fn any_at_most(self, row: &Row, most: f64) -> bool {
+        field::any_at_most(row, most)
     }
 
     /// [`Vectors::total`].
@@ -114,6 +117,12 @@ impl Special for V4 {
     }
 
     #[inline(always)]
+    fn any_at_most(self, row: &Row, most: f64) -> bool {
+        let row = pulp::cast(Self::as_simd_f64s(row).0[0]);
+        self.avx512f._mm512_cmp_pd_mask::<_CMP_LE_OQ>(row, pulp::cast(self.splat_f64s(most))) != 0
+    }
+
+    #[inline(always)]
     fn total(self, row: &Row) -> f64 {
         let set = self.avx512f;
         let row = pulp::cast(Self::as_simd_f64s(row).0[0]);
@@ -133,6 +142,16 @@ impl Special for V3 {
         let square = set._mm256_andnot_pd(below, square);
         let value = set._mm256_andnot_pd(below, pulp::cast(value));
         [pulp::cast(value), self.add_f64s(sum, pulp::cast(square))]
+    }
+
+    #[inline(always)]
+    fn any_at_most(self, row: &Row, most: f64) -> bool {
+        let most = pulp::cast(self.splat_f64s(most));
+        let below = |part: usize| {
+            let part = pulp::cast(Self::as_simd_f64s(row).0[part]);
+            self.avx._mm256_cmp_pd::<_CMP_LE_OQ>(part, most)
+        };
+        self.avx._mm256_movemask_pd(self.avx._mm256_or_pd(below(0), below(1))) != 0
     }
 
     #[inline(always)]
