@@ -103,9 +103,9 @@ pub(super) trait Special: Simd {
 
 impl Special for Scalar128b {}
 
-/// What is masked takes no instruction of its own.
 #[cfg(target_arch = "x86_64")]
 impl Special for V4 {
+    /// What is masked takes no instruction of its own.
     #[inline(always)]
     fn add_squares(self, sum: f64x8, value: f64x8, least: f64x8) -> [f64x8; 2] {
         let set = self.avx512f;
@@ -131,9 +131,9 @@ impl Special for V4 {
     }
 }
 
-/// A mask is as wide as the numbers and covers them as it is: chosen by it, they would be by its signs, found first.
 #[cfg(target_arch = "x86_64")]
 impl Special for V3 {
+    /// A mask is as wide as the numbers and covers them as it is: chosen by it, they would be by its signs, found first.
     #[inline(always)]
     fn add_squares(self, sum: f64x4, value: f64x4, least: f64x4) -> [f64x4; 2] {
         let set = self.avx;
