@@ -139,6 +139,12 @@ impl Ends {
         }
     }
 
+    /// Whether these displacements are closed so.
+    #[cfg(test)]
+    pub fn have_closed(&self, displacement: &[f64]) -> bool {
+        self.ghosts.iter().all(|&(ghost, point)| displacement[ghost] == -displacement[point])
+    }
+
     /// The last point that moves.
     pub fn last(&self) -> usize {
         self.ghosts[0].1

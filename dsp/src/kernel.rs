@@ -225,6 +225,7 @@ mod tests {
                 let moves = node > 0 && node < intervals;
                 assert!(value == 0.0 || mirrored || moves, "node {node} of {intervals} moves");
             }
+            assert!(ends.have_closed(&u_next), "{intervals} intervals");
             let bits: Vec<u64> = w.iter().chain(&*d_next).chain(&*u_next).map(|x| x.to_bits()).collect();
             (format!("{products:?}"), bits)
         };
