@@ -145,11 +145,11 @@ impl ActiveSet {
         next
     }
 
-    /// One less.
-    pub fn pop(&mut self) -> Option<Active> {
-        let last = self.last().copied();
-        self.count = self.count.saturating_sub(1);
-        last
+    /// Takes the one at a position out; those after it move up.
+    pub fn remove(&mut self, position: usize) -> Active {
+        self[position..].rotate_left(1);
+        self.count -= 1;
+        self.places[self.count]
     }
 }
 

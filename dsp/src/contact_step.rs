@@ -58,7 +58,7 @@ impl State {
                         scale,
                         &mut convergence,
                     );
-                    let spread = spread(mobility, &mut scratch.active, &mut scratch.prediction);
+                    let spread = spread(mobility, &mut scratch.active, &mut scratch.motion);
                     predicted.along += spread.along;
                     scratch.tried += spread.sum;
                     let more = self.would_stretch(&predicted);
@@ -102,7 +102,6 @@ impl State {
             let moved = active.sign * active.reading.of(&scratch.motion);
             active.centre = -(moved + active.rest + active.own_mobility * active.base);
         }
-        scratch.prediction.copy_from_slice(&scratch.motion);
         self.curvature.iter().zip(&*scratch.displacement).map(|(v, u)| v * u).sum()
     }
 

@@ -1,6 +1,6 @@
 //! A finger near a string.
 
-use crate::active::Active;
+use crate::active::{Active, ActiveSet};
 use crate::contact::{Before, ContactLaw};
 use crate::drive::Hand;
 use crate::field::Field;
@@ -72,8 +72,8 @@ impl Finger {
         }
     }
 
-    /// Moves it by a step as if it were free, and makes it an active contact with a string of this displacement and motion at
-    /// n, which one newton moves by its mobility, m/N, in a step. Returns whether it touches that at n − 1 or n.
+    /// Moves it by a step as if it were free, and makes it a contact with a string of this displacement and motion at n, which one
+    /// newton moves by its mobility, m/N, in a step: an active one if it touches that at n − 1 or n, or else one aside.
     #[inline(always)]
     pub(crate) fn hold(
         &mut self,
@@ -82,8 +82,8 @@ impl Finger {
         (displacement, motion): (&Field, &Field),
         mobility: f64,
         slot: usize,
-        active: &mut Active,
-    ) -> bool {
+        [active, aside]: [&mut ActiveSet; 2],
+    ) {
         let (height, motion_before) = (self.height, self.motion);
         let Inertia { mobility: own_mobility, persistence, .. } = self.inertia;
         let free = persistence * motion_before - own_mobility * hand.force;
@@ -113,6 +113,8 @@ impl Finger {
         let penetration_before = past.before() - (height - motion_before);
         let penetration = now.place - height;
         let slot = model.contacts.len() + slot;
+        let touches = penetration_before > 0.0 || penetration > 0.0;
+        let active = if touches { active.next() } else { aside.next() };
         if active.slot != slot {
             *active = Active { slot, sign: -1.0, ..Active::NOTHING };
         }
@@ -126,7 +128,6 @@ impl Finger {
         active.own_mobility = own_mobility;
         active.mobility = mobility;
         active.evaluate(2.0 * (now.motion - motion_before));
-        penetration_before > 0.0 || penetration > 0.0
     }
 
     /// What a step overwrites of it.

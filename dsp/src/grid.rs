@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use crate::error::{Error, on_string};
-use crate::field::{BEFORE, Field, cell};
+use crate::field::{Field, cell_of};
 
 /// A string of `intervals` equal spacings in space and a step in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,7 +32,7 @@ impl Grid {
     /// Where the number of grid point `node`, 0 to `intervals`, stands in a [`Field`].
     #[inline(always)]
     pub fn cell(&self, node: usize) -> usize {
-        cell(self.intervals, BEFORE + node)
+        cell_of(self.intervals, node)
     }
 
     /// The place of grid point `node`, m from the nut.

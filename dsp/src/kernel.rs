@@ -3,17 +3,17 @@
 //! bits. There is no fused multiply-add.
 
 mod advance;
-mod rows;
+mod moving;
 mod sweep;
 mod weights;
 
 use crate::field::{Ends, Field};
-use crate::grid::Grid;
 use crate::instructions::{Pass, Vectors};
 use crate::model::Model;
 use crate::scene::Stencil;
 use advance::LastPass;
 pub(crate) use advance::{Advance, Moved, STILL};
+use moving::Moving;
 use sweep::Predict;
 pub(crate) use weights::Weights;
 
@@ -55,8 +55,7 @@ pub(crate) struct Kernel {
     stretch: bool,
     loss: bool,
     ends: Ends,
-    /// 1 at each point that moves, 0 elsewhere.
-    keep: Field,
+    moving: Moving,
 }
 
 impl Kernel {
@@ -72,7 +71,7 @@ impl Kernel {
             stretch: model.coasting.stretch > 0.0,
             loss: model.string.loss_1 > 0.0,
             ends: Ends::new(&model.grid),
-            keep: moving(&model.grid),
+            moving: Moving::new(&model.grid),
         }
     }
 
@@ -109,7 +108,8 @@ impl Kernel {
     ) -> Stretching {
         // The last difference, to the bridge, belongs to no point that moves.
         let last = if STRETCH { 0.0 } else { from.0[self.ends.last()] };
-        let sweep = Predict::<REACH, STRETCH, LOSS> { weights, stretch, from, to, shape, keep: &self.keep };
+        let moving = &self.moving;
+        let sweep = Predict::<REACH, STRETCH, LOSS> { weights, stretch, from, to, shape, moving };
         let stretching = simd.run(sweep);
         if !STRETCH {
             shape.steepness += last * last;
@@ -128,18 +128,10 @@ impl Kernel {
     }
 }
 
-/// 1 at each point of a grid that moves, 0 elsewhere.
-fn moving(grid: &Grid) -> Field {
-    let mut keep = Field::new(grid);
-    for node in 1..grid.intervals {
-        keep[grid.cell(node)] = 1.0;
-    }
-    keep
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grid::Grid;
     use crate::instructions::Instructions;
 
     /// G.
@@ -165,7 +157,10 @@ mod tests {
                 Prediction { weights, stretch: STRETCH, from: (u, d), to: (v, w), shape: &mut shape };
             let stretching = kernel.predict(simd, prediction);
             let mut pass = |over: bool| {
-                let pass = Advance { pull: 1e-3, from: (w, v, u), to: (d_next, u_next), skyline };
+                // (What is closed before it is written may not be what was there anyway.)
+                u_next.fill(0.0);
+                d_next.copy_from_slice(w);
+                let pass = Advance { pull: 1e-3, motion: d_next, from: (v, u), to: u_next, skyline };
                 if over {
                     kernel.advance::<V, true>(simd, pass)
                 } else {
@@ -209,8 +204,7 @@ mod tests {
         ends.close(&mut u);
         let weights = Weights { motion: 0.97, near: [0.7, -0.03, 0.001], before: 0.01, energy: [0.0; 2] };
         let run = |instructions: Instructions| {
-            let keep = moving(&grid);
-            let kernel = Kernel { reach, stretch, loss, ends, keep };
+            let kernel = Kernel { reach, stretch, loss, ends, moving: Moving::new(&grid) };
             let empty = || Field::new(&grid);
             let (mut v, mut w, mut d_next, mut u_next) = (before.clone(), empty(), empty(), empty());
             let products = instructions.run(Passes {
@@ -220,10 +214,9 @@ mod tests {
                 to: [&mut v, &mut w, &mut d_next, &mut u_next],
                 skyline: &before,
             });
-            for (node, value) in u_next.from_nut().enumerate() {
+            for (node, value) in (1..).zip(u_next.from_nut()) {
                 let mirrored = node > intervals && node <= intervals + 2;
-                let moves = node > 0 && node < intervals;
-                assert!(value == 0.0 || mirrored || moves, "node {node} of {intervals} moves");
+                assert!(value == 0.0 || mirrored || node < intervals, "node {node} of {intervals} moves");
             }
             assert!(ends.have_closed(&u_next), "{intervals} intervals");
             let bits: Vec<u64> = w.iter().chain(&*d_next).chain(&*u_next).map(|x| x.to_bits()).collect();
@@ -270,8 +263,7 @@ mod tests {
             let weights = Weights { motion: 0.75, near: [0.5, -0.25, 0.125], before: 0.25, energy: [0.0; 2] };
             let mut skyline = Field::filled(&grid, f64::NEG_INFINITY);
             (1..intervals).for_each(|node| skyline[grid.cell(node)] = 0.25 * at(node as i64));
-            let keep = moving(&grid);
-            let kernel = Kernel { reach: 2, stretch, loss: true, ends, keep };
+            let kernel = Kernel { reach: 2, stretch, loss: true, ends, moving: Moving::new(&grid) };
             let (found, shape, moved) = Instructions::best().run(Passes {
                 kernel: &kernel,
                 weights: &weights,

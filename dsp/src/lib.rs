@@ -119,7 +119,7 @@
 //! | λ | `courant2` is λ² | – | ck/h, spacings a wave travels in a step |
 //! | uⁿ, dⁿ | `displacement`, `motion` | m | the string, and uⁿ − uⁿ⁻¹ |
 //! | v | `curvature` | m | undivided second difference of uⁿ |
-//! | w, ψ | `prediction`, `pull` of the [`Scratch`] | m, – | motion without contact and stretching; stretching takes ψv off it |
+//! | w, ψ | `motion` in the step, `pull` of the [`Scratch`] | m, – | motion without contact and stretching; stretching takes ψv off it |
 //! | s | `inverse_s` is 1/s | – | 1 + σ₀k |
 //! | | `decay` | – | (1 − σ₀k)/(1 + σ₀k), what is left of the motion after a step |
 //! | m | `mobility` | m/N | k²/(ρhs), how far one newton at a grid point moves it in a step |

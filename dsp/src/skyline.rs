@@ -9,7 +9,7 @@
 
 use std::ops::Range;
 
-use crate::field::{Field, LANES, row_count};
+use crate::field::{Field, cell_count};
 use crate::grid::Grid;
 use crate::model::Contact;
 
@@ -59,7 +59,7 @@ impl Beside {
     /// Of contacts in order of place.
     pub fn new(grid: &Grid, contacts: &[Contact]) -> Self {
         let mut beside = Beside {
-            contacts: vec![0..0; LANES * row_count(grid.intervals)],
+            contacts: vec![0..0; cell_count(grid.intervals)],
             places: contacts.iter().map(|contact| Place::new(contact, grid)).collect(),
             sag: Sag::default(),
         };

@@ -10,7 +10,7 @@
 mod early_stop;
 mod many;
 
-use crate::active::Active;
+use crate::active::{Active, ActiveSet};
 use crate::instructions::Instructions;
 use crate::response::{Few, Response, dot};
 use crate::roomy::Roomy;
@@ -47,7 +47,7 @@ pub(crate) struct Solver {
     /// One array after another of as many numbers as there are contacts.
     room: Roomy<f64>,
     /// Fingers near the string that no contact is predicted for.
-    pub aside: Roomy<Active>,
+    pub aside: ActiveSet,
 }
 
 /// How a set of contacts answers forces.
@@ -125,7 +125,7 @@ impl Solver {
         Solver {
             response: Response::with_capacity(spans, fingers),
             room: Roomy::with_capacity(ARRAYS * contacts),
-            aside: Roomy::with_capacity(fingers),
+            aside: ActiveSet::with_capacity(fingers),
         }
     }
 

@@ -188,12 +188,12 @@ impl State {
 
     /// Displacement of the interior points u₁ … u_{N−1}, m.
     pub fn displacement(&self) -> impl Iterator<Item = f64> + Clone + '_ {
-        self.displacement.from_nut().skip(1).take(self.interior)
+        self.displacement.from_nut().take(self.interior)
     }
 
     /// Motion of the interior points in the last step, uⁿ − uⁿ⁻¹, m.
     pub fn motion(&self) -> impl Iterator<Item = f64> + Clone + '_ {
-        self.motion.from_nut().skip(1).take(self.interior)
+        self.motion.from_nut().take(self.interior)
     }
 
     /// The fingers, by slot.

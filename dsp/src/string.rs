@@ -28,10 +28,9 @@ pub struct Scratch {
     pub(crate) stretching: f64,
     /// dᵀd of the motion to n + 1, m².
     squares: f64,
-    /// The motion to n + 1 without contacts and tension modulation, then with contacts.
-    pub(crate) prediction: Field,
-    /// dⁿ⁺¹ and uⁿ⁺¹ before the step, dⁿ and uⁿ after it.
+    /// The motion to n + 1: without contacts and tension modulation, then with contacts, then dⁿ⁺¹ itself; after the step dⁿ.
     pub(crate) motion: Field,
+    /// uⁿ⁺¹ in the step, uⁿ after it.
     pub(crate) displacement: Field,
     pub(crate) solver: Solver,
     /// The contacts active in the last step, with their forces.
@@ -65,7 +64,6 @@ impl Scratch {
             string_energy: 0.0,
             stretching: 0.0,
             squares: 0.0,
-            prediction: grid(),
             motion: grid(),
             displacement: grid(),
             solver: Solver::with_capacity(&model.spans(), model.finger_slots),
@@ -84,7 +82,7 @@ impl Scratch {
         self.instructions = Instructions::narrow();
     }
 
-    /// Back to the state of new room, without allocating. What is not set here a step writes before it reads it: the prediction,
+    /// Back to the state of new room, without allocating. What is not set here a step writes before it reads it:
     /// `squares`, `tried` and `finger_energy` whenever they are asked for, stiffness, loss and what follows from
     /// them where the drive has others than the step before.
     pub fn reset(&mut self) {
@@ -101,7 +99,6 @@ impl Scratch {
             stretching,
             // Every step writes it before anything reads it.
             squares: _,
-            prediction: _,
             motion,
             displacement,
             // It keeps nothing from one step to the next but room.
@@ -264,9 +261,9 @@ impl State {
         scratch: &mut Scratch,
     ) -> Stretching {
         let Coasting { mobility, stretch, .. } = scratch.coasting;
-        let Scratch { kernel, weights, prediction, shape, .. } = &mut *scratch;
+        let Scratch { kernel, weights, motion, shape, .. } = &mut *scratch;
         let from = (&self.displacement, &self.motion);
-        let to = (&mut self.curvature, prediction);
+        let to = (&mut self.curvature, motion);
         let mut predicted = kernel.predict(simd, Prediction { weights, stretch, from, to, shape });
         let steepness = if stretch > 0.0 { self.stretched } else { scratch.shape.steepness };
         scratch.string_energy = scratch.weights.energy(self.squares, steepness);
@@ -289,7 +286,7 @@ impl State {
     #[inline(always)]
     fn spread(&self, push: &Push, mobility: f64, predicted: &mut Stretching, scratch: &mut Scratch) {
         let motion = mobility * push.force;
-        push.reading.spread(&mut scratch.prediction, motion);
+        push.reading.spread(&mut scratch.motion, motion);
         predicted.along += motion * push.reading.of(&self.curvature);
     }
 
@@ -309,9 +306,10 @@ impl State {
     ) -> Moved {
         scratch.stretching = stretching;
         let pull = scratch.pull(stretching);
-        let Scratch { kernel, prediction, motion, displacement, .. } = scratch;
-        let (from, to) = ((&*prediction, &self.curvature, &self.displacement), (motion, displacement));
-        let moved = kernel.advance::<V, OVER>(simd, Advance { pull, from, to, skyline: &self.skyline });
+        let Scratch { kernel, motion, displacement, .. } = scratch;
+        let from = (&self.curvature, &self.displacement);
+        let pass = Advance { pull, motion, from, to: displacement, skyline: &self.skyline };
+        let moved = kernel.advance::<V, OVER>(simd, pass);
         scratch.squares = moved.squares;
         moved
     }

@@ -70,10 +70,8 @@ impl State {
                 hand.position = finger.position;
             }
             let mobility = scratch.coasting.mobility;
-            let touches = finger.hold(model, &hand, string, mobility, slot, scratch.active.next());
-            if !touches && let Some(finger) = scratch.active.pop() {
-                scratch.solver.aside.push(finger);
-            }
+            let places = [&mut scratch.active, &mut scratch.solver.aside];
+            finger.hold(model, &hand, string, mobility, slot, places);
         }
         self.no_finger_from = last;
         let k = model.grid.time_step;
@@ -87,7 +85,7 @@ impl State {
         for position in 0..scratch.near.len() {
             let close = &self.close[scratch.near[position]];
             let index = close.index as usize;
-            let free = self.free(&model.contacts[index].reading, free_pull, &scratch.prediction);
+            let free = self.free(&model.contacts[index].reading, free_pull, &scratch.motion);
             if close.displacement + free.motion < self.heights_next[index] {
                 self.activate(model, index, (close.before, &close.now), scratch).meet(free);
             }
@@ -96,7 +94,7 @@ impl State {
         let mut position = 0;
         while position < scratch.solver.aside.len() {
             let finger = &mut scratch.solver.aside[position];
-            finger.meet(self.free(&finger.reading, free_pull, &scratch.prediction));
+            finger.meet(self.free(&finger.reading, free_pull, &scratch.motion));
             if finger.before.penetration + finger.centre > 0.0 {
                 *scratch.active.next() = scratch.solver.aside.remove(position);
             } else {
@@ -109,7 +107,7 @@ impl State {
     #[inline(always)]
     pub(crate) fn show(&self, free_pull: f64, scratch: &mut Scratch) {
         for active in scratch.active.iter_mut() {
-            active.meet(self.free(&active.reading, free_pull, &scratch.prediction));
+            active.meet(self.free(&active.reading, free_pull, &scratch.motion));
         }
     }
 
@@ -163,7 +161,7 @@ impl State {
                 let [displacement, motion] = reading.of_each([&self.displacement, &self.motion]);
                 let before = Before::new(&contact.law, self.heights_before[index] - (displacement - motion));
                 let now = contact.pressed(self.heights[index] - displacement);
-                let free = self.free(reading, free_pull, &scratch.prediction);
+                let free = self.free(reading, free_pull, &scratch.motion);
                 self.activate(model, index, (before, &now), scratch).meet(free);
             }
         }

@@ -1,7 +1,6 @@
 //! The last pass of a step.
 
-use super::rows::{rows, rows_mut};
-use crate::field::{BESIDE_NUT, Ends, Field, LANES, Row};
+use crate::field::{BESIDE, Ends, Field, LANES, Row};
 use crate::instructions::{Pass, Vectors};
 
 /// Motion below this, m, is none: what runs ahead of a wave on a silent string would otherwise become a
@@ -14,10 +13,12 @@ pub(crate) const STILL: f64 = 1e-120;
 pub(crate) struct Advance<'a> {
     /// ψ.
     pub pull: f64,
-    /// w, v and u.
-    pub from: (&'a Field, &'a Field, &'a Field),
-    /// d⁺ and u⁺.
-    pub to: (&'a mut Field, &'a mut Field),
+    /// w, then d⁺ in its place.
+    pub motion: &'a mut Field,
+    /// v and u.
+    pub from: (&'a Field, &'a Field),
+    /// u⁺.
+    pub to: &'a mut Field,
     /// What u⁺ is held against, of a string that may touch something.
     pub skyline: &'a Field,
 }
@@ -45,31 +46,31 @@ impl<const STRETCH: bool, const OVER: bool> Pass for LastPass<'_, '_, STRETCH, O
 
     #[inline(always)]
     fn by<V: Vectors>(self, simd: V) -> Moved {
-        let LastPass { pass: Advance { pull, from: (w, v, u), to: (d_next, u_next), skyline }, ends } = self;
-        let w = rows(w);
+        let LastPass { pass: Advance { pull, motion, from: (v, u), to: u_next, skyline }, ends } = self;
+        let motion = motion.rows_mut();
         // (As many of each: their lengths are compared once, and not where rows are taken.)
-        let count = w.len();
-        let [v, u, skyline] = [v, u, skyline].map(|field| &rows(field)[..count]);
-        let [d_next, u_next] = [d_next, u_next].map(|field| &mut rows_mut(field)[..count]);
+        let count = motion.len();
+        let [v, u, skyline] = [v, u, skyline].map(|field| &field.rows()[..count]);
         let (pull, least_square) = (simd.splat(pull), simd.splat(STILL * STILL));
         let mut least_over = [f64::INFINITY; LANES];
         let mut squares = [0.0; LANES];
         // (In a loop, so that the code of the pass is there once: what a fretted step is made of hardly fits where a processor keeps
         // the instructions that it has read.)
         let last = ends.beside_bridge;
-        for (range, closes) in [(0..BESIDE_NUT, false), (last..count, true), (BESIDE_NUT..last, false)] {
+        for (range, closes) in [(0..BESIDE, false), (last..count, true), (BESIDE..last, false)] {
+            let u_rows = &mut u_next.rows_mut()[..count];
             // (No range goes beyond the rows; told so, the compiler asks after none of them.)
             for at in range.start..range.end.min(count) {
                 for part in 0..V::PARTS {
-                    let d = simd.part(&w[at], part);
+                    let d = simd.part(&motion[at], part);
                     let v = simd.part(&v[at], part);
                     let d = if STRETCH { simd.sub(d, simd.mul(pull, v)) } else { d };
                     let sum = simd.part(&squares, part);
                     let [d, sum] = simd.add_squares(sum, d, least_square);
                     let u = simd.add(simd.part(&u[at], part), d);
                     simd.put(&mut squares, part, sum);
-                    simd.put(&mut d_next[at], part, d);
-                    simd.put(&mut u_next[at], part, u);
+                    simd.put(&mut motion[at], part, d);
+                    simd.put(&mut u_rows[at], part, u);
                     if OVER {
                         let over = simd.sub(u, simd.part(&skyline[at], part));
                         let least = simd.min(over, simd.part(&least_over, part));
@@ -78,7 +79,7 @@ impl<const STRETCH: bool, const OVER: bool> Pass for LastPass<'_, '_, STRETCH, O
                 }
             }
             if closes {
-                ends.close(u_next.as_flattened_mut());
+                ends.close(u_next);
             }
         }
         Moved { squares: simd.total(&squares), over: least_over }
@@ -100,18 +101,19 @@ mod tests {
         let moved = [0.0, 1e-150, 0.999 * STILL, STILL, -0.999 * STILL, -STILL, 1e-3, f64::NAN];
         for instructions in Instructions::all() {
             for (node, motion) in (1..).zip(moved) {
-                let [mut w, v, u, mut d_next, mut u_next, skyline] = [(); 6].map(|()| Field::new(&grid));
+                let [mut moved, v, u, mut u_next, skyline] = [(); 5].map(|()| Field::new(&grid));
                 let cell = grid.cell(node);
-                w[cell] = motion;
+                moved[cell] = motion;
                 let pass = Advance {
                     pull: 0.0,
-                    from: (&w, &v, &u),
-                    to: (&mut d_next, &mut u_next),
+                    motion: &mut moved,
+                    from: (&v, &u),
+                    to: &mut u_next,
                     skyline: &skyline,
                 };
                 let Moved { squares, .. } = instructions.run(LastPass::<true, true> { pass, ends: &ends });
                 let expected = if motion.abs() < STILL { 0.0 } else { motion };
-                let found = [d_next[cell], u_next[cell], squares];
+                let found = [moved[cell], u_next[cell], squares];
                 for (found, expected) in found.into_iter().zip([expected, expected, expected * expected]) {
                     let same = found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan());
                     assert!(same, "{found:e} and not {expected:e} of {motion:e} by {instructions:?}");

@@ -1,8 +1,8 @@
 //! The sweep of a prediction: rows one after another, with what is needed of their neighbours in registers.
 
-use super::rows::{rows, rows_after, rows_before, rows_mut};
+use super::moving::Moving;
 use super::{Shape, Stretching, Weights};
-use crate::field::{Field, LANES, Row};
+use crate::field::{BESIDE, Field, LANES, Row};
 use crate::instructions::{Pass, Vectors};
 
 /// Sums of a sweep in each lane.
@@ -19,8 +19,8 @@ struct Sums<V: Vectors> {
 impl<V: Vectors> Sums<V> {
     /// Adds the differences of a row to the one before, where it moves.
     #[inline(always)]
-    fn add_slope(&mut self, simd: V, keep: V::Vector, slope: V::Vector) {
-        let slope = simd.mul(keep, slope);
+    fn add_slope(&mut self, simd: V, keep: Option<V::Vector>, slope: V::Vector) {
+        let slope = keep.map_or(slope, |keep| simd.mul(keep, slope));
         self.steepness = simd.add_product(self.steepness, slope, slope);
     }
 }
@@ -32,14 +32,14 @@ struct Splat<V: Vectors> {
     before: V::Vector,
 }
 
-/// What a prediction reads in its own row.
+/// What a prediction reads.
 struct Here<V: Vectors> {
     u: V::Vector,
     d: V::Vector,
     /// v a step ago.
     v_before: V::Vector,
-    /// 1 where it moves, 0 elsewhere.
-    keep: V::Vector,
+    /// u three rows ahead.
+    ahead: V::Vector,
 }
 
 /// What a sweep knows of the rows around the present one.
@@ -76,15 +76,15 @@ impl<V: Vectors> Around<V> {
             simd.sub(slopes[4], slopes[3]),
         ];
         if !STRETCH {
-            sums.add_slope(simd, keep[0], slopes[2]);
-            sums.add_slope(simd, keep[1], slopes[3]);
-            sums.add_slope(simd, keep[2], slopes[4]);
+            sums.add_slope(simd, Some(keep[0]), slopes[2]);
+            sums.add_slope(simd, Some(keep[1]), slopes[3]);
+            sums.add_slope(simd, Some(keep[2]), slopes[4]);
         }
         Around { ahead: u[5], slope: slopes[4], v }
     }
 
-    /// v and w of the present row, given u three rows ahead, where that moves if it is not one of the first again, and u,
-    /// d and v a step ago in this row; goes on to the next.
+    /// v and w of the present row, all of which moves, and the one three rows ahead, if `keep` does not say where they do;
+    /// goes on to the next.
     ///
     /// The difference of differences is exact but for rounding of the differences themselves, so that the
     /// force on a smooth string is good to its own last digits and not to those of u.
@@ -93,14 +93,14 @@ impl<V: Vectors> Around<V> {
         &mut self,
         simd: V,
         weights: &Splat<V>,
-        (ahead, moving): (V::Vector, Option<V::Vector>),
-        Here { u, d, v_before, keep }: Here<V>,
+        Here { u, d, v_before, ahead }: Here<V>,
+        keep: Option<[V::Vector; 2]>,
         sums: &mut Sums<V>,
     ) -> [V::Vector; 2] {
         let slope = simd.sub(ahead, self.ahead);
         let v = [self.v[0], self.v[1], self.v[2], self.v[3], simd.sub(slope, self.slope)];
-        if !STRETCH && let Some(moving) = moving {
-            sums.add_slope(simd, moving, slope);
+        if !STRETCH {
+            sums.add_slope(simd, keep.map(|[_, ahead]| ahead), slope);
         }
         let mut value = simd.mul(weights.near[0], v[2]);
         if REACH > 0 {
@@ -115,8 +115,8 @@ impl<V: Vectors> Around<V> {
             value = simd.sub(value, simd.mul(weights.before, v_before));
         }
         value = simd.add(value, simd.mul(weights.motion, d));
-        let w = simd.mul(keep, value);
-        let curvature = simd.mul(keep, v[2]);
+        let [w, curvature] =
+            [value, v[2]].map(|number| keep.map_or(number, |[here, _]| simd.mul(here, number)));
         if STRETCH {
             sums.along = simd.add_product(sums.along, curvature, simd.add(u, w));
             sums.curvature = simd.add_product(sums.curvature, curvature, curvature);
@@ -139,41 +139,37 @@ struct Lanes<'a, V: Vectors> {
 struct At<'a> {
     u: &'a Row,
     d: &'a Row,
-    keep: &'a Row,
     /// v a step ago, then in this one.
     v: &'a mut Row,
     w: &'a mut Row,
+    /// u three rows ahead.
+    ahead: &'a Row,
 }
 
-/// Rows one after another.
-#[inline(always)]
-fn at_each<'a>(
-    (u, d, keep): (&'a [Row], &'a [Row], &'a [Row]),
-    (v, w): (&'a mut [Row], &'a mut [Row]),
-) -> impl Iterator<Item = At<'a>> {
-    u.iter().zip(d).zip(keep).zip(v).zip(w).map(|((((u, d), keep), v), w)| At { u, d, keep, v, w })
+/// 1 where a row moves and where the one three rows ahead does, 0 elsewhere.
+struct Keep<'a> {
+    here: &'a Row,
+    ahead: &'a Row,
 }
 
 impl<V: Vectors> Lanes<'_, V> {
-    /// Predicts a row, given u three rows ahead.
+    /// Predicts a row, all of which moves, and the one three rows ahead, if it is not told where they do.
     #[inline(always)]
     fn predict<const REACH: usize, const STRETCH: bool, const LOSS: bool>(
         &mut self,
-        At { u, d, keep, v, w }: At,
-        (ahead, moving): (&Row, Option<&Row>),
+        At { u, d, v, w, ahead }: At,
+        keep: Option<Keep>,
     ) {
         let (simd, part) = (self.simd, self.part);
-        let moving = moving.map(|moving| simd.part(moving, part));
-        let ahead = simd.part(ahead, part);
         let here = Here {
             u: simd.part(u, part),
             d: simd.part(d, part),
             v_before: simd.part(v, part),
-            keep: simd.part(keep, part),
+            ahead: simd.part(ahead, part),
         };
-        let sums = &mut self.sums;
+        let keep = keep.map(|Keep { here, ahead }| [here, ahead].map(|row| simd.part(row, part)));
         let [curvature, motion] =
-            self.around.step::<REACH, STRETCH, LOSS>(simd, self.weights, (ahead, moving), here, sums);
+            self.around.step::<REACH, STRETCH, LOSS>(simd, self.weights, here, keep, &mut self.sums);
         simd.put(v, part, curvature);
         simd.put(w, part, motion);
     }
@@ -190,8 +186,7 @@ pub(super) struct Predict<'a, const REACH: usize, const STRETCH: bool, const LOS
     /// v, a step ago until the sweep has passed, and w.
     pub to: (&'a mut Field, &'a mut Field),
     pub shape: &'a mut Shape,
-    /// 1 at each point that moves, 0 elsewhere.
-    pub keep: &'a Field,
+    pub moving: &'a Moving,
 }
 
 impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> Pass for Predict<'_, REACH, STRETCH, LOSS> {
@@ -200,51 +195,42 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> Pass for Predict
 
     #[inline(always)]
     fn by<V: Vectors>(self, simd: V) -> Stretching {
-        let Predict { weights, stretch, from: (u, d), to: (v, w), shape, keep } = self;
+        let Predict { weights, stretch, from: (u, d), to: (v, w), shape, moving } = self;
         let splat = Splat::<V> {
             motion: simd.splat(weights.motion),
             near: weights.near.map(|weight| simd.splat(weight)),
             before: simd.splat(weights.before),
         };
-        let (before, after) = (rows_before::<3>(u), rows_after::<3>(u));
-        let (u, v, w) = (rows(u), rows_mut(v), rows_mut(w));
-        // (As many of each: their lengths are compared once, and not where rows are taken together.)
+        let (u_all, keep_all) = (u.all_rows(), moving.keep.all_rows());
+        let (u, d, v, w) = (u.rows(), d.rows(), v.rows_mut(), w.rows_mut());
+        // (As many of each: their lengths are compared once, and not where rows are taken.)
         let count = u.len();
-        let [d, keep] = [d, keep].map(|field| &rows(field)[..count]);
-        let (v, w) = (&mut v[..count], &mut w[..count]);
-        // The last three rows are followed by the first ones of the pieces beside.
-        let inner = count - 3;
-        let (u_inner, u_last) = u.split_at(inner);
-        let (d_inner, d_last) = d.split_at(inner);
-        let (keep_inner, keep_last) = keep.split_at(inner);
-        let (v_inner, v_last) = v.split_at_mut(inner);
-        let (w_inner, w_last) = w.split_at_mut(inner);
+        let (d, v, w, keep) = (&d[..count], &mut v[..count], &mut w[..count], &moving.keep.rows()[..count]);
+        let [u_ahead, keep_ahead] = [u_all, keep_all].map(|rows| &rows[2 * BESIDE..][..count]);
+        // Two in each round, so that less of what is handed on has to change registers.
+        let whole = if STRETCH { moving.whole } else { moving.whole.saturating_sub(BESIDE) };
+        let pairs = (whole / 2).min(count / 2);
         let mut totals = [[0.0; LANES]; 3];
         for part in 0..V::PARTS {
             let zero = simd.splat(0.0);
             let mut sums = Sums { steepness: zero, along: zero, curvature: zero };
-            let first = [
-                simd.part(before[0], part),
-                simd.part(before[1], part),
-                simd.part(before[2], part),
-                simd.part(&u[0], part),
-                simd.part(&u[1], part),
-                simd.part(&u[2], part),
-            ];
-            let moving = [simd.part(&keep[0], part), simd.part(&keep[1], part), simd.part(&keep[2], part)];
-            let around = Around::first::<STRETCH>(simd, first, moving, &mut sums);
+            let first = [0, 1, 2, 3, 4, 5].map(|row| simd.part(&u_all[row], part));
+            let moves = [0, 1, 2].map(|row| simd.part(&keep[row], part));
+            let around = Around::first::<STRETCH>(simd, first, moves, &mut sums);
             let mut lanes = Lanes { simd, part, weights: &splat, around, sums };
-            let mut inner = at_each((u_inner, d_inner, keep_inner), (v_inner, w_inner))
-                .zip(u[3..].iter().zip(&keep[3..]));
-            // Two in each round, so that less of what is handed on has to change registers.
-            while let Some((at, (ahead, moving))) = inner.next() {
-                lanes.predict::<REACH, STRETCH, LOSS>(at, (ahead, Some(moving)));
-                let Some((at, (ahead, moving))) = inner.next() else { break };
-                lanes.predict::<REACH, STRETCH, LOSS>(at, (ahead, Some(moving)));
+            for pair in 0..pairs {
+                let [u, d, ahead] = [u, d, u_ahead].map(|rows| &rows.as_chunks::<2>().0[pair]);
+                let [v, w] = [&mut *v, &mut *w].map(|rows| &mut rows.as_chunks_mut::<2>().0[pair]);
+                for row in 0..2 {
+                    let at =
+                        At { u: &u[row], d: &d[row], v: &mut v[row], w: &mut w[row], ahead: &ahead[row] };
+                    lanes.predict::<REACH, STRETCH, LOSS>(at, None);
+                }
             }
-            let last = at_each((u_last, d_last, keep_last), (v_last, w_last));
-            for (at, ahead) in last.zip(after) {
-                lanes.predict::<REACH, STRETCH, LOSS>(at, (ahead, None));
+            for row in 2 * pairs..count {
+                let at = At { u: &u[row], d: &d[row], v: &mut v[row], w: &mut w[row], ahead: &u_ahead[row] };
+                let keep = Keep { here: &keep[row], ahead: &keep_ahead[row] };
+                lanes.predict::<REACH, STRETCH, LOSS>(at, Some(keep));
             }
             let Sums { steepness, along, curvature } = lanes.sums;
             for (total, sum) in totals.iter_mut().zip([steepness, along, curvature]) {

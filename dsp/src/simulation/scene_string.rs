@@ -205,6 +205,7 @@ impl SceneString {
     }
 
     /// Takes the step.
+    #[inline(always)]
     pub(super) fn advance(&mut self) {
         self.convergence = self.state.step(&self.model, &self.drive, &mut self.scratch);
     }

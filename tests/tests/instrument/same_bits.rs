@@ -121,9 +121,9 @@ fn on_every_machine() {
         moved.push(simulation.output().to_bits());
         moved.extend(simulation.string(0).state.displacement().map(f64::to_bits));
     }
-    assert_eq!(format!("{:016x}", digest(moved)), "9c6ab403b8a86b37");
+    assert_eq!(format!("{:016x}", digest(moved)), "1231fbdd5f7163d6");
     let heard = render(&mut instrument(), SAMPLES).into_iter().map(u64::from);
-    assert_eq!(format!("{:016x}", digest(heard)), "7e2fe8118788c21f");
+    assert_eq!(format!("{:016x}", digest(heard)), "a719a8d28fa92be3");
 }
 
 /// A number that stands for many: FNV-1a, by words.
