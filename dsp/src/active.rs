@@ -167,3 +167,23 @@ impl DerefMut for ActiveSet {
         &mut self.places[..self.count]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Who is taken out is told, and the others stay in their order, whichever it is.
+    #[test]
+    fn who_is_taken_out_leaves_the_others_in_order() {
+        for out in 0..3 {
+            let mut set = ActiveSet::with_capacity(3);
+            for slot in 0..3 {
+                *set.next() = Active { slot, ..Active::NOTHING };
+            }
+            assert_eq!(set.remove(out).slot, out);
+            let left: Vec<usize> = set.iter().map(|active| active.slot).collect();
+            let others: Vec<usize> = (0..3).filter(|slot| *slot != out).collect();
+            assert_eq!(left, others, "without {out}");
+        }
+    }
+}

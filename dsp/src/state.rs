@@ -12,7 +12,7 @@
 use crate::close::Close;
 use crate::curve::Curve;
 use crate::error::{Error, within};
-use crate::field::{Ends, Field};
+use crate::field::{Ends, Field, LANES};
 use crate::finger::Finger;
 use crate::gesture::{FASTEST, Touch};
 use crate::grid::Reading;
@@ -161,14 +161,22 @@ impl State {
         -product
     }
 
-    /// Finds how the string was bent a step ago.
+    /// Finds how the string was bent a step ago. (From point to point as they lie in memory: to ask where each is, and its neighbours,
+    /// takes several times as long.)
     pub(crate) fn look_back(&mut self, model: &Model) {
-        let grid = &model.grid;
-        let before = |node: usize| self.displacement[grid.cell(node)] - self.motion[grid.cell(node)];
-        for node in 1..grid.intervals {
-            let [behind, here, ahead] = [node - 1, node, node + 1].map(before);
-            self.curvature[grid.cell(node)] = (ahead - here) - (here - behind);
+        let (u, d, v) = (self.displacement.rows(), self.motion.rows(), self.curvature.rows_mut());
+        let moving = model.grid.unknowns();
+        let mut points = (0..LANES).flat_map(|lane| (0..u.len()).map(move |row| (row, lane))).take(moving);
+        let before = |(row, lane): (usize, usize)| u[row][lane] - d[row][lane];
+        let Some(mut here) = points.next() else { return };
+        let mut place = before(here);
+        let mut slope = place;
+        for ahead in points {
+            let (next, (row, lane)) = (before(ahead), here);
+            v[row][lane] = (next - place) - slope;
+            (slope, place, here) = (next - place, next, ahead);
         }
+        v[here.0][here.1] = -place - slope;
     }
 
     /// Wakes up every fixed contact, at its present height.
