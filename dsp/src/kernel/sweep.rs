@@ -207,7 +207,8 @@ impl<const REACH: usize, const STRETCH: bool, const LOSS: bool> Pass for Predict
         let count = u.len();
         let (d, v, w, keep) = (&d[..count], &mut v[..count], &mut w[..count], &moving.keep.rows()[..count]);
         let [u_ahead, keep_ahead] = [u_all, keep_all].map(|rows| &rows[2 * BESIDE..][..count]);
-        // Two in each round, so that less of what is handed on has to change registers.
+        // Two in each round, so that less of what is handed on has to change registers; in twos, since the compiler does not see that
+        // twice a number of pairs is a number of rows. (Without stretching it is asked where the row three ahead moves, too.)
         let whole = if STRETCH { moving.whole } else { moving.whole.saturating_sub(BESIDE) };
         let pairs = (whole / 2).min(count / 2);
         let mut totals = [[0.0; LANES]; 3];
