@@ -6,6 +6,7 @@ mod controls;
 mod disorder;
 mod documents;
 mod exchange;
+mod links;
 mod modulated;
 mod notes;
 mod outputs;
