@@ -9,14 +9,18 @@
 
 mod early_stop;
 mod many;
+mod newton;
+mod room;
 
 use crate::active::{Active, ActiveSet};
 use crate::instructions::Instructions;
-use crate::response::{Few, Response, dot};
+use crate::response::{Few, Response};
 use crate::roomy::Roomy;
 use crate::scene::SolverSettings;
 use early_stop::{bounded, stop_early};
 use many::Many;
+use newton::{Progress, newton_step};
+use room::{ARRAYS, Room};
 
 /// How a sample's contacts were solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -59,49 +63,6 @@ pub(crate) trait Answer {
     fn springs(&mut self, slopes: &[f64], x: &mut [f64]);
 }
 
-/// The arrays of one solution, each with a number for each contact.
-struct Room<'a> {
-    residual: &'a mut [f64],
-    step: &'a mut [f64],
-    motion: &'a mut [f64],
-    slopes: &'a mut [f64],
-    unknown: &'a mut [f64],
-    start: &'a mut [f64],
-    /// Forces beyond the base.
-    forces: &'a mut [f64],
-}
-
-/// Arrays of a [`Room`].
-const ARRAYS: usize = 7;
-
-impl<'a> Room<'a> {
-    #[inline(always)]
-    fn new(numbers: &'a mut [f64], count: usize) -> Self {
-        let (residual, rest) = numbers.split_at_mut(count);
-        let (step, rest) = rest.split_at_mut(count);
-        let (motion, rest) = rest.split_at_mut(count);
-        let (slopes, rest) = rest.split_at_mut(count);
-        let (unknown, rest) = rest.split_at_mut(count);
-        let (start, rest) = rest.split_at_mut(count);
-        let (forces, _) = rest.split_at_mut(count);
-        Room { residual, step, motion, slopes, unknown, start, forces }
-    }
-
-    /// The same, lent as a whole: where the arrays are then need not stand in memory for who keeps it.
-    #[inline(always)]
-    fn lend(&mut self) -> Room<'_> {
-        Room {
-            residual: self.residual,
-            step: self.step,
-            motion: self.motion,
-            slopes: self.slopes,
-            unknown: self.unknown,
-            start: self.start,
-            forces: self.forces,
-        }
-    }
-}
-
 /// What a solution is judged by.
 #[derive(Clone, Copy)]
 struct Demands<'a> {
@@ -114,9 +75,6 @@ const WORK_TOLERANCE: f64 = 1e-15;
 
 /// As much more as the tolerance is wider, 1/m: 1e-13 at 1e-12 m.
 const WORK_PER_METRE: f64 = 0.1;
-
-/// Attempts at a shorter step before it is taken as it is; the secant guard still stands behind it.
-const LINE_SEARCHES: usize = 12;
 
 impl Solver {
     /// Room for fixed contacts with these spans, in order of place, and so many fingers.
@@ -155,6 +113,8 @@ impl Solver {
     }
 }
 
+/// Solves for a few contacts. (What a solution that is found at once is made of is lent to nobody, so that it need not stand in
+/// memory; one that is not goes on with copies.)
 #[inline(always)]
 fn solve_few<const N: usize>(
     contacts: &mut [Active],
@@ -165,59 +125,120 @@ fn solve_few<const N: usize>(
     let Some(contacts) = contacts.first_chunk_mut::<N>() else { return 0.0 };
     let mut few = Few::gather(contacts, pull_factor);
     let mut numbers = [[0.0; N]; ARRAYS];
+    let mut room = Room::new(numbers.as_flattened_mut(), N);
+    let first = begin(contacts, &mut few, &mut room, demands);
+    if first.settled {
+        take(contacts, room.forces);
+        return first.gain;
+    }
+    let (mut few, mut numbers) = (few, numbers);
     let room = Room::new(numbers.as_flattened_mut(), N);
-    solve(contacts, &mut few, room, demands, convergence)
+    go_on(contacts, &mut few, room, first, demands, convergence)
 }
 
+/// The same for any number, in room that is at hand.
 #[inline(always)]
 fn solve(
     contacts: &mut [Active],
     answer: &mut impl Answer,
     mut room: Room,
-    Demands { settings, scale }: Demands,
+    demands: Demands,
     convergence: &mut Convergence,
 ) -> f64 {
-    begin(contacts, answer, &mut room);
-    place(contacts, answer, &mut room, 0.0);
+    let first = begin(contacts, answer, &mut room, demands);
+    if first.settled {
+        take(contacts, room.forces);
+        return first.gain;
+    }
+    go_on(contacts, answer, room, first, demands, convergence)
+}
+
+/// What is known of forces that have been tried.
+#[derive(Clone, Copy)]
+struct Judgement {
+    /// Whether they will do.
+    settled: bool,
+    /// How far the contacts would move by what the forces lack, m.
+    error: f64,
+    /// The energy, J, that they give to the string.
+    gain: f64,
+}
+
+/// The first forces, and what is to be thought of them.
+#[inline(always)]
+fn begin(contacts: &mut [Active], answer: &mut impl Answer, room: &mut Room, demands: Demands) -> Judgement {
+    start(contacts, answer, room);
+    place(contacts, answer, room, 0.0);
+    judge(contacts, answer, room, demands)
+}
+
+/// Whether the forces will do, whose residual and what it would move are left in the room.
+#[inline(always)]
+fn judge(
+    contacts: &[Active],
+    answer: &impl Answer,
+    room: &mut Room,
+    Demands { settings, scale }: Demands,
+) -> Judgement {
     let work_tolerance = WORK_TOLERANCE.max(WORK_PER_METRE * settings.tolerance) * scale.present;
+    let mut work = 0.0;
+    let mut created = 0.0;
+    for (residual, (contact, force)) in room.residual.iter_mut().zip(contacts.iter().zip(&*room.forces)) {
+        let force = contact.base + force;
+        *residual = contact.required - force;
+        work += *residual * contact.change;
+        created += (contact.lambda - force) * contact.change;
+    }
+    let gain = 0.5 * created;
+    answer.product(room.residual, room.motion);
+    // A full Newton step moves by Mδ, which is no more than M R in the norm of M; the largest number of it may be about twice
+    // that of M R.
+    let error = largest(room.motion);
+    let settled = error <= settings.tolerance && work.abs() <= work_tolerance && gain <= scale.credit;
+    Judgement { settled, error, gain }
+}
+
+/// Goes on from forces that will not do.
+#[inline(always)]
+fn go_on(
+    contacts: &mut [Active],
+    answer: &mut impl Answer,
+    mut room: Room,
+    first: Judgement,
+    demands: Demands,
+    convergence: &mut Convergence,
+) -> f64 {
+    let Demands { settings, scale } = demands;
     let mut iterations = 0;
     let mut progress = Progress::default();
-    let mut gain;
-    let settled = loop {
-        let mut work = 0.0;
-        let mut created = 0.0;
-        for (residual, (contact, force)) in room.residual.iter_mut().zip(contacts.iter().zip(&*room.forces)) {
-            let force = contact.base + force;
-            *residual = contact.required - force;
-            work += *residual * contact.change;
-            created += (contact.lambda - force) * contact.change;
-        }
-        gain = 0.5 * created;
-        answer.product(room.residual, room.motion);
-        // A full Newton step moves by Mδ, which is no more than M R in the norm of M; the largest number of it may be about twice
-        // that of M R.
-        let error = largest(room.motion);
-        if error <= settings.tolerance && work.abs() <= work_tolerance && gain <= scale.credit {
-            break true;
-        }
-        if iterations >= settings.max_iterations || progress.has_ended(error, contacts) {
-            break false;
+    let mut found = first;
+    while !found.settled {
+        if iterations >= settings.max_iterations || progress.has_ended(found.error, contacts) {
+            break;
         }
         iterations += 1;
         if newton_step(contacts, answer, &mut room) == 0.0 {
-            break false;
+            break;
         }
-    };
+        found = judge(contacts, answer, &mut room, demands);
+    }
     convergence.iterations += iterations as u32;
+    let Judgement { settled, mut gain, .. } = found;
     // Written so that what is not a number is refused too.
     let usable = gain <= scale.credit && (settled || bounded(contacts, room.forces, settings.tolerance));
     if !(settled && usable) {
-        gain = stop_early(contacts, answer, room.lend(), usable, scale, convergence);
+        gain = stop_early(contacts, answer, &mut room, usable, scale, convergence);
     }
-    for (contact, force) in contacts.iter_mut().zip(&*room.forces) {
+    take(contacts, room.forces);
+    gain
+}
+
+/// The forces are those found.
+#[inline(always)]
+fn take(contacts: &mut [Active], forces: &[f64]) {
+    for (contact, force) in contacts.iter_mut().zip(forces) {
         contact.force = contact.base + *force;
     }
-    gain
 }
 
 /// Forces from which to start, were each law a straight line from the change of penetration that is expected on, at which
@@ -226,7 +247,7 @@ fn solve(
 /// (Penetrations run smoothly from sample to sample. Forces of stiff contacts do not: continued from the samples
 /// before, they take twice as many iterations.)
 #[inline(always)]
-fn begin(contacts: &[Active], answer: &mut impl Answer, room: &mut Room) {
+fn start(contacts: &[Active], answer: &mut impl Answer, room: &mut Room) {
     for (i, contact) in contacts.iter().enumerate() {
         room.start[i] = contact.required - contact.base;
         room.slopes[i] = contact.slope;
@@ -238,34 +259,6 @@ fn begin(contacts: &[Active], answer: &mut impl Answer, room: &mut Room) {
     answer.springs(room.slopes, room.unknown);
     for (start, more) in room.start.iter_mut().zip(&*room.unknown) {
         *start += more;
-    }
-}
-
-/// Whether the iteration still gets somewhere.
-#[derive(Default)]
-struct Progress {
-    best: f64,
-    without: u32,
-}
-
-/// Iterations that do not halve the error after which a small one is taken for rounding.
-const STALLED: u32 = 4;
-
-/// What is small: this part of the motion without contacts. Rounding of the forces leaves 1e-16 of it in the
-/// motion, and the steepest contact makes 1e-8 of that.
-const SMALL: f64 = 1e-7;
-
-impl Progress {
-    #[inline(always)]
-    fn has_ended(&mut self, error: f64, contacts: &[Active]) -> bool {
-        if error < 0.5 * self.best || self.best == 0.0 {
-            self.best = error;
-            self.without = 0;
-            return false;
-        }
-        self.without += 1;
-        self.without >= STALLED
-            && error <= SMALL * contacts.iter().fold(0.0f64, |most, contact| most.max(contact.centre.abs()))
     }
 }
 
@@ -285,52 +278,6 @@ fn evaluate(contacts: &mut [Active], answer: &impl Answer, room: &mut Room) {
     for (contact, answer) in contacts.iter_mut().zip(&*room.unknown) {
         contact.evaluate(contact.centre - answer);
     }
-}
-
-/// The step δ of Newton's method from the residual R and M R, which stand in `residual` and `motion`:
-/// δ = R − D M δ, so δ = R + x with x = D(−M R − M x).
-#[inline(always)]
-fn newton_direction(contacts: &[Active], answer: &mut impl Answer, room: &mut Room) {
-    for (i, contact) in contacts.iter().enumerate() {
-        room.slopes[i] = contact.slope;
-        room.unknown[i] = -room.motion[i];
-    }
-    answer.springs(room.slopes, room.unknown);
-    for i in 0..contacts.len() {
-        room.step[i] = room.residual[i] + room.unknown[i];
-    }
-}
-
-/// One Newton step with a line search; returns the largest change of penetration it made.
-#[inline(always)]
-fn newton_step(contacts: &mut [Active], answer: &mut impl Answer, room: &mut Room) -> f64 {
-    newton_direction(contacts, answer, room);
-    answer.product(room.step, room.motion);
-    room.start.copy_from_slice(room.forces);
-    // Along the step −(Mδ)ᵀ(law − f) rises monotonically through 0, where the best point is.
-    let downhill = -dot(room.motion, room.residual);
-    let (mut low, mut low_value) = (0.0, downhill);
-    let (mut high, mut high_value) = (1.0, f64::INFINITY);
-    let mut t = 1.0;
-    for _ in 0..LINE_SEARCHES {
-        place(contacts, answer, room, t);
-        let mut value = 0.0;
-        for (i, contact) in contacts.iter().enumerate() {
-            value -= room.motion[i] * (contact.required - (contact.base + room.forces[i]));
-        }
-        if value.abs() <= 0.5 * downhill.abs() || (t == 1.0 && value <= 0.0) {
-            break;
-        }
-        if value > 0.0 {
-            (high, high_value) = (t, value);
-        } else {
-            (low, low_value) = (t, value);
-        }
-        // False position, kept away from the ends of the bracket.
-        let fraction = (low_value / (low_value - high_value)).clamp(0.1, 0.9);
-        t = low + (high - low) * fraction;
-    }
-    t * largest(room.motion)
 }
 
 /// Σ(λ − f)r, twice the energy given to the string beyond what the contacts gave up.

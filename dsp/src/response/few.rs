@@ -5,6 +5,7 @@ use super::elimination::springs_of_few;
 use crate::solver::Answer;
 
 /// The answer matrix of a few contacts, whole, in any order.
+#[derive(Clone, Copy)]
 pub(crate) struct Few<const N: usize> {
     entries: [[f64; N]; N],
 }

@@ -1,7 +1,8 @@
 //! What becomes of an iteration that was stopped before its end: forces that create no energy, as near to the
 //! solution as can be had for little.
 
-use super::{Answer, Convergence, EnergyScale, Room, created, evaluate, largest, newton_direction, place};
+use super::newton::newton_direction;
+use super::{Answer, Convergence, EnergyScale, Room, created, evaluate, largest, place};
 use crate::active::Active;
 
 /// Attempts of the fallback; its stiffnesses double after the first few, so that long before the last the
@@ -46,7 +47,7 @@ pub(super) fn bounded(contacts: &[Active], forces: &[f64], tolerance: f64) -> bo
 pub(super) fn stop_early(
     contacts: &mut [Active],
     answer: &mut impl Answer,
-    mut room: Room,
+    room: &mut Room,
     usable: bool,
     scale: EnergyScale,
     convergence: &mut Convergence,
@@ -54,11 +55,11 @@ pub(super) fn stop_early(
     let gain = if usable {
         0.5 * created(contacts, room.forces)
     } else {
-        fall_back(contacts, answer, &mut room, convergence)
+        fall_back(contacts, answer, room, convergence)
     };
     let given = 0.5 * demanded(contacts, room.forces);
     if gain <= scale.credit && given.abs() > NOTHING * scale.present {
-        return approach(contacts, answer, &mut room, given, scale.credit);
+        return approach(contacts, answer, room, given, scale.credit);
     }
     gain
 }

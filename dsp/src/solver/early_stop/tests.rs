@@ -25,7 +25,7 @@ fn given(contact: Active, force: f64) -> Option<(f64, f64)> {
         return None;
     }
     let scale = EnergyScale { present: 1e-3, credit: 0.0 };
-    let gain = stop_early(&mut contacts, &mut few, room.lend(), true, scale, &mut Convergence::default());
+    let gain = stop_early(&mut contacts, &mut few, &mut room, true, scale, &mut Convergence::default());
     assert!(gain <= 0.0, "{gain:e} J are created");
     Some((before, 0.5 * demanded(&contacts, room.forces)))
 }
