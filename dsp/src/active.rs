@@ -12,8 +12,12 @@ use crate::touching::Free;
 pub(crate) struct Active {
     /// Its index: contacts first, then fingers.
     pub slot: usize,
+    /// Which finger it is, if it is one.
+    pub number: u64,
     /// The string under it at n + 1.
     pub reading: Reading,
+    /// Where that is, m from the nut, of a finger; of a fixed contact no number.
+    pub position: f64,
     /// +1 when it pushes the string up (board, fret), −1 when down (finger).
     pub sign: f64,
     /// Contact law.
@@ -52,7 +56,9 @@ impl Active {
     /// A contact of which nothing is known yet.
     pub const NOTHING: Active = Active {
         slot: usize::MAX,
+        number: 0,
         reading: Reading::NOTHING,
+        position: f64::NAN,
         sign: 1.0,
         law: ContactLaw::known(1.0, 1.0),
         lossy: 0.0,
@@ -134,6 +140,12 @@ impl ActiveSet {
 
     /// None is active.
     pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// None is active, and none was.
+    pub fn forget(&mut self) {
+        self.places.fill(Active::NOTHING);
         self.count = 0;
     }
 

@@ -81,7 +81,7 @@ impl Ledger {
         let energies = &mut self.account.energies;
         let before_that = energies.total();
         let past = state.fingers.iter().zip(&scratch.fingers);
-        let past: Vec<_> = past.map(|(now, past)| Some((*now)?.back(past.as_ref()?))).collect();
+        let past: Vec<_> = past.map(|(now, past)| Some((*now)?.back(&model.grid, past.as_ref()?))).collect();
         energies.contact = self.board + fingers_energy(&past, now, &before(now, motion_now));
         energies.finger = fingers_motion(model, &past);
         let total = energies.total();
@@ -133,10 +133,10 @@ impl Ledger {
             book(active.force * active.raised / two_k, &mut input, &mut inputs.barrier);
             if let Some(slot) = active.slot.checked_sub(model.contacts.len())
                 && let Some(old) = &scratch.fingers[slot]
-                && old.reading_before != active.reading
+                && old.position_before != active.position
             {
                 let past = |r: &crate::grid::Reading| r.of(now) - r.of(motion_now);
-                let slid = past(&active.reading) - past(&old.reading_before);
+                let slid = past(&active.reading) - past(&model.grid.reading(old.position_before));
                 book(active.force * slid / two_k, &mut input, &mut inputs.slide);
             }
         }

@@ -5,7 +5,7 @@ use crate::contact::{Before, ContactLaw};
 use crate::drive::Hand;
 use crate::field::Field;
 use crate::gesture::Touch;
-use crate::grid::Reading;
+use crate::grid::{Grid, Reading};
 use crate::kernel::STILL;
 use crate::model::Model;
 
@@ -14,6 +14,8 @@ use crate::model::Model;
 pub struct Finger {
     /// Its parameters.
     pub touch: Touch,
+    /// Which of all fingers it is that have been placed on the string, from 1 on; 0 before it is.
+    pub(crate) number: u64,
     /// Contact law of its pad.
     pub law: ContactLaw,
     /// How it moves by itself.
@@ -24,12 +26,12 @@ pub struct Finger {
     pub motion: f64,
     /// Place at n, m from the nut.
     pub position: f64,
+    /// Place at n − 1.
+    pub(crate) position_before: f64,
     /// Reading of the string under it at n.
     pub reading: Reading,
     /// Reading of the string under it at n − 1.
     pub reading_before: Reading,
-    /// Whether those may differ.
-    pub(crate) has_slid: bool,
 }
 
 /// What a finger reads of the string under it at n.
@@ -61,14 +63,15 @@ impl Finger {
         let inertia = Inertia::new(&touch, model.grid.time_step);
         Finger {
             touch,
+            number: 0,
             law,
             inertia,
             height,
             motion,
             position,
+            position_before: position,
             reading,
             reading_before: reading,
-            has_slid: false,
         }
     }
 
@@ -95,9 +98,11 @@ impl Finger {
         };
         // A finger that stays where it is reads the string once.
         let now = under(&self.reading);
-        let past = if self.has_slid { under(&self.reading_before) } else { now };
+        let has_slid = self.position != self.position_before;
+        let past = if has_slid { under(&self.reading_before) } else { now };
         let slides = hand.position != self.position;
-        if self.has_slid || slides {
+        if has_slid || slides {
+            self.position_before = self.position;
             self.reading_before = self.reading;
         }
         let mut here = now;
@@ -108,18 +113,20 @@ impl Finger {
         }
         self.motion = free;
         self.height = height + free;
-        let slid = if self.has_slid || slides { here.before() - past.before() } else { 0.0 };
-        self.has_slid = slides;
+        let slid = if has_slid || slides { here.before() - past.before() } else { 0.0 };
         let penetration_before = past.before() - (height - motion_before);
         let penetration = now.place - height;
         let slot = model.contacts.len() + slot;
         let touches = penetration_before > 0.0 || penetration > 0.0;
         let active = if touches { active.next() } else { aside.next() };
-        if active.slot != slot {
-            *active = Active { slot, sign: -1.0, ..Active::NOTHING };
+        // What stood here in the last step is mostly this finger where it is now: of that only what changes is written.
+        if active.slot != slot || active.number != self.number {
+            *active = Active { slot, number: self.number, sign: -1.0, law: self.law, ..Active::NOTHING };
         }
-        active.reading = self.reading;
-        active.law = self.law;
+        if active.position != self.position {
+            active.position = self.position;
+            active.reading = self.reading;
+        }
         active.lossy =
             model.lossy(|depth| self.law.force(depth), self.touch.damping, penetration, own_mobility);
         active.before = Before::new(&self.law, penetration_before);
@@ -132,7 +139,7 @@ impl Finger {
 
     /// What a step overwrites of it.
     fn before(&self) -> FingerBefore {
-        FingerBefore { height: self.height, motion: self.motion, reading_before: self.reading_before }
+        FingerBefore { height: self.height, motion: self.motion, position_before: self.position_before }
     }
 
     /// Keeps what a step overwrites of it, number by number: a whole that is put together first is waited for.
@@ -142,17 +149,18 @@ impl Finger {
             Some(before) => {
                 before.height = self.height;
                 before.motion = self.motion;
-                before.reading_before = self.reading_before;
+                before.position_before = self.position_before;
             }
             None => *place = Some(self.before()),
         }
     }
 
     /// The finger before the last step.
-    pub(crate) fn back(&self, before: &FingerBefore) -> Finger {
-        let FingerBefore { height, motion, reading_before } = *before;
-        let has_slid = !reading_before.same_place(&self.reading_before);
-        Finger { height, motion, reading: self.reading_before, reading_before, has_slid, ..*self }
+    pub(crate) fn back(&self, grid: &Grid, before: &FingerBefore) -> Finger {
+        let FingerBefore { height, motion, position_before } = *before;
+        let (position, reading) = (self.position_before, self.reading_before);
+        let reading_before = grid.reading(position_before);
+        Finger { height, motion, position, position_before, reading, reading_before, ..*self }
     }
 }
 
@@ -190,6 +198,6 @@ pub(crate) struct FingerBefore {
     pub height: f64,
     /// Motion uⁿ − uⁿ⁻¹, m.
     pub motion: f64,
-    /// Reading of the string under it at n − 1.
-    pub reading_before: Reading,
+    /// Place at n − 1, m from the nut.
+    pub position_before: f64,
 }

@@ -171,12 +171,6 @@ impl Reading {
         self.centre().total_cmp(&other.centre())
     }
 
-    /// Whether the other reads the same nodes alike.
-    #[inline(always)]
-    pub(crate) fn same_place(&self, other: &Reading) -> bool {
-        self.first == other.first && self.weights == other.weights
-    }
-
     /// The interval of nodes whose weights matter, end not included.
     #[inline]
     pub(crate) fn span(&self) -> (usize, usize) {

@@ -252,9 +252,9 @@ impl State {
 
     /// Puts a finger that is known to be good into a slot.
     pub(crate) fn put_finger(&mut self, slot: usize, finger: Finger) {
-        self.fingers[slot] = Some(finger);
-        self.no_finger_from = self.no_finger_from.max(slot + 1);
         self.finger_changes += 1;
+        self.fingers[slot] = Some(Finger { number: self.finger_changes, ..finger });
+        self.no_finger_from = self.no_finger_from.max(slot + 1);
     }
 
     /// Takes the finger in a slot away.

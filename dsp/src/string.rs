@@ -11,7 +11,8 @@ use crate::roomy::Roomy;
 use crate::solver::{Convergence, Solver};
 use crate::state::State;
 
-/// Room to step one string, and what the last step did, for whoever measures it.
+/// Room to step one string, and what the last step did, for whoever measures it. It goes with one state: before it steps another,
+/// it is to be [reset](Scratch::reset).
 #[derive(Debug, Clone)]
 pub struct Scratch {
     pub(crate) instructions: Instructions,
@@ -101,8 +102,7 @@ impl Scratch {
             squares: _,
             motion,
             displacement,
-            // It keeps nothing from one step to the next but room.
-            solver: _,
+            solver,
             active,
             // A step that may touch something finds anew what it reads of these, and no other reads them.
             near: _,
@@ -111,7 +111,8 @@ impl Scratch {
             fingers,
             finger_energy: _,
         } = self;
-        active.clear();
+        active.forget();
+        solver.aside.forget();
         held.fill(0);
         *shape = Shape::default();
         *string_energy = 0.0;

@@ -156,6 +156,7 @@ impl State {
                 finger.inertia = Inertia::new(&finger.touch, grid.time_step);
                 if !change.same_grid {
                     finger.position *= grid.length / old_model.grid.length;
+                    finger.position_before = finger.position;
                     finger.reading = grid.reading(finger.position);
                     finger.reading_before = finger.reading;
                 }

@@ -1,9 +1,11 @@
 //! What a step keeps for those who ask.
 
 use crate::curve::Curve;
-use crate::drive::Drive;
+use crate::drive::{Drive, Push};
+use crate::gesture::Touch;
 use crate::model::{Model, StringParameters};
 use crate::scene::SolverSettings;
+use crate::setup::Setup;
 use crate::skyline::Sag;
 use crate::state::State;
 use crate::string::Scratch;
@@ -64,4 +66,57 @@ fn a_string_sags_no_more_than_it_is_taken_to() {
             }
         }
     }
+}
+
+/// Of what stood in its room before, a step believes nothing that is no longer so: as fingers come, go, slide and take each other's
+/// places, and the string strikes frets, used room gives the bits that new room gives in every step.
+#[test]
+fn used_room_is_as_good_as_new() {
+    let setup = Setup::builtin("electric").expect("it is built in");
+    let length = setup.neck.scale_length;
+    let barrier = setup.neck.barrier(&setup.neck.equal_places()).expect("its values are in range");
+    let string = StringParameters { length, tension_limit: 80.0, tension_modulation: true, ..STRING };
+    let model = Model::new(string, Some(&barrier), 2, SolverSettings::default(), 48e3);
+    let model = model.expect("it can be built");
+    let touch = setup.player.fretting.touch;
+    let touches = [
+        touch,
+        Touch { stiffness: 0.1 * touch.stiffness, ..touch },
+        Touch { exponent: 1.5, ..touch },
+        Touch { mass: 2.0 * touch.mass, ..touch },
+    ];
+    let (mut state, mut scratch, mut drive) = (State::new(&model), Scratch::new(&model), Drive::new(&model));
+    let mut other = state.clone();
+    let (mut placed, mut active) = (0, 0);
+    for step in 0..24_000 {
+        drive.pushes.clear();
+        if step % 1500 < 100 {
+            drive.pushes.push(Push { reading: model.grid.reading(0.5), force: 1.5 });
+        }
+        if step % 241 == 0 {
+            let (slot, position) = (step / 241 % 2, [0.12, 0.2, 0.27][step / 482 % 3]);
+            if step % 7 == 0 {
+                [&mut state, &mut other].into_iter().for_each(|state| state.remove_finger(slot));
+            } else {
+                for state in [&mut state, &mut other] {
+                    let touch = touches[step / 723 % touches.len()];
+                    state
+                        .place_finger(&model, slot, touch, position, 1e-4, 0.0)
+                        .expect("it is over the string");
+                }
+                placed += 1;
+            }
+            drive.hands[slot].position = position;
+            drive.hands[slot].force = 6.0;
+        }
+        if step / 500 % 3 == 1 {
+            drive.hands[0].position += 1e-5;
+        }
+        active += state.step(&model, &drive, &mut scratch).active;
+        other.step(&model, &drive, &mut Scratch::new(&model));
+        assert!(state.displacement().eq(other.displacement()), "step {step}");
+    }
+    // It is no test of nothing.
+    println!("{placed} fingers placed, {active} contacts in all steps");
+    assert!(placed > 80 && active > 20_000);
 }
