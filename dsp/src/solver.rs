@@ -146,10 +146,6 @@ fn solve(
     convergence: &mut Convergence,
 ) -> f64 {
     let first = begin(contacts, answer, &mut room, demands);
-    if first.settled {
-        take(contacts, room.forces);
-        return first.gain;
-    }
     go_on(contacts, answer, room, first, demands, convergence)
 }
 
@@ -198,7 +194,7 @@ fn judge(
     Judgement { settled, error, gain }
 }
 
-/// Goes on from forces that will not do.
+/// Goes on from the first forces for as long as they will not do.
 #[inline(always)]
 fn go_on(
     contacts: &mut [Active],
